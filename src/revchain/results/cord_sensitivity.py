@@ -63,7 +63,7 @@ class CordSensitivity(_ByDatum):
     >>> import revchain as rc
     >>> m = rc.modes(rc.Held(rc.Cord(2.0, mass=0.2), tension=10.0), 1)
     >>> (-m.angular_speed / (2 * m.conical_height) * m.sensitivity.mass * 0.001).round(6)
-    array([-0.043318])
+    array([-0.041553])
     """
 
     __slots__ = ()
@@ -96,7 +96,7 @@ class CordUncertainty(Uncertainty):
     >>> import revchain as rc
     >>> u = rc.modes(rc.Held(rc.Cord(2.0, mass=0.2), tension=10.0), 1).uncertainty(mass="1 %", tension=0.5)
     >>> u.largest, u.relative.round(4)
-    ((('tension', 0),), array([0.0556]))
+    ((('tension', 0),), array([0.0569]))
     """
 
     __slots__ = ()

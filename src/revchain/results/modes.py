@@ -694,7 +694,7 @@ class CordModes(Modes):
         >>> import revchain as rc
         >>> u = rc.modes(rc.Cord(2.0, mass=0.5, tip_mass=0.1), 2).uncertainty(length="1 %", tip_mass=0.02)
         >>> u.relative.round(5), u.largest
-        (array([0.01049, 0.0233 ]), (('length', 0), ('tip_mass', 0)))
+        (array([0.01867, 0.04308]), (('tip_mass', 0), ('tip_mass', 0)))
         """
         from .cord_sensitivity import cord_uncertainty
 
