@@ -42,6 +42,9 @@ def results():
     bent = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))[0].sensitivity
     yield "ShapeSensitivity", bent
     yield "ShapeDerivatives", bent.offset
+    bent = rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2)), angular_speed=3.0)[0].sensitivity
+    yield "ShapeSensitivity of a rig", bent
+    yield "RigShapeDerivatives", bent.offset
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity

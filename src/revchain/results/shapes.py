@@ -227,8 +227,7 @@ class SteadyShape(Shape):
         part=True,
     )
     sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`. A "
-        "ValueError for a `Rig` with more than a support carried round.",
+        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`.",
         shape_sensitivity,
     )
     angular_momentum: Field[float] = Field(
