@@ -114,7 +114,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "branches": {"held": "ask steady_shapes", "held cord": "cut the cord into links"},
     "branch": {"held": "ask steady_shapes", "held cord": "cut the cord into links"},
     "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
-    "swing": {"rig": "ask its modes", "held": "ask its modes"},
+    "swing": {"held": "ask its modes"},
     "tune": {"held, span": "is bent", "held cord": "cut it into links"},
     "fit": {"held, span": "is bent", "held cord": "cut it into links"},
     "explain": {"held, span": "is bent", "held cord": "cut it into links"},

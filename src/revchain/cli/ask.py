@@ -249,7 +249,7 @@ _NO_ANSWER = {  # by question, and what hangs
     "explain": {"bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES},
     "shapes": {},
     "response": {"cord": _CUT, "bent": _SHAPES, "held cord": _SHAPES, "weightless": _SHAPES, "held": _MODES},
-    "swing": {"rig": _MODES, "cord": _CUT, "bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES, "held": _MODES},
+    "swing": {"cord": _CUT, "bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES, "held": _MODES},
     "branches": dict.fromkeys(("bent", "held cord", "weightless", "held"), _SHAPES) | {"cord": _CUT},
 }
 _NAMES = {
