@@ -891,6 +891,14 @@ def swing(
 ) -> tuple[
     _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, bool, float, _Floats, _Floats
 ]: ...
+def rig_swing(
+    rig: Rig, offsets: _Floats, velocities: _Floats, time: _Floats, modes: int | None, gravity: float
+) -> tuple[
+    _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, bool, float, _Floats, _Floats
+]: ...
+def whirl_swing(
+    rig: Rig, offsets: _Complex, velocities: _Complex, time: _Floats, whirls: int | None, gravity: float
+) -> tuple[_Complex, _Complex, _Floats, _Complex, _Floats, _Floats, float, _Floats, _Floats]: ...
 def stiffness_for_speed(rig: Rig, angular_speed: float, gravity: float) -> float: ...
 
 class Cord:

@@ -117,7 +117,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "branches": TAUT,
     "branch": TAUT,
     "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
-    "swing": {"rig": "ask its modes", "held": "ask its modes"},
+    "swing": {"held": "ask its modes"},
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
     "fit": dict.fromkeys(BENT, "is bent.*tune with top_tension"),
     "explain": BENT,

@@ -42,6 +42,9 @@ def results():
     bent = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))[0].sensitivity
     yield "ShapeSensitivity", bent
     yield "ShapeDerivatives", bent.offset
+    bent = rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2)), angular_speed=3.0)[0].sensitivity
+    yield "ShapeSensitivity of a rig", bent
+    yield "RigShapeDerivatives", bent.offset
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity
@@ -114,6 +117,9 @@ def results():
     yield "CordBranch", rc.branch(tip, 2, min_conical_height=0.08)
     yield "CordBranches", rc.branches(tip, min_conical_height=0.08, lists=2)
     yield "CordShape on a branch", rc.steady_shape(tip, mode=2, tip_inclination=1.0)
+    yield "Swing of a rig", rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=9.0)), np.ones(CHAIN.size) / 9, None, [0.0, 1.0])
+    whirling = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2))
+    yield "WhirlSwing", rc.swing(whirling, np.ones(CHAIN.size) * (0.1 + 0.05j), None, [0.0, 1.0])
     yield "CordSwing", rc.swing(tip, [0.1, 0.0], None, [0.0, 1.0], count=8)
     yield "Stability of a cord", cord[0].stability()
     yield "Modes, taut", rc.modes(rc.Held(named, tension=50.0))

@@ -249,7 +249,7 @@ _NO_ANSWER = {  # by question, and what hangs
     "explain": {"bent": _SHAPES},
     "shapes": {},
     "response": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
-    "swing": {"rig": _MODES, "cord": _CUT, "bent": _SHAPES, "held": _MODES},
+    "swing": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
     "branches": {"cord": _CUT, "bent": _SHAPES, "held": _SHAPES},
 }
 _NAMES = {

@@ -195,6 +195,38 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
     return result;
 }
 
+inline bool displaces_turning_fluid(const Rig& rig) {
+    for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
+        if (rig.displaced(m).weight > 0) return true;
+    return false;
+}
+
+/// The verdict where the kinetic energy is not known, but for that it is positive and that 0 is rest in the turning
+/// frame: a shape whose potential energy there is least, but for a rotation, is stable; of any other nothing is known.
+REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
+    const bool free = frame == StabilityFrame::free;
+    Matrix<double> in_plane = d.in_plane, across(0, 0);
+    if (!free) {
+        in_plane -= d.turned;
+    } else if (d.turns_freely) {
+        const Matrix<double> others = beside(d.offset);
+        across = others.transpose() * d.out_of_plane * others;
+    } else {
+        across = d.out_of_plane;
+    }
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    Stability result;
+    result.frame = frame;
+    result.negative_directions = inside.negative + outside.negative;
+    if (std::min(inside.least, outside.least) > 1e-14 * static_cast<double>(d.ends.rows()) * stiffness)
+        result.verdict = Verdict::minimum;
+    else
+        result.growth_rate = std::numeric_limits<double>::quiet_NaN();
+    return result;
+}
+
 /// Leaves out the upper end of a support that yields, where that carries no mass: its spring balances the pull on it.
 inline void balance_upper_end(Disturbed& d) {
     const Index pins = d.mass.rows() - 1;
@@ -220,18 +252,12 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     const double end = shape.offset[rig.size()];
     if (support.is_firm() && !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
         detail::throw_invalid(place, "the shape is not of this rig; its upper end is at", end);
-    for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
-        if (rig.displaced(m).weight > 0)
-            detail::throw_invalid(place,
-                                  "how a fluid that turns moves around a disturbed link is not modelled: take "
-                                  "Fluid::still, or no fluid; weight displaced by links[" +
-                                      std::to_string(m) + "]",
-                                  rig.displaced(m).weight);
     const Wide<double> height(shape.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
     const finite::RiggedLinks given = finite::rigged_links(rig, height, options.direction > 0 ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
     finite::Disturbed d(links);
+    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, d);
     if (links.yields()) finite::balance_upper_end(d);
     finite::require_mass(d, 0);
     for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
