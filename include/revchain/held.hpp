@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -31,15 +33,24 @@ namespace revchain {
 
 /// How the two ends are held: give either `span` or `tension`.
 struct HeldBy {
-    std::optional<double> span{};     ///< distance of the two ends, less than the length
+    std::optional<double> span{};     ///< distance of the two ends along the axis, less than the length
     std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
-    bool weightless = false;          ///< no gravity: weights are masses; for a span, the speed plays no part
+    bool weightless = false;          ///< no gravity: weights are masses; between firm ends the speed plays no part
+    Support lower{};                  ///< of a chain: what holds its lower end; a radius below 0 is on the other side
+    Support upper{};                  ///< what holds its upper end
+
+    bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
+    bool firm() const { return lower.is_firm() && upper.is_firm(); }
 };
 
-/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here.
+/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis
+/// unless `lower` and `upper` say otherwise: on a spring, alike in all directions across the axis, or carried round the
+/// axis at a radius, both in one plane with it, as two arms of a jib are.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, for one that is not positive and finite, a
-/// span that is not less than the length, and a cord that is not uniform or has a tip weight.
+/// span that is not less than the length, firm ends as far apart as the length, stiffnesses not positive, carriages
+/// negative, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform
+/// or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
@@ -51,6 +62,11 @@ class Held {
         if (by.span) detail::require_positive("Held", "span", *by.span);
         if (by.span && !(*by.span < length()))
             detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
+        check("lower", by.lower), check("upper", by.upper);
+        const double apart = by.span ? std::hypot(*by.span, by.upper.radius - by.lower.radius) : 0;
+        if (by.firm() && by.span && !(apart < length()))
+            detail::throw_invalid(
+                "Held", "the ends must be nearer to each other than the length " + detail::in_digits(length()), apart);
         if constexpr (std::is_same_v<System, Cord>)
             if (!system_.is_uniform() || system_.tip_weight() != 0)
                 detail::throw_invalid("Held",
@@ -68,6 +84,20 @@ class Held {
     }
 
    private:
+    void check(const std::string& name, const Support& end) const {
+        if (!(end.stiffness > 0)) detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness);
+        detail::require_not_negative("Held", name + " carriage weight", end.carriage_weight);
+        detail::require_finite("Held", name + " radius", end.radius);
+        if (by_.tension && end.radius != 0)
+            detail::throw_invalid(
+                "Held", "under a tension both ends must be on the axis; give the span instead; " + name + " radius",
+                end.radius);
+        if (std::is_same_v<System, Cord> && !(end == Support{}))
+            detail::throw_invalid(
+                "Held", "the ends of a cord are firm points on the axis; cut it into links; " + name + " stiffness",
+                end.stiffness);
+    }
+
     System system_;
     HeldBy by_;
 };

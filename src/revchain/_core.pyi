@@ -180,6 +180,7 @@ def gyrostatic_string_rotation(
 
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
+_End = tuple[float, float, float]
 
 _Complex = numpy.typing.NDArray[numpy.complex128]
 
@@ -725,8 +726,12 @@ class HeldBranch:
     @property
     def end(self) -> str: ...
 
-def held_branches(chain: Chain, span: float, height: float, max_step: float) -> list[HeldBranch]: ...
-def held_shape(chain: Chain, span: float, mode: int, name: str, value: float, gravity: float) -> HeldShape: ...
+def held_branches(
+    chain: Chain, span: float, lower: _End, upper: _End, height: float, max_step: float
+) -> list[HeldBranch]: ...
+def held_shape(
+    chain: Chain, span: float, lower: _End, upper: _End, mode: int, name: str, value: float, gravity: float
+) -> HeldShape: ...
 def held_stability(chain: Chain, shape: HeldShape, driven: bool) -> Stability: ...
 class Branch:
     @property
@@ -932,7 +937,7 @@ class CordShapes:
 
 class Held:
     def __init__(
-        self, chain: Chain, span: float | None, tension: float | None, weightless: bool
+        self, chain: Chain, span: float | None, tension: float | None, weightless: bool, lower: _End, upper: _End
     ) -> None: ...
 
 class CordBranch:
@@ -1022,6 +1027,8 @@ def held_shapes(
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,
@@ -1035,6 +1042,8 @@ def held_shapes(
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,

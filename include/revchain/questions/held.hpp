@@ -47,6 +47,17 @@ inline double height_times_tension(const HeldBy& by, double height, const HeldSh
     return product;
 }
 
+/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the speed.
+inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
+                                        const HeldShapesOptions& options) {
+    if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
+    if (!options.angular_speed)
+        throw_invalid("steady_shapes",
+                      "without gravity shapes between springs depend on the speed; give angular_speed");
+    const Wide<double> speed(*options.angular_speed), unit(1.0);
+    return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
+}
+
 /// The straight chain under the tension at its lower end.
 inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held) {
     const Chain<double>& chain = held.system();
@@ -59,6 +70,11 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
         throw_invalid(place,
                       "modes are given as conical heights, of which there are none without gravity; leave out "
                       "weightless, and take a weight that is small beside the tension");
+    if (!held.by().firm())
+        throw_invalid(place,
+                      "is for firm ends; the speeds of a straight chain between springs are not available yet; give "
+                      "upper or lower without stiffness, now",
+                      std::min(held.by().lower.stiffness, held.by().upper.stiffness));
     const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
     if (!(lower > Wide<double>(0)))
         throw_invalid(place,
@@ -76,6 +92,12 @@ inline double span_asked(std::string_view place, const Held<Chain<double>>& held
                       *held.by().tension);
     if (held.by().weightless)
         throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
+    for (const Support& end : {held.by().lower, held.by().upper})
+        if (!(end == Support{}))
+            throw_invalid(place,
+                          "is for ends that are firm points on the axis; for others ask steady_shapes at each speed; "
+                          "radius",
+                          end.radius);
     return *held.by().span;
 }
 
@@ -90,10 +112,11 @@ inline double span_asked(std::string_view place, const Held<Chain<double>>& held
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
     const Wide<double> height = detail::height_asked(held.by(), options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
-    if (held.by().span) return finite::held_shapes(held.system(), *held.by().span, height, wanted);
+    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options);
+    if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
     const double rounded = static_cast<double>(height);
-    return finite::held_shapes_under_tension(held.system(), detail::height_times_tension(held.by(), rounded, options),
-                                             rounded, wanted);
+    return finite::held_shapes_under_tension(
+        held.system(), supports, detail::height_times_tension(held.by(), rounded, options), rounded, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {

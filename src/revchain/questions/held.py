@@ -22,7 +22,8 @@ def held_branch(place: str, held: Held, mode: int, least: float, gravity: float,
 def held_branches(place: str, held: Held, least: float, gravity: float, step: float = 0.1) -> HeldBranches:
     """See `branches`; down to the conical height `least`."""
     chain, span = _spanned(place, held)
-    return held_branches_made(_core.held_branches(chain, span, least, step), held, gravity, (least, step))
+    found = _core.held_branches(chain, span, *held._ends(gravity), least, step)
+    return held_branches_made(found, held, gravity, (least, step, gravity))
 
 
 def held_shape(place: str, held: Held, mode: int, name: str, value: float, gravity: float, every: bool) -> HeldShape:
@@ -37,7 +38,7 @@ def held_shape(place: str, held: Held, mode: int, name: str, value: float, gravi
     if mode > max(chain.size - 1, 1):
         raise ValueError(f"{place}: mode must be from 1 to {max(chain.size - 1, 1)}, got {mode}")
     asked = value / held._force(gravity) if name == "top_tension" else value
-    found = _core.held_shape(chain, span, mode, name, asked, gravity)
+    found = _core.held_shape(chain, span, *held._ends(gravity), mode, name, asked, gravity)
     return HeldShape._made(
         found,
         system=held,
@@ -57,4 +58,9 @@ def _spanned(place: str, held: Held) -> tuple[_core.Chain, float]:
         )
     if held.weightless:
         raise ValueError(f"{place}: without gravity a shape is the same at every speed; ask steady_shapes")
+    if not held.is_plain:
+        raise ValueError(
+            f"{place}: is for ends that are firm points on the axis; for others ask steady_shapes at the speeds wanted, "
+            f"got {held!r}"
+        )
     return held.system._compiled, held.span

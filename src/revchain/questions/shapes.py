@@ -223,5 +223,5 @@ def _weightless(
 
 
 def _held(held: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]) -> SteadyShapes:
-    by = (held.span, held._pull(gravity), held.weightless)
+    by = (held.span, held._pull(gravity), held.weightless, *held._ends(gravity))
     return held_shapes_made(_core.held_shapes(held.system._compiled, *by, *asked), held, height, speed, gravity, asked)

@@ -280,8 +280,9 @@ class _HeldShape(_Bent):
             return branch_again(held, tuple(asked[1:])).shapes[place]
         if asked and asked[0] == "mode":
             mode, name, value = asked[1:]
-            return _core.held_shape(held.system._compiled, held.span, mode, name, value, place)
-        by = (held.span, held._pull(self.gravity), held.weightless)
+            lower, upper = held._ends(self.gravity)
+            return _core.held_shape(held.system._compiled, held.span, lower, upper, mode, name, value, place)
+        by = (held.span, held._pull(self.gravity), held.weightless, *held._ends(self.gravity))
         return _core.held_shapes(held.system._compiled, *by, *asked).shapes[place]
 
 

@@ -222,9 +222,10 @@ def _each(branch: HeldBranch, of: Any) -> Floats:
 
 def branch_again(held: Held, asked: tuple[Any, ...]) -> _core.HeldBranch:
     """A compiled branch, found once more."""
-    height, step, place = asked
+    height, step, gravity, place = asked
     assert held.span is not None and isinstance(held.system, Chain)
-    found: _core.HeldBranch = _core.held_branches(held.system._compiled, held.span, height, step)[place]
+    ends = held._ends(gravity)
+    found: _core.HeldBranch = _core.held_branches(held.system._compiled, held.span, *ends, height, step)[place]
     return found
 
 

@@ -255,9 +255,9 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
     assert isinstance(chain, Chain) and held.tension is not None
     if path == "tension":
         least = held._force(gravity) * chain._compiled.total_weight
-        return Datum(path, held.tension, lambda x: Held(chain, tension=x), held.tension, floor=least)
-    own = _of_chain(place, chain, path, link)
-    return replace(own, change=lambda x: Held(own.change(x), tension=held.tension), rate=None)
+        return Datum(path, held.tension, lambda x: held._under_tension(chain, x), held.tension, floor=least)
+    own, tension = _of_chain(place, chain, path, link), held.tension
+    return replace(own, change=lambda x: held._under_tension(own.change(x), tension), rate=None)
 
 
 def _of_cord(place: str, cord: Cord, path: str) -> Datum:

@@ -103,7 +103,7 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
         const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
         std::vector<Direction<S>> ways_there;
         for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
-        branch.shapes.push_back(described(held.links(), forces, S(apart), ways_there));
+        branch.shapes.push_back(described(held.links(), held.ends(forces.height), forces, S(apart), ways_there));
     };
     for (std::size_t i = 0; i < states.size(); ++i) {
         held.keep(ways[i]);
