@@ -109,7 +109,7 @@ void bind_held(py::module_& module) {
             "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
     py::class_<revchain::HeldBranch>(module, "HeldBranch", "A branch of shapes of a chain held at a span.")
-        .def_readonly("mode", &revchain::HeldBranch::half_waves)
+        .def_readonly("mode", &revchain::HeldBranch::mode)
         .def_readonly("shapes", &revchain::HeldBranch::shapes)
         .def_readonly("folds", &revchain::HeldBranch::folds)
         .def_property_readonly("end", [](const revchain::HeldBranch& b) { return std::string(to_string(b.end)); });

@@ -113,11 +113,12 @@ struct HeldShapesOptions {
     long budget = 300'000;  ///< limit of looks at links for the proof of completeness, 1 to 2 microseconds each
 };
 
-/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves. The first of each
-/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then gravity grows.
-/// For a tension these are all shapes on that branch with this tension at the upper end. Then, of a chain, every other
-/// shape found. Each link points along the force on it, as threads do. `missing` lists the numbers of half waves for
-/// which there is none.
+/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves: these are counted
+/// about the line between the places of rest of the two ends, and ends on springs count as pins do. The first of each
+/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then brought to their
+/// radii and springs, then gravity grows. For a tension these are all shapes on that branch with this tension at the
+/// upper end. Then, of a chain, every other shape found. Each link points along the force on it, as threads do.
+/// `missing` lists the numbers of half waves for which there is none.
 /// `complete`: proved, no other shape has one of these numbers of half waves. Otherwise `undecided` gives the ranges of
 /// the lowest link's inclination (rad) with which others may begin. A cord has `complete` only at a span without
 /// gravity.
@@ -133,7 +134,9 @@ struct HeldShapesOptions {
 /// splitting all pulls along the lowest link, and all its inclinations, until each part has one shape for certain or
 /// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 102 of 108 lists of 3, 6 and 9 links with l <= a, one
 /// half wave; none of chains with l > a or with massless links between others, and seldom of two half waves or more.
-/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left.
+/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On arms and
+/// springs: all of 36 lists of 3 links and two half waves, 25 of 36 of 4 links and three; past the resonance of a
+/// carriage on its spring 8 of 24 of 3 links and three (tests/python/test_held_ends.py has part of them).
 /// For cords: power series of degree
 /// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
 /// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
@@ -146,9 +149,9 @@ HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOption
 HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options = {});
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
-/// choose them as they do for a hanging chain. In `shapes` both ends are 0, the largest offset is 1, and that of the
-/// lowest free pin is positive; nodes are distances from the lower end. Shapes of finite amplitude begin at these
-/// heights, where the span is all but the length.
+/// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
+/// largest offset is 1, and that of the lowest pin that moves is positive; nodes are distances from the lower end.
+/// Shapes of finite amplitude begin at these heights, where the span is all but the length.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
 /// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
@@ -156,8 +159,8 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// effect.
 /// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), without gravity (the
 /// result holds conical heights), for a tension that does not exceed the weight (the chain would not be straight), for
-/// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, less one for each
-/// free pin without mass.
+/// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, one more
+/// for each end on a spring, less one for each pin that moves without mass.
 Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options = {});
 
 /// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
@@ -178,10 +181,13 @@ struct HeldBranchesOptions {
 };
 
 /// The branches of a chain held at a span, one for each number of half waves from 1 up to the last that has a shape at
-/// the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without gravity,
-/// and is followed to slower speeds, through folds, until a link becomes slack or turns over (`slack`), the greatest
-/// speed is reached again (`speed`), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half
-/// waves is number k - 1 of these.
+/// the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without gravity
+/// between firm ends on the axis (radii and the springs' compliances are then brought in), and is followed to slower
+/// speeds, through folds, until a link becomes slack or turns over (`slack`), the greatest speed is reached again
+/// (`speed`), the conical height is 10,000 lengths (`rest`: off the axis), or after 3000 steps (`budget`). There is no
+/// `branch` of one mode: that of k half waves is number k - 1 of these. Between ends off the axis there are two of
+/// each: modes 2 k - 1, whose lowest link first leads outwards, and 2 k, inwards. One that comes back to the greatest
+/// speed where another would begin stands for both.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
 /// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
@@ -192,7 +198,7 @@ std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBran
 
 /// Which shape of a branch: give one of the three after `mode`.
 struct HeldShapeOptions {
-    int mode = 1;  ///< half waves with which the branch begins
+    int mode = 1;  ///< of the branch: half waves with which it begins; two for each off the axis, see `branches`
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s
     std::optional<double> top_tension{};    ///< at the upper end, in the unit of the weights
@@ -202,7 +208,7 @@ struct HeldShapeOptions {
 /// The shape of a chain held at a span on the branch of `mode`: at a speed that which is reached from the nearly
 /// straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
 /// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
-/// `branches` does, for a mode below 1, and where the branch does not reach what is given.
+/// `branches` does, for a mode below 1, a tension between springs, and where the branch does not reach what is given.
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
 
 /// Throws InvalidArgument: a held chain or cord cannot be tuned yet.

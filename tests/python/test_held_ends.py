@@ -8,8 +8,7 @@ import pickle
 import mpmath as mp
 import numpy as np
 import pytest
-from ends import G, polished, random_held, shapes_by_pins
-from scipy.integrate import solve_ivp
+from ends import G, Pins, polished, random_held, shapes_by_pins
 
 import revchain as rc
 from revchain import Support
@@ -212,3 +211,160 @@ def test_exponents_are_those_of_points_in_space(ends, seed):
             assert grows > 1e-7
         elif shape.stability().verdict != "undecided":
             assert grows < 1e-6
+
+
+# ---- branches
+
+
+def test_branches_on_arms_and_springs_are_of_steady_shapes():
+    rng = np.random.default_rng(4)
+    for name in ENDS:
+        held = random_held(rng, 4, "plummets", *ENDS[name], 0.7)
+        branches = rc.branches(held, max_angular_speed=9.0, gravity=G)
+        modes = [branch.mode for branch in branches]
+        assert modes == sorted(set(modes))
+        assert branches
+        for branch in branches:
+            assert math.isclose(branch.angular_speed[0], 9.0, rel_tol=1e-12)
+            assert rc.branch(held, branch.mode, max_angular_speed=9.0, gravity=G).asked == branch.asked
+            first = rc.steady_shape(held, mode=branch.mode, angular_speed=9.0, gravity=G)
+            assert np.abs(first.inclination - branch.shape(0).inclination).max() < 1e-13
+            assert first.proved
+            for k in {0, len(branch) // 3, len(branch) // 2, 2 * len(branch) // 3, *branch.folds}:
+                shape, speed = branch.shape(int(k)), branch.angular_speed[k]
+                pins = Pins(held, speed)
+                pull = tensions(held, shape, speed)
+                x = [*shape.offset[pins.free_y], *shape.height[1:-1], *(pull / held.system.length)]
+                assert np.abs(pins.gaps(x)).max() < 1e-9 * max(pull.max(), 1.0)
+        listed = rc.steady_shapes(held, angular_speed=9.0, gravity=G, max_half_waves=4)
+        ends = [branch.shape(-1) for branch in branches if branch.end == "speed"]
+        for shape in [*(branch.shape(0) for branch in branches), *ends]:
+            if shape.half_waves <= 4:
+                assert any(np.abs(other.inclination - shape.inclination).max() < 1e-8 for other in listed)
+
+
+def tensions(held, shape, speed):
+    """Of the threads of plummets, from the forces along the axis."""
+    up = shape.lower_pull[1] + np.cumsum(held.system.mass) * G
+    across = -shape.lower_pull[0] + np.cumsum(held.system.mass * shape.offset[:-1]) * speed**2
+    return np.hypot(up, across)
+
+
+def test_the_speed_of_a_tension_on_arms():
+    arms = {"lower": Support(radius=0.1), "upper": Support(radius=0.2)}
+    held = rc.Held(rc.Chain.uniform_rods(8, length=2.0, mass=3.0), span=1.4, **arms)
+    for mode in (1, 2):
+        shape = rc.steady_shape(held, mode=mode, top_tension=200.0)
+        assert shape.tension[-1] == pytest.approx(200.0, rel=1e-12)
+        again = rc.steady_shape(held, mode=mode, angular_speed=shape.angular_speed)
+        assert np.abs(again.inclination - shape.inclination).max() < 1e-12
+    outwards, inwards = (rc.steady_shape(held, mode=mode, angular_speed=9.0) for mode in (1, 2))
+    assert outwards.inclination[0] < 0 < inwards.inclination[0]
+    assert outwards.half_waves == inwards.half_waves == 1
+    wide = rc.branch(rc.Held(held.system, span=1.4, lower=ARMS[0], upper=ARMS[1]), 1, max_angular_speed=9.0)
+    assert wide.end == "rest"  # it hangs between the arms, as a catenary does
+    assert wide.conical_height[-1] > 1e4 * 2.0
+    links = held.system.total_mass / 8 * (np.arange(8) + 0.5)
+    hung = wide.shape(-1)
+    middle = (hung.offset[1:] - hung.offset[:-1]) / (hung.height[1:] - hung.height[:-1])
+    np.testing.assert_allclose(1 / middle, (links * 9.80665 + hung.lower_pull[1]) / hung.lower_pull[0], rtol=2e-3)
+
+
+# ---- under a tension
+
+
+def test_shapes_between_springs_of_one_tension():
+    rng = np.random.default_rng(8)
+    held = random_held(rng, 4, "plummets", *SPRINGS, 0.7)
+    shape = rc.steady_shapes(held, angular_speed=8.0, gravity=G)[0]
+    pulled = rc.Held(held.system, tension=float(shape.tension[-1]), lower=held.lower, upper=held.upper)
+    found = rc.steady_shapes(pulled, angular_speed=8.0, gravity=G)
+    same = min(found, key=lambda other: abs(other.span - held.span))
+    assert abs(same.span - held.span) < 1e-11
+    assert np.abs(same.inclination - shape.inclination).max() < 1e-10
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("ends", ["springs", "lower spring", "both heavy"])
+def test_whirl_speeds_between_springs_against_a_dense_pencil(ends, seed):
+    rng = np.random.default_rng(seed)
+    heavy = (Support(stiffness=50.0, mass=2.0), Support(stiffness=5e3, mass=0.1))
+    lower, upper = ENDS.get(ends, heavy)
+    held = random_held(rng, 5, "plummets" if seed % 2 else "rods", lower, upper, 0.7)
+    tension = 2.5 * held.system.total_mass * G
+    taut = rc.Held(held.system, tension=tension, lower=lower, upper=upper)
+    modes = rc.modes(taut, "all", gravity=G)
+    with mp.workdps(50):
+        pins = Pins(held, 1.0, mp.mpf)
+        pull = mp.mpf(tension) - sum(pins.weight)
+        moving = pins.free_y
+        stiff = mp.diag([s for s in pins.spring])
+        for i in range(pins.n):
+            pull += pins.m[i] * pins.g * pins.h[i] / pins.a[i]
+            for a, b, sign in ((i, i, 1), (i + 1, i + 1, 1), (i, i + 1, -1), (i + 1, i, -1)):
+                stiff[a, b] += sign * pull / pins.a[i]
+            pull += pins.m[i] * pins.g * (1 - pins.h[i] / pins.a[i])
+        K = mp.matrix([[stiff[a, b] for b in moving] for a in moving])
+        M = mp.matrix([[pins.mass[a][b] for b in moving] for a in moving])
+        flexible = [mp.re(x) for x in mp.eig(K**-1 * M)[0]]
+        heights = sorted((pins.g * x for x in flexible if x > mp.mpf(10) ** -30), reverse=True)
+        assert taut.mode_count == len(modes) == len(heights)
+        for got, want in zip(modes.conical_height, heights, strict=True):
+            assert abs(mp.mpf(float(got)) - want) <= 2.3e-16 * want
+        for speed in (5.0, 20.0):
+            assert rc.count_modes(taut, angular_speed=speed, gravity=G) == sum(pins.g / speed**2 < h for h in heights)
+    assert np.abs(modes.residual).max() < 1e-13
+    assert (np.abs(modes.shape).max(axis=1) == 1.0).all()
+    assert (modes.shape[:, moving[0]] > 0).all()
+    tuned = rc.tune(taut, mode=2, angular_speed=float(modes.angular_speed[1]) * 1.2, vary="tension", gravity=G)
+    again = rc.modes(tuned.system, 2, gravity=G)
+    assert again.angular_speed[1] == pytest.approx(1.2 * modes.angular_speed[1], rel=1e-14)
+    assert tuned.system.lower == lower
+
+
+# ---- refusals
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda c: rc.Held(c, tension=90.0, lower=ARMS[0]), "lower end must be on the axis under a tension; give the span"),
+        (lambda c: rc.Held(c, span=1.0, upper=Support(radius=3.0)), "ends must be nearer to each other than the length 2"),
+        (lambda c: rc.Held(c, span=1.0, upper=Support(stiffness=1.0, weight=2.0)), "upper: the chain was given by mass"),
+        (lambda c: rc.Held(rc.Cord(2.0, mass=1.0), span=1.0, lower=ARMS[0]), r"firm point on the axis; cut it into links"),
+        (lambda c: rc.modes(rc.Held(c, span=1.0, lower=ARMS[0])), "is bent.*ask steady_shapes"),
+        (lambda c: rc.steady_shape(rc.Held(c, span=1.0, lower=SPRINGS[0]), top_tension=90.0), "between springs give"),
+        (lambda c: rc.steady_shape(rc.Held(c, span=1.0, lower=ARMS[0]), mode=9, angular_speed=9.0), "mode must be from 1 to 4"),
+        (lambda c: rc.branch(rc.Held(c, span=1.0, lower=ARMS[0]), 4, max_angular_speed=3.0), "mode must be that of a branch"),
+        (lambda c: rc.branches(rc.Held(c, span=1.0, lower=SPRINGS[0], weightless=True), max_angular_speed=3.0),
+         "without gravity there are no branches; ask steady_shapes"),
+        (lambda c: rc.fit(rc.Held(c, span=1.0, lower=ARMS[0]), {1: (9.0, 0.1)}, vary="length"), "is bent"),
+    ],
+)  # fmt: skip
+def test_refusals(make, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        make(rc.Chain.uniform_rods(3, length=2.0, mass=1.0))
+
+
+def test_ends_are_supports():
+    chain = rc.Chain.uniform_rods(3, length=2.0, mass=1.0)
+    with pytest.raises(TypeError, match=r"lower must be a revchain\.Support, got 3"):
+        rc.Held(chain, span=1.0, lower=3)
+    held = rc.Held(chain, span=1.0, lower=Support(radius=0.0), upper=Support())
+    assert held == rc.Held(chain, span=1.0)
+    assert hash(held) == hash(rc.Held(chain, span=1.0))
+    sprung = rc.Held(chain, span=1.0, lower=SPRINGS[0])
+    assert sprung != held
+    assert pickle.loads(pickle.dumps(sprung)) == sprung == rc.Held.from_dict(sprung.to_dict())
+    shape = rc.steady_shapes(sprung, angular_speed=9.0)[0]
+    assert pickle.loads(pickle.dumps(shape)).stability().exponents.size == shape.stability().exponents.size
+
+
+def test_plots_of_arms():
+    pytest.importorskip("matplotlib")
+    held = rc.Held(rc.Chain.uniform_rods(6, length=2.0, mass=3.0), span=1.4, lower=ARMS[0], upper=ARMS[1])
+    shapes = rc.steady_shapes(held, angular_speed=9.0, budget=0)
+    ax = shapes.plot()
+    assert any(list(line.get_xdata()) == [0.3, 0.7] for line in ax.get_lines())
+    assert rc.branches(held, max_angular_speed=9.0).plot().get_xlabel() == "speed (rad/s)"
+    held.plot()

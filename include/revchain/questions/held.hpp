@@ -70,18 +70,13 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
         throw_invalid(place,
                       "modes are given as conical heights, of which there are none without gravity; leave out "
                       "weightless, and take a weight that is small beside the tension");
-    if (!held.by().firm())
-        throw_invalid(place,
-                      "is for firm ends; the speeds of a straight chain between springs are not available yet; give "
-                      "upper or lower without stiffness, now",
-                      std::min(held.by().lower.stiffness, held.by().upper.stiffness));
     const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
     if (!(lower > Wide<double>(0)))
         throw_invalid(place,
                       "tension at the upper end must exceed the weight of the chain " +
                           in_digits(chain.total_weight()) + ", or its lower part is slack",
                       *held.by().tension);
-    return {chain, lower};
+    return {chain, lower, {held.by().lower, held.by().upper, {}}};
 }
 
 /// The span of a chain of whose shapes at every speed a question is.
@@ -91,13 +86,7 @@ inline double span_asked(std::string_view place, const Held<Chain<double>>& held
                       "is for a chain held at a span; ask steady_shapes at each speed, or modes, under a tension",
                       *held.by().tension);
     if (held.by().weightless)
-        throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
-    for (const Support& end : {held.by().lower, held.by().upper})
-        if (!(end == Support{}))
-            throw_invalid(place,
-                          "is for ends that are firm points on the axis; for others ask steady_shapes at each speed; "
-                          "radius",
-                          end.radius);
+        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) ask steady_shapes");
     return *held.by().span;
 }
 
@@ -131,10 +120,20 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     const double span = detail::span_asked(place, held);
     detail::require_positive(place, "max_step", options.max_step);
     const double least = finite::lowest_height(place, options);
+    const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
-    for (int k = 1; k < held.system().size(); ++k) {
-        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
-        if (!branch) break;
+    std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
+    const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
+    const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
+    for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
+        auto branch = finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
+        if (!branch) {
+            ++without;
+            continue;
+        }
+        without = 0;
+        if (branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
+        if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
         result.push_back(std::move(*branch));
     }
     return result;
@@ -147,9 +146,16 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     const int given =
         options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
     if (given != 1) detail::throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
+    const HeldBy& by = held.by();
     if (options.top_tension) {
         detail::require_positive(place, "top_tension", *options.top_tension);
-        auto met = finite::held_shapes_of_tension(held.system(), span, *options.top_tension, options.mode);
+        if (!by.firm())
+            detail::throw_invalid(place,
+                                  "the speed of a tension between springs is not available: a spring gives way without "
+                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                                  *options.top_tension);
+        auto met = finite::held_shapes_of_tension(held.system(), {by.lower, by.upper, {}}, span, *options.top_tension,
+                                                  options.mode);
         if (met.empty())
             detail::throw_invalid(place, "no shape of the branch has this tension at its upper end",
                                   *options.top_tension);
@@ -158,10 +164,11 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     const Wide<double> height = detail::height_asked(
         held.by(),
         {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
-    finite::HeldChain chain(held.system());
+    finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
+    const finite::HeldStart start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
     const int exponent = chain.links().units.length_exponent;
     const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    if (const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda)))
+    if (const auto state = chain.at_height(start.half_waves, apart, static_cast<double>(lambda), start.outwards))
         if (auto shape = chain.finished(*state, apart, lambda, true)) return *shape;
     detail::throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
                           static_cast<double>(height));

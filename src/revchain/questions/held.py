@@ -13,10 +13,14 @@ from ..systems.held import Held
 def held_branch(place: str, held: Held, mode: int, least: float, gravity: float, step: float) -> HeldBranch:
     """See `branch`."""
     found = held_branches(place, held, least, gravity, step)
-    if mode > len(found):
+    for each in found:
+        if each.mode == mode:
+            return each
+    if held.is_on_axis:
         most = len(found)
         raise ValueError(f"{place}: mode must be from 1 to {most}, the branches at the greatest speed, got {mode}")
-    return found[mode - 1]
+    modes = ", ".join(str(each.mode) for each in found) or "none"
+    raise ValueError(f"{place}: mode must be that of a branch at the greatest speed, here one of {modes}, got {mode}")
 
 
 def held_branches(place: str, held: Held, least: float, gravity: float, step: float = 0.1) -> HeldBranches:
@@ -35,8 +39,14 @@ def held_shape(place: str, held: Held, mode: int, name: str, value: float, gravi
         )
     if every:
         raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of a held chain")
-    if mode > max(chain.size - 1, 1):
-        raise ValueError(f"{place}: mode must be from 1 to {max(chain.size - 1, 1)}, got {mode}")
+    most = max(chain.size - 1, 1) * (1 if held.is_on_axis else 2)
+    if mode > most:
+        raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
+    if name == "top_tension" and not held.is_firm:
+        raise ValueError(
+            f"{place}: the speed of a top_tension is for firm ends; between springs give angular_speed, or read it from "
+            f"the top_tension of a branch, got {value:g}"
+        )
     asked = value / held._force(gravity) if name == "top_tension" else value
     found = _core.held_shape(chain, span, *held._ends(gravity), mode, name, asked, gravity)
     return HeldShape._made(
@@ -57,10 +67,6 @@ def _spanned(place: str, held: Held) -> tuple[_core.Chain, float]:
             f"{place}: is for a chain held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"
         )
     if held.weightless:
-        raise ValueError(f"{place}: without gravity a shape is the same at every speed; ask steady_shapes")
-    if not held.is_plain:
-        raise ValueError(
-            f"{place}: is for ends that are firm points on the axis; for others ask steady_shapes at the speeds wanted, "
-            f"got {held!r}"
-        )
+        why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
+        raise ValueError(f"{place}: without gravity {why}; ask steady_shapes")
     return held.system._compiled, held.span

@@ -6,10 +6,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from .. import _core
 from .chain import Chain, like
 from .cord import Cord
-from .numbers import boolean, one_positive, shown
+from .numbers import STANDARD_GRAVITY, boolean, one_positive, shown
 from .rig import Support
 from .system import System, from_data, plain
 
@@ -62,7 +64,7 @@ class Held(System):
     >>> arms = {"lower": rc.Support(radius=0.5), "upper": rc.Support(radius=1.0)}
     >>> shapes = rc.steady_shapes(rc.Held(blade.system, span=8.0, **arms), angular_speed=12.0, budget=0)
     >>> [round(float(shape.offset[20]), 4) for shape in shapes]
-    [3.4, -1.9]
+    [3.4513, -1.9888]
     """
 
     __slots__ = ("lower", "span", "system", "tension", "upper", "weightless")
@@ -113,6 +115,11 @@ class Held(System):
         return self.lower == Support() == self.upper
 
     @property
+    def is_on_axis(self) -> bool:
+        """Whether the ends, or the places of rest of their springs, are on the axis, so that shapes have mirror images."""
+        return self.lower.radius == self.upper.radius == 0.0
+
+    @property
     def is_firm(self) -> bool:
         """Whether neither end is on a spring."""
         return math.isinf(self.lower.stiffness) and math.isinf(self.upper.stiffness)
@@ -129,8 +136,16 @@ class Held(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes of the straight chain: N - 1 of N links, less one for each free pin without mass."""
-        return max(self.system.mode_count - 1, 0) if isinstance(self.system, Chain) else 0
+        """Number of modes of the straight chain: N - 1 of N links, one more for each end on a spring, less one for each
+        pin that moves without mass."""
+        if not isinstance(self.system, Chain):
+            return 0
+        if self.is_firm or self.tension is None:
+            return max(self.system.mode_count - 1, 0)
+        force = 2.0 * self.system._compiled.total_weight  # any tension has as many
+        ends = self._ends(STANDARD_GRAVITY)
+        taut = _core.Held(self.system._compiled, None, force, False, *ends)
+        return int(_core.count_held_modes(taut, np.asarray(1e-100 * self.length)))
 
     @property
     def by_mass(self) -> bool:  # type: ignore[override]

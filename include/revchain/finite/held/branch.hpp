@@ -5,16 +5,18 @@
 
 namespace revchain {
 
-/// Why a branch ends: at the greatest speed again, where a link is slack or turns over, or after 3000 steps.
-enum class HeldBranchEnd { speed, slack, budget };
+/// Why a branch ends: at the greatest speed again, where a link is slack or turns over, where the chain hangs as at
+/// rest (between ends off the axis), or after 3000 steps.
+enum class HeldBranchEnd { speed, slack, rest, budget };
 inline std::string_view to_string(HeldBranchEnd end) {
-    constexpr std::array<std::string_view, 3> names{"speed", "slack", "budget"};
+    constexpr std::array<std::string_view, 4> names{"speed", "slack", "rest", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
 
 /// Shapes of a chain held at a span, point by point along the branch that begins with the nearly straight chain without
 /// gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
 struct HeldBranch {
+    int mode = 1;                   ///< its number, see `branches`
     int half_waves = 1;             ///< with which it begins
     std::vector<HeldShape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
     std::vector<Index> folds;       ///< of the shapes: where the speed is least, or greatest, on either side
@@ -33,7 +35,7 @@ inline std::optional<HeldState> at_across(HeldChain& held, double across, HeldSt
         const double gap = end.rise - state.span, determinant = y[1] * z[2] - y[2] * z[1];
         const double along = (z[2] * end.offset - y[2] * gap) / determinant,
                      height = (y[1] * gap - z[1] * end.offset) / determinant;
-        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) - across;
+        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) + std::abs(across);
         if (!(size < whole)) return {};
         state.forces.along -= along, state.forces.height -= height;
         if (size < 1e-14 * whole) return state;
@@ -61,19 +63,33 @@ inline std::optional<HeldState> fold_between(HeldChain& held, const HeldState& f
     return best;
 }
 
-/// The branch of so many half waves at a span, for heights from `least` on; nothing where there is none.
-inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double span, double least, int half_waves,
-                                             double max_step) {
+/// Where a branch begins: with how many half waves on the axis, and to which side. If there are no mirror images there
+/// are two of each number, first that whose lowest link leads outwards.
+struct HeldStart {
+    int half_waves;
+    bool outwards = true;
+
+    static HeldStart of_mode(int mode, bool mirrored) {
+        return mirrored ? HeldStart{mode} : HeldStart{(mode + 1) / 2, mode % 2 == 1};
+    }
+};
+
+/// The branch of a mode at a span, for heights from `least` on; nothing where there is none.
+inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
+                                             double least, int mode, double max_step) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
-    const auto first = held.at_height(half_waves, S(apart), height);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
+    held.springs_at(S(height));
+    const auto first = held.at_height(start.half_waves, S(apart), height, start.outwards);
+    held.springs_at({});
     if (!first) return {};
     std::vector<HeldState> states{*first};
     std::vector<std::vector<Direction<double>>> ways{held.kept()};
     HeldBranch branch;
-    branch.half_waves = half_waves, branch.end = HeldBranchEnd::slack;
+    branch.mode = mode, branch.half_waves = start.half_waves, branch.end = HeldBranchEnd::slack;
     held.curve().along_heights(*first, max_step, [&](const HeldState& state) {
         if (state.forces.height < height) {
             const auto there = held.kept();
@@ -93,7 +109,9 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        return true;
+        if (state.forces.height < HeldCurve<HeldChain>::at_rest * static_cast<double>(held.length())) return true;
+        branch.end = HeldBranchEnd::rest;
+        return false;
     });
     if (states.size() >= static_cast<std::size_t>(HeldCurve<HeldChain>::max_steps)) branch.end = HeldBranchEnd::budget;
     const auto add = [&](const HeldState& state, bool is_fold) {
@@ -117,19 +135,21 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
             add(*fold, true);
         }
     }
+    if (!branch.shapes.empty()) branch.half_waves = branch.shapes.front().half_waves;
     return branch;
 }
 
-/// The shapes on the branch of so many half waves at a span whose tension at the upper end is `tension`, the fastest
-/// first.
-inline std::vector<HeldShape> held_shapes_of_tension(const Chain<double>& chain, double span, double tension,
-                                                     int half_waves) {
+/// The shapes on the branch of a mode at a span, between firm ends, whose tension at the upper end is `tension`, the
+/// fastest first.
+inline std::vector<HeldShape> held_shapes_of_tension(const Chain<double>& chain, const HeldSupports& supports,
+                                                     double span, double tension, int mode) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;
     const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
     std::vector<HeldShape> shapes;
-    const auto first = held.at_height(half_waves, S(apart), 0);
+    const auto first = held.at_height(start.half_waves, S(apart), 0, start.outwards);
     if (!first) return shapes;
     const auto off = [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; };
     held.curve().where(*first, off, [&](const HeldState& found) {

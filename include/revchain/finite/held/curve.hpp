@@ -29,6 +29,7 @@ class HeldCurve {
         : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
 
     static constexpr int max_steps = 3000;
+    static constexpr double at_rest = 1e4;  ///< conical heights, over the length, at which a chain hangs as at rest
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
@@ -127,7 +128,7 @@ class HeldCurve {
                 shooter_->keep(there);
             }
             before = state, was = here;
-            return state.forces.height > 0;
+            return state.forces.height > 0 && state.forces.height < at_rest * length_;
         });
     }
 

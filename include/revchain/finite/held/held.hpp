@@ -5,7 +5,6 @@
 #include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/held/taut.hpp"
-#include "revchain/rig.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {
@@ -20,14 +19,6 @@ struct HeldShapes {
 };
 
 namespace finite {
-
-/// What holds the two ends, and the height at which springs are taken: that of the shape if none is given.
-struct HeldSupports {
-    Support lower{}, upper{};
-    std::optional<Wide<double>> height{};
-
-    bool plain() const { return lower == Support{} && upper == Support{}; }
-};
 
 /// Shapes of one chain held at both ends, one after the other.
 class HeldChain {
@@ -58,31 +49,13 @@ class HeldChain {
         return end;
     }
     void vary_part(bool part) { by_part_ = part; }
+    /// From now on springs are taken at this height, in units of the chain; at that of each state, if at none.
+    void springs_at(const std::optional<S>& height) { supports_.height = height; }
 
     /// How the ends are held at a height, or that part of it.
     template <class T>
     HeldEnds<T> ends(const T& height, double part = 1) const {
-        HeldEnds<T> result;
-        if (supports_.plain()) return result;
-        if (by_part_) result.height_change = T(0);
-        for (const bool up : {false, true}) {
-            const Support& support = up ? supports_.upper : supports_.lower;
-            Held<T>& end = up ? result.upper : result.lower;
-            const T radius(std::ldexp(support.radius, -wide_.units.length_exponent));
-            end.radius = radius * T(part), end.symmetric = part == 0 || support.radius == 0;
-            if (by_part_) result.radius_change[up] = radius;
-            if (support.is_firm() || (part == 0 && !by_part_)) continue;
-            const T at = supports_.height ? static_cast<T>(*supports_.height) : height;
-            const T stiffness =
-                at * T(std::ldexp(support.stiffness, wide_.units.length_exponent - wide_.units.weight_exponent));
-            end.firm = false, end.stiffness = stiffness / T(part > 0 ? part : 1), end.compliance = T(part) / stiffness;
-            end.carriage = T(std::ldexp(support.carriage_weight, -wide_.units.weight_exponent));
-            if (by_part_)
-                result.compliance_change[up] = T(1) / stiffness;
-            else if (!supports_.height)
-                result.compliance_change[up] = -(end.compliance / height);
-        }
-        return result;
+        return held_ends(supports_, wide_.units, height, part, by_part_);
     }
     bool mirrored() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
 
