@@ -246,11 +246,15 @@ void bind_linear(py::module_& module) {
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);
     py::class_<HeldChain>(module, "Held", "A chain held at both ends; immutable.")
-        .def(py::init(
-                 [](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless) {
-                     return HeldChain(chain, {.span = span, .tension = tension, .weightless = weightless});
-                 }),
-             "chain"_a, "span"_a, "tension"_a, "weightless"_a);
+        .def(py::init([](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless,
+                         const std::array<double, 3>& lower, const std::array<double, 3>& upper) {
+                 return HeldChain(chain, {.span = span,
+                                          .tension = tension,
+                                          .weightless = weightless,
+                                          .lower = {lower[0], lower[1], lower[2]},
+                                          .upper = {upper[0], upper[1], upper[2]}});
+             }),
+             "chain"_a, "span"_a, "tension"_a, "weightless"_a, "lower"_a, "upper"_a);
     module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
                "rtol"_a, "progress"_a, "gravity"_a);
     module.def("count_held_modes", &counts_above<HeldChain>, "held"_a, "conical_height"_a, "gravity"_a);

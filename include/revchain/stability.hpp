@@ -73,10 +73,12 @@ struct Stability {
 /// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
 
-/// Returns what becomes of a small disturbance of a shape with both ends held. Both ends stay where they are. N links
-/// have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity.
+/// Returns what becomes of a small disturbance of a shape with both ends held. Firm ends stay where they are, those on
+/// springs move across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and
+/// without gravity; each end on a spring adds 4, or 2. Arms turn at a constant speed: between ends off the axis no
+/// rotation is free, and there are 2 more if free.
 /// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3/2.
-/// Throws InvalidArgument as above, and for a free pin that carries no mass.
+/// Throws InvalidArgument as above, and for a pin that moves and carries no mass, but for the upper end.
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// How a rig is disturbed, and how the shape of it was found.

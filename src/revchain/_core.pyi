@@ -180,6 +180,7 @@ def gyrostatic_string_rotation(
 
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
+_End = tuple[float, float, float]
 
 _Complex = numpy.typing.NDArray[numpy.complex128]
 
@@ -738,14 +739,20 @@ class HeldCordBranch:
     def end(self) -> str: ...
 
 @typing.overload
-def held_branches(system: Chain, span: float, height: float, max_step: float) -> list[HeldBranch]: ...
+def held_branches(
+    system: Chain, span: float, lower: _End, upper: _End, height: float, max_step: float
+) -> list[HeldBranch]: ...
 @typing.overload
-def held_branches(system: Cord, span: float, height: float, max_step: float) -> list[HeldCordBranch]: ...
-@typing.overload
-def held_shape(system: Chain, span: float, mode: int, name: str, value: float, gravity: float) -> HeldShape: ...
+def held_branches(
+    system: Cord, span: float, lower: _End, upper: _End, height: float, max_step: float
+) -> list[HeldCordBranch]: ...
 @typing.overload
 def held_shape(
-    system: Cord, span: float, mode: int, name: str, value: float, gravity: float
+    system: Chain, span: float, lower: _End, upper: _End, mode: int, name: str, value: float, gravity: float
+) -> HeldShape: ...
+@typing.overload
+def held_shape(
+    system: Cord, span: float, lower: _End, upper: _End, mode: int, name: str, value: float, gravity: float
 ) -> HeldCordShape: ...
 @typing.overload
 def held_stability(chain: Chain, shape: HeldShape, driven: bool) -> Stability: ...
@@ -963,7 +970,7 @@ class CordShapes:
 
 class Held:
     def __init__(
-        self, chain: Chain, span: float | None, tension: float | None, weightless: bool
+        self, chain: Chain, span: float | None, tension: float | None, weightless: bool, lower: _End, upper: _End
     ) -> None: ...
 
 class HeldCord:
@@ -1080,6 +1087,8 @@ def held_shapes(
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,
@@ -1093,6 +1102,8 @@ def held_shapes(
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,

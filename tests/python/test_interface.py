@@ -34,6 +34,9 @@ SYSTEMS = {
     "cord of a density": rc.Cord(2.0, density=lambda s: 1 + s if s < 1 else 3.0, tip_weight=0.1),
     "held chain": rc.Held(RODS, span=0.9),
     "held cord": rc.Held(rc.Cord(1.0), tension=30.0, weightless=True),
+    "held by arms": rc.Held(
+        RODS, span=0.9, lower=rc.Support(stiffness=90.0, mass=0.2), upper=rc.Support(radius=-0.4), weightless=True
+    ),
 }
 
 
@@ -78,6 +81,10 @@ def test_words_from_the_support_down():
     assert SYSTEMS["rig"].describe() == (
         "support: on a spring of 20 N/m with 0.5 kg, carried round at 0.1 m; 3 times rod, 1 kg, 0.5 m; 1 link inverted; "
         "2 links with momentum; 3 links in still fluid"
+    )
+    assert SYSTEMS["held by arms"].describe() == (
+        "both ends held, 0.9 m apart, without gravity; upper end: firm, carried round at -0.4 m; 3 times rod, 1 kg, 0.5 m; "
+        "lower end: on a spring of 90 N/m with 0.2 kg"
     )
     assert SYSTEMS["held chain"].describe().startswith("both ends held on the axis, 0.9 m apart; 3 times rod")
     assert SYSTEMS["cord"].describe() == "support: firm; uniform cord: 0.2 kg, 0.36 m; tip: 0.01 kg"

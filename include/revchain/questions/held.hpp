@@ -48,9 +48,23 @@ inline double height_times_tension(const HeldBy& by, double height, const HeldSh
     return product;
 }
 
+/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the speed.
+inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
+                                        const HeldShapesOptions& options) {
+    if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
+    if (!options.angular_speed)
+        throw_invalid("steady_shapes",
+                      "without gravity shapes between springs depend on the speed; give angular_speed");
+    const Wide<double> speed(*options.angular_speed), unit(1.0);
+    return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
+}
+
 /// The straight chain under the tension at its lower end.
 inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held, double gravity) {
-    return {held.system(), lower_tension(place, held, gravity), held.by().weightless};
+    HeldBy by = held.by();
+    const Wide<double> lower = lower_tension(place, held, gravity);
+    if (by.weightless) by.lower.stiffness /= gravity, by.upper.stiffness /= gravity;  // in masses times gravity
+    return {held.system(), lower, by.weightless, {by.lower, by.upper, {}}};
 }
 
 /// The span of what is held, of whose shapes at every speed a question is.
@@ -58,24 +72,9 @@ inline double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
         throw_invalid(place, "is for what is held at a span; under a tension ask steady_shapes at each speed, or modes",
                       *by.tension);
-    if (by.weightless) throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
+    if (by.weightless)
+        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) ask steady_shapes");
     return *by.span;
-}
-
-/// Branches of 1, 2, ... half waves, at most `most`, up to the first that does not begin.
-template <class System>
-auto held_branches(const Held<System>& held, const HeldBranchesOptions& options, int most) {
-    constexpr std::string_view place = "branches";
-    const double span = span_asked(place, held.by());
-    require_positive(place, "max_step", options.max_step);
-    const double least = finite::lowest_height(place, options);
-    std::vector<std::decay_t<decltype(*finite::held_branch(held.system(), span, least, 1, 0.1))>> result;
-    for (int k = 1; k <= most; ++k) {
-        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
-        if (!branch) break;
-        result.push_back(std::move(*branch));
-    }
-    return result;
 }
 
 /// `at_height(span, height)` and `of_tension(span, tension)` look for the shape that is asked for.
@@ -106,10 +105,11 @@ auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeigh
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
     const Wide<double> height = detail::height_asked(held.by(), options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
-    if (held.by().span) return finite::held_shapes(held.system(), *held.by().span, height, wanted);
+    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options);
+    if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
     const double rounded = static_cast<double>(height);
-    return finite::held_shapes_under_tension(held.system(), detail::height_times_tension(held.by(), rounded, options),
-                                             rounded, wanted);
+    return finite::held_shapes_under_tension(
+        held.system(), supports, detail::height_times_tension(held.by(), rounded, options), rounded, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
@@ -120,24 +120,61 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldS
 }
 
 REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {
-    return detail::held_branches(held, options, static_cast<int>(held.system().size()) - 1);
+    constexpr std::string_view place = "branches";
+    const double span = detail::span_asked(place, held.by());
+    detail::require_positive(place, "max_step", options.max_step);
+    const double least = finite::lowest_height(place, options);
+    const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
+    std::vector<HeldBranch> result;
+    std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
+    const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
+    const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
+    for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
+        auto branch = finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
+        if (!branch) {
+            ++without;
+            continue;
+        }
+        without = 0;
+        if (branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
+        if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
+        result.push_back(std::move(*branch));
+    }
+    return result;
 }
 
 REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options) {
-    return detail::held_branches(held, options, 1000);
+    constexpr std::string_view place = "branches";
+    const double span = detail::span_asked(place, held.by());
+    detail::require_positive(place, "max_step", options.max_step);
+    const double least = finite::lowest_height(place, options);
+    std::vector<HeldCordBranch> result;
+    for (int k = 1; k <= 1000; ++k) {
+        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
+        if (!branch) break;
+        result.push_back(std::move(*branch));
+    }
+    return result;
 }
 
 REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options) {
+    const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
-        finite::HeldChain chain(held.system());
+        finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
+        const finite::HeldStart start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
         const int exponent = chain.links().units.length_exponent;
         const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-        const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda));
+        const auto state = chain.at_height(start.half_waves, apart, static_cast<double>(lambda), start.outwards);
         if (!state) return {};
         return chain.finished(*state, apart, lambda, true);
     };
-    return detail::held_shape(held.by(), options, at_height, [&](double span, double tension) {
-        return finite::held_shape_of_tension(held.system(), span, tension, options.mode);
+    return detail::held_shape(by, options, at_height, [&](double span, double tension) {
+        if (!by.firm())
+            detail::throw_invalid("steady_shape",
+                                  "the speed of a tension between springs is not available: a spring gives way without "
+                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                                  tension);
+        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
     });
 }
 

@@ -15,17 +15,21 @@ from ..systems.held import Held
 def held_branch(place: str, held: Held, mode: int, least: float, gravity: float, step: float) -> HeldBranch:
     """See `branch`."""
     found = held_branches(place, held, least, gravity, step)
-    if mode > len(found):
+    for each in found:
+        if each.mode == mode:
+            return each
+    if held.is_on_axis:
         most = len(found)
         raise ValueError(f"{place}: mode must be from 1 to {most}, the branches at the greatest speed, got {mode}")
-    return found[mode - 1]
+    modes = ", ".join(str(each.mode) for each in found) or "none"
+    raise ValueError(f"{place}: mode must be that of a branch at the greatest speed, here one of {modes}, got {mode}")
 
 
 def held_branches(place: str, held: Held, least: float, gravity: float, step: float = 0.1) -> HeldBranches:
     """See `branches`; down to the conical height `least`."""
     span = _span(place, held)
-    found: Any = _core.held_branches(held.system._compiled, span, least, step)
-    return held_branches_made(found, held, gravity, (least, step))
+    found: Any = _core.held_branches(held.system._compiled, span, *held._ends(gravity), least, step)
+    return held_branches_made(found, held, gravity, (least, step, gravity))
 
 
 def held_shape(
@@ -39,10 +43,16 @@ def held_shape(
         )
     if every:
         raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of what is held")
-    if isinstance(held.system, Chain) and mode > max(held.size - 1, 1):
-        raise ValueError(f"{place}: mode must be from 1 to {max(held.size - 1, 1)}, got {mode}")
+    most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
+    if isinstance(held.system, Chain) and mode > most:
+        raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
+    if name == "top_tension" and not held.is_firm:
+        raise ValueError(
+            f"{place}: the speed of a top_tension is for firm ends; between springs give angular_speed, or read it from "
+            f"the top_tension of a branch, got {value:g}"
+        )
     asked = value / held._force(gravity) if name == "top_tension" else value
-    found = _core.held_shape(held.system._compiled, span, mode, name, asked, gravity)
+    found = _core.held_shape(held.system._compiled, span, *held._ends(gravity), mode, name, asked, gravity)
     kind: Any = HeldShape if isinstance(held.system, Chain) else HeldCordShape
     shape: HeldShape | HeldCordShape = kind._made(
         found,
@@ -61,5 +71,6 @@ def _span(place: str, held: Held) -> float:
             f"{place}: is for what is held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"
         )
     if held.weightless:
-        raise ValueError(f"{place}: without gravity a shape is the same at every speed; ask steady_shapes")
+        why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
+        raise ValueError(f"{place}: without gravity {why}; ask steady_shapes")
     return held.span

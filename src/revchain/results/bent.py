@@ -218,12 +218,12 @@ class _HeldShape(_Bent):
         part=True,
     )
     lower_pull: Field[Floats] = Field(
-        "The pull on the lower bearing, shape (2,): to the side of the second pin, and up.",
+        "The chain's pull on the lower bearing, shape (2,): outwards (to the side where offsets are positive), and up.",
         lambda s: s._per * np.array(s._found().lower_pull),
         part=True,
     )
     upper_pull: Field[Floats] = Field(
-        "The pull on the upper bearing, shape (2,): to the side of the lowest free pin, and up.",
+        "The chain's pull on the upper bearing, shape (2,): outwards, and up.",
         lambda s: s._per * np.array(s._found().upper_pull),
         part=True,
     )
@@ -256,13 +256,14 @@ class _HeldShape(_Bent):
             return branch_again(held, tuple(asked[1:])).shapes[place]
         if asked and asked[0] == "mode":
             mode, name, value = asked[1:]
-            return _core.held_shape(held.system._compiled, held.span, mode, name, value, place)
-        by = (held.span, held._pull(self.gravity), held.weightless)
+            lower, upper = held._ends(self.gravity)
+            return _core.held_shape(held.system._compiled, held.span, lower, upper, mode, name, value, place)
+        by = (held.span, held._pull(self.gravity), held.weightless, *held._ends(self.gravity))
         return _core.held_shapes(held.system._compiled, *by, *asked).shapes[place]
 
 
 class HeldShape(_HeldShape):
-    """One steady shape of a chain with both ends on the axis: links lowest first, pins from the lower end up.
+    """One steady shape of a chain with both ends held: links lowest first, pins from the lower end up.
 
     Examples
     --------
@@ -280,10 +281,12 @@ class HeldShape(_HeldShape):
     error_bound: Field[float] = Field("Of every inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
     moment_of_inertia: Field[float] = Field(
-        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+        "About the axis, carriages of springs included, kg m^2; of a chain given by weight, weight times length squared.",
+        part=True,
     )
     effective_energy: Field[float] = Field(
-        "Potential energy less that of the centrifugal forces, J: stationary among figures of the same span.",
+        "Potential energy, with that of springs, less that of the centrifugal forces, J: stationary among figures of the "
+        "same span.",
         forced("height_times_energy"),
         part=True,
     )
@@ -291,7 +294,7 @@ class HeldShape(_HeldShape):
     _axes: ClassVar[tuple[str, str]] = ("link", "pin")
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance, both ends staying where they are.
+        """Say what becomes of a small disturbance; firm ends stay where they are, those on springs move across the axis.
 
         Parameters
         ----------
@@ -303,13 +306,14 @@ class HeldShape(_HeldShape):
         -------
         Stability
             Of N links ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven one, to about 1e-13
-            of the largest where they are simple. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
+            of the largest where they are simple; for each end on a spring 4 more, or 2. Off the axis arms turn at a
+            constant speed, and there are 2 more in the free frame. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
             in `Stability.internal_damping` and `Stability.external_damping`.
 
         Raises
         ------
         ValueError
-            If `frame` is neither, or a pin has no mass.
+            If `frame` is neither, or a pin that moves has no mass (the upper end on a spring may have none).
 
         Examples
         --------

@@ -37,7 +37,11 @@ class HeldBranch(Result):
     __slots__ = ()
     system: Field[Held] = Field("What is held at both ends.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    mode: Field[int] = Field("Half waves with which it begins at the greatest speed.", part=True)
+    mode: Field[int] = Field(
+        "Its number: half waves with which it begins at the greatest speed. Between ends off the axis ``2 * k - 1`` where it "
+        "is reached from k half waves whose lowest link leads outwards, ``2 * k`` inwards.",
+        part=True,
+    )
     conical_height: Field[Floats] = Field(
         "Conical height of the speed, m.", lambda b: _each(b, lambda s: s.conical_height), part=True
     )
@@ -72,7 +76,9 @@ class HeldBranch(Result):
     )
     end: Field[str] = Field(
         "Why it ends: ``'slack'``, where a link becomes slack or turns over (the last speed within 2e-5, relative, as "
-        "measured); ``'folded'``, where a cord hangs folded along the axis; ``'speed'``, at the greatest speed again; ``'budget'``, after 3000 steps.",
+        "measured); ``'folded'``, where a cord hangs folded along the axis; ``'speed'``, at the greatest speed again; "
+        "``'rest'``, off the axis, where the chain hangs as at rest, at a conical height of 10,000 lengths; ``'budget'``, "
+        "after 3000 steps.",
         part=True,
     )
     asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
@@ -167,7 +173,10 @@ class HeldBranch(Result):
             Column("fold", is_fold(self), "fold"),
             Column("moment_of_inertia", self.moment_of_inertia),
         ]
-        heading = f"Branch of {self.mode} half wave{'s' * (self.mode != 1)}: {fold_words(self)}"
+        waves = self.mode if self.system.is_on_axis else int(self.half_waves[0])
+        name = f"Branch of {waves} half wave{'s' * (waves != 1)}"
+        name += "" if self.system.is_on_axis else f" (mode {self.mode})"
+        heading = f"{name}: {fold_words(self)}"
         facts = {"mode": self.mode, "end": self.end, "gravity": self.gravity}
         return Sheet("point", heading, columns, facts, spread=True)
 
@@ -213,7 +222,8 @@ class HeldBranches(Results[HeldBranch]):
         return plot_held_branches(self, ax, quantity=quantity, place="revchain.HeldBranches.plot")
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("mode", [each.mode for each in self], "half waves"), *branch_sizes(self)]
+        on_axis = self.system.is_on_axis
+        columns = [Column("mode", [each.mode for each in self], "half waves" if on_axis else "mode"), *branch_sizes(self)]
         number = f"{len(self)} branch{'es' * (len(self) != 1)}"
         return Sheet("branch", f"{number} from the nearly straight chain", columns, {"gravity": self.gravity})
 
@@ -224,9 +234,9 @@ def _each(branch: HeldBranch, of: Any) -> Floats:
 
 def branch_again(held: Held, asked: tuple[Any, ...]) -> Any:
     """A compiled branch, found once more."""
-    height, step, place = asked
+    height, step, gravity, place = asked
     assert held.span is not None
-    found: Any = _core.held_branches(held.system._compiled, held.span, height, step)
+    found: Any = _core.held_branches(held.system._compiled, held.span, *held._ends(gravity), height, step)
     return found[place]
 
 

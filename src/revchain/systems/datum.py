@@ -256,12 +256,12 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
 
 def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float) -> Datum:
     def made(system: Chain | Cord, tension: float | None = held.tension) -> Held:
-        return Held(system, span=held.span, tension=tension, weightless=held.weightless)
+        return held._between_its_ends(system, held.span, tension)
 
     if path == "span":
         assert held.span is not None
         apart = held.span
-        return Datum(path, apart, lambda x: Held(held.system, span=x, weightless=held.weightless), apart, ceiling=held.length)
+        return Datum(path, apart, lambda x: held._between_its_ends(held.system, x, None), apart, ceiling=held.length)
     if path == "tension":
         assert held.tension is not None
         least = 0.0 if held.weightless else held._force(gravity) * held._total

@@ -5,11 +5,11 @@
 
 namespace revchain {
 
-/// Why a branch ends: at the greatest speed again; where a link is slack or turns over; where a cord hangs folded along
-/// the axis; or after 3000 steps.
-enum class HeldBranchEnd { speed, slack, folded, budget };
+/// Why a branch ends: at the greatest speed again; where a link is slack or turns over; where a chain between ends off
+/// the axis hangs as at rest; where a cord hangs folded along the axis; or after 3000 steps.
+enum class HeldBranchEnd { speed, slack, rest, folded, budget };
 inline std::string_view to_string(HeldBranchEnd end) {
-    constexpr std::array<std::string_view, 4> names{"speed", "slack", "folded", "budget"};
+    constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
 
@@ -17,6 +17,7 @@ inline std::string_view to_string(HeldBranchEnd end) {
 /// without gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
 template <class Shape>
 struct HeldBranchOf {
+    int mode = 1;               ///< its number, see `branches`
     int half_waves = 1;         ///< with which it begins
     std::vector<Shape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
     std::vector<Index> folds;   ///< of the shapes: where the speed is least, or greatest, on either side
@@ -37,7 +38,7 @@ std::optional<HeldState> at_across(System& held, double across, HeldState state)
         const double gap = end.rise - state.span, determinant = y[1] * z[2] - y[2] * z[1];
         const double along = (z[2] * end.offset - y[2] * gap) / determinant,
                      height = (y[1] * gap - z[1] * end.offset) / determinant;
-        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) - across;
+        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) + std::abs(across);
         if (!(size < whole)) return {};
         state.forces.along -= along, state.forces.height -= height;
         if (size < 1e-14 * whole) return state;
@@ -93,7 +94,9 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        return true;
+        if (state.forces.height < HeldCurve<System>::at_rest * static_cast<double>(held.length())) return true;
+        branch.end = HeldBranchEnd::rest;
+        return false;
     });
     if (states.size() >= static_cast<std::size_t>(HeldCurve<System>::max_steps)) branch.end = HeldBranchEnd::budget;
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -110,14 +113,28 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
     return branch;
 }
 
-/// The branch of so many half waves at a span, for heights from `least` on; nothing where there is none.
-inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double span, double least, int half_waves,
-                                             double max_step) {
+/// Where a branch begins: with how many half waves on the axis, and to which side. If there are no mirror images there
+/// are two of each number, first that whose lowest link leads outwards.
+struct HeldStart {
+    int half_waves;
+    bool outwards = true;
+
+    static HeldStart of_mode(int mode, bool mirrored) {
+        return mirrored ? HeldStart{mode} : HeldStart{(mode + 1) / 2, mode % 2 == 1};
+    }
+};
+
+/// The branch of a mode at a span, for heights from `least` on; nothing where there is none.
+inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
+                                             double least, int mode, double max_step) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
-    const auto first = held.at_height(half_waves, S(apart), height);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
+    held.springs_at(S(height));
+    const auto first = held.at_height(start.half_waves, S(apart), height, start.outwards);
+    held.springs_at({});
     if (!first) return {};
     HeldBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
         if (!is_fold)
@@ -125,20 +142,22 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
         const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
         std::vector<Direction<S>> ways_there;
         for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
-        return described(held.links(), forces, S(apart), ways_there);
+        return described(held.links(), held.ends(forces.height), forces, S(apart), ways_there);
     });
-    branch.half_waves = half_waves;
+    branch.mode = mode;
+    branch.half_waves = branch.shapes.empty() ? start.half_waves : branch.shapes.front().half_waves;
     return branch;
 }
 
-/// The fastest shape on the branch of so many half waves at a span whose tension at the upper end is `tension`.
-inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, double span, double tension,
-                                                      int half_waves) {
+/// The fastest shape on the branch of a mode at a span, between firm ends, whose tension at the upper end is `tension`.
+inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
+                                                      double span, double tension, int mode) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;
     const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
-    const auto first = held.at_height(half_waves, S(apart), 0);
+    const auto first = held.at_height(start.half_waves, S(apart), 0, start.outwards);
     if (!first) return {};
     const auto found = held.curve().first_where(
         *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });

@@ -20,7 +20,7 @@ inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, 
     HeldCordBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool) {
         return described(state, span, length, cord.weight());
     });
-    branch.half_waves = half_waves;
+    branch.mode = branch.half_waves = half_waves;
     if (branch.end == HeldBranchEnd::slack) branch.end = HeldBranchEnd::folded;
     while (branch.shapes.size() > 1 && !(branch.shapes.back().error_bound < folded)) branch.shapes.pop_back();
     return branch;

@@ -110,6 +110,11 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     const auto moment = [&](double x) { return std::ldexp(length(x), -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
     result.links = rounded<double>(chain.links), result.held = true;
+    const auto& [lower, upper] = shape.ends;
+    result.turns_freely = lower.radius == 0 && upper.radius == 0;
+    const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
+    result.stiffness = weight(upper.stiffness), result.carriage = weight(upper.carriage_weight);
+    result.lower_stiffness = weight(lower.stiffness), result.lower_carriage = weight(lower.carriage_weight);
     result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
     double H = moment(-shape.lower_pull[0]);
     const double height = length(shape.conical_height), tau = moment(shape.lower_pull[1]);
@@ -121,6 +126,7 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
         result.inclination.push_back(shape.inclination[m]), result.offset.push_back(length(shape.offset[m]));
         result.pull.push_back(V * c + (R - link.cross * link.length * s) * s);
     }
+    if (result.yields()) result.offset.push_back(length(shape.offset[shape.inclination.size()]));
     return result;
 }
 
@@ -146,26 +152,19 @@ inline void require_mass(const Disturbed& d, Index first) {
             revchain::detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + first);
 }
 
+inline void require_inertia(const Disturbed& d) {
+    for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
+        if (Eigen::LLT<Matrix<double>>(*inertia).info() != Eigen::Success)
+            revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move",
+                                            d.mass.rows());
+}
+
 }  // namespace finite
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
     finite::require_shape_of(chain, shape);
     const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
     return finite::judged(frame, finite::Disturbed(links), links.units);
-}
-
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    finite::Disturbed d(links);
-    d.hold_lower_end();
-    finite::require_mass(d, 1);
-    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
-        Stability still;
-        still.frame = frame, still.verdict = Verdict::minimum;
-        return still;
-    }
-    return finite::judged(frame, d, links.units);
 }
 
 namespace finite {
@@ -242,6 +241,22 @@ inline void balance_upper_end(Disturbed& d) {
 
 }  // namespace finite
 
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+    finite::require_shape_of(chain, shape);
+    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
+    finite::Disturbed d(links);
+    if (links.yields()) finite::balance_upper_end(d);
+    d.hold_lower_end(links.lower_yields());
+    finite::require_mass(d, links.lower_yields() ? 0 : 1);
+    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
+        Stability still;
+        still.frame = frame, still.verdict = Verdict::minimum;
+        return still;
+    }
+    finite::require_inertia(d);
+    return finite::judged(frame, d, links.units);
+}
+
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
@@ -260,9 +275,7 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, d);
     if (links.yields()) finite::balance_upper_end(d);
     finite::require_mass(d, 0);
-    for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
-        if (Eigen::LLT<Matrix<double>>(*inertia).info() != Eigen::Success)
-            detail::throw_invalid(place, "every motion must move some mass; pins that move", d.mass.rows());
+    finite::require_inertia(d);
     return finite::judged(options.frame, d, links.units);
 }
 
