@@ -56,12 +56,6 @@ py::tuple swing(const Cord& cord, const py::object& offset, const py::object& ve
                           found.energy_left_out, to_numpy(found.error_estimate));
 }
 
-template <class Shape>
-revchain::Stability stability(const Cord& cord, const Shape& shape, bool driven) {
-    const py::gil_scoped_release release;
-    return revchain::stability(cord, shape, driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free);
-}
-
 }  // namespace
 
 void bind_cord_branches(py::module_& module) {
@@ -115,8 +109,14 @@ void bind_cord_branches(py::module_& module) {
             return *shape;
         },
         "cord"_a, "height"_a, "half_waves"_a, "tip_offset"_a, "at_fold"_a);
-    module.def("cord_stability", &stability<revchain::CordShape>, "cord"_a, "shape"_a, "driven"_a);
-    module.def("held_stability", &stability<revchain::HeldCordShape>, "cord"_a, "shape"_a, "driven"_a);
+    module.def(
+        "cord_stability",
+        [](const Cord& cord, const revchain::CordShape& shape, bool driven) {
+            const py::gil_scoped_release release;
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            return revchain::stability(cord, shape, frame);
+        },
+        "cord"_a, "shape"_a, "driven"_a);
     module.def("cord_swing", &swing, "cord"_a, "offset"_a, "velocity"_a, "time"_a, "arc_length"_a, "count"_a,
                "gravity"_a);
 }

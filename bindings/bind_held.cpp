@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
+#include "revchain/cord.hpp"
 #include "revchain/held.hpp"
 #include "revchain/stability.hpp"
 
@@ -149,6 +150,14 @@ void bind_held(py::module_& module) {
     def_on_branches<revchain::Cord>(module);
     def_shapes<Chain>(module);
     def_shapes<revchain::Cord>(module);
+    module.def(
+        "held_stability",
+        [](const revchain::Cord& cord, const HeldCordShape& shape, bool driven) {
+            const py::gil_scoped_release release;
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            return revchain::stability(cord, shape, frame);
+        },
+        "cord"_a, "shape"_a, "driven"_a);
     module.def(
         "held_stability",
         [](const Chain& chain, const HeldShape& shape, bool driven) {

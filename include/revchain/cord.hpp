@@ -112,7 +112,7 @@ struct CordSensitivity {
 ///     lambda = integral of y^2 dV / integral of V y'^2    by    - integral of dV y' (2 y + lambda y') / that of V
 /// y'^2.
 /// Heights are as the length; they depend on the ratio of weights (and tension) alone.
-/// Accuracy: 1e-13 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
+/// Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
 /// held at both ends two slopes, or 16 for each half wave.
 CordSensitivity sensitivity(const CordModes& modes);
 

@@ -182,3 +182,43 @@ TEST_CASE("held cord: nearly straight without gravity, modes of a string seen fr
     }
     CHECK_THROWS_AS(revchain::stability(half.system(), shapes.shapes.at(0)), revchain::InvalidArgument);
 }
+
+TEST_CASE("cord: derivatives of its heights are those of differences") {
+    const auto slope = [](const auto& f, double x, double step) {
+        return (f(x - 2 * step) - 8 * f(x - step) + 8 * f(x + step) - f(x + 2 * step)) / (12 * step);
+    };
+    const auto height = [](const auto& system) {
+        return revchain::modes(system, {.first = 3, .count = 1}).conical_height[0];
+    };
+    for (const double p : {0.0, 1.3, -0.4})
+        for (const double tip : {0.02, 2.0}) {
+            CAPTURE(p, tip);
+            const auto of = [&](double weight_of, double tip_of, double exponent) {
+                return height(Cord(length, {.weight = weight_of, .density = exponent, .tip_weight = tip_of}));
+            };
+            const Cord cord(length, {.weight = weight, .density = p, .tip_weight = tip});
+            const auto m = revchain::modes(cord, {.first = 3, .count = 1});
+            const auto s = revchain::sensitivity(m);
+            const double whole = m.conical_height[0];
+            CHECK(s.length[0] == whole / length);
+            const double by_weight = slope([&](double x) { return of(x, tip, p); }, weight, 1e-3 * weight),
+                         by_tip = slope([&](double x) { return of(weight, x, p); }, tip, 1e-3 * tip),
+                         by_exponent = slope([&](double x) { return of(weight, tip, x); }, p, 1e-3);
+            CHECK(std::abs(s.weight[0] - by_weight) * weight < 1e-11 * whole);
+            CHECK(std::abs(s.tip_weight[0] - by_tip) * tip < 1e-11 * whole);
+            CHECK(std::abs(s.exponent[0] - by_exponent) < 1e-9 * whole);
+            CHECK(s.tension[0] == 0);
+        }
+    for (const double tension : {3.0000001, 3.5, 5.9, 6.1, 3e4})
+        for (const bool weightless : {false, true}) {
+            CAPTURE(tension, weightless);
+            const auto held = [&](double x) { return Held<Cord>(rope, {.tension = x, .weightless = weightless}); };
+            const auto m = revchain::modes(held(tension), {.first = 3, .count = 1});
+            const auto s = revchain::sensitivity(m);
+            const double step = 1e-3 * (weightless ? tension : tension - weight);
+            const double by_tension = slope([&](double x) { return height(held(x)); }, tension, step);
+            CHECK(s.tension[0] == Approx(by_tension).epsilon(1e-8));
+            CHECK(s.weight[0] * weight == Approx(-s.tension[0] * tension).epsilon(1e-14));
+            CHECK(s.tip_weight[0] == 0);
+        }
+}
