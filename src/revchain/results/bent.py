@@ -15,6 +15,8 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
+from .held_sensitivity import held_shape_sensitivity
+from .shape_sensitivity import ShapeSensitivity
 from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven, judged
 from .sheet import Column, Sheet
 
@@ -280,6 +282,11 @@ class HeldShape(_HeldShape):
     )
     error_bound: Field[float] = Field("Of every inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
+    sensitivity: Field[ShapeSensitivity] = Field(
+        "Derivatives of inclinations, offsets and tensions at the pins by the speed, the data of each link, the span or the "
+        "tension, and what holds the ends: each part is `HeldShapeDerivatives`.",
+        held_shape_sensitivity,
+    )
     moment_of_inertia: Field[float] = Field(
         "About the axis, carriages of springs included, kg m^2; of a chain given by weight, weight times length squared.",
         part=True,

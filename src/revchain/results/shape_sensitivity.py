@@ -24,8 +24,8 @@ OF_LINKS = ("momentum", "spin", "axial_moment", "displaced_mass", "added_mass")
 OF_SUPPORT = ("stiffness", "support_mass")
 
 
-class ShapeDerivatives(Result):
-    """Derivatives of some numbers of a shape, one row for each; see `ShapeSensitivity`."""
+class DerivativesByLink(Result):
+    """What derivatives of numbers of a shape have in common, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
     angular_speed: Field[Floats] = Field("With respect to the speed, per rad/s, shape (M,).", part=True)
@@ -41,15 +41,24 @@ class ShapeDerivatives(Result):
     length_in_proportion: Field[Floats] = Field(
         "With respect to length, centroid and radius of gyration growing in proportion: a point mass's thread.", part=True
     )
-    support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
 
     def _names(self) -> tuple[str, ...]:
-        return ("angular_speed", "support_radius", *DATA)
+        return ("angular_speed", *DATA)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         rows = Column("index", np.arange(len(self.angular_speed)), "index")
         columns = datum_columns(self, self._names())
         return Sheet("index", "Derivatives by datum; those for the lowest link are shown", [rows, *columns])
+
+
+class ShapeDerivatives(DerivativesByLink):
+    """Derivatives of some numbers of a shape, one row for each; see `ShapeSensitivity`."""
+
+    __slots__ = ()
+    support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
+
+    def _names(self) -> tuple[str, ...]:
+        return ("angular_speed", "support_radius", *DATA)
 
 
 class RigShapeDerivatives(ShapeDerivatives):
@@ -83,7 +92,8 @@ class ShapeSensitivity(Result):
 
     While one datum changes, all others are held. At a fold of a branch they are infinite: there is no shape beyond. Of a
     `Rig` there are also those by what it is rigged with: stiffness and mass of the support, momentum, spin and axial
-    moment of flywheels, fluid displaced and added.
+    moment of flywheels, fluid displaced and added. Of a chain held at both ends, `offset` and `tension` have a row for each of
+    the N + 1 pins, and each part is `HeldShapeDerivatives`, with those by what holds the ends.
 
     Notes
     -----
@@ -119,13 +129,16 @@ class ShapeSensitivity(Result):
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("link", np.arange(len(self.inclination.angular_speed)), "link")]
+        n = len(self.inclination.angular_speed)
+        columns = [Column("link", np.arange(n), "link")]
         for name, unit in (("inclination", "rad"), ("tension", "N")):
-            by_speed = getattr(self, name).angular_speed
+            by_speed = getattr(self, name).angular_speed[-n:]
             columns.append(Column(f"{name}_by_angular_speed", by_speed, f"{name} by speed ({unit} s/rad)"))
         of_links = (*DATA, *OF_LINKS) if isinstance(self.offset, RigShapeDerivatives) else DATA
+        held = not hasattr(self.offset, "support_radius")
+        pin, of_pin = (n // 2, f"offset of pin {n // 2}") if held else (0, "tip radius")
         for name in of_links:
-            columns.append(Column(f"tip_by_{name}", getattr(self.offset, name)[0], f"tip radius by its {name}"))
+            columns.append(Column(f"{'offset' if held else 'tip'}_by_{name}", getattr(self.offset, name)[pin], f"{of_pin} by its {name}"))
         return Sheet("link", "ShapeSensitivity: derivatives of a steady shape; .offset, .inclination, .tension", columns)
 
 
