@@ -454,7 +454,7 @@ TEST_CASE("held: what has no answer says what to ask instead") {
     CHECK_THROWS_WITH(revchain::modes(bent), ContainsSubstring("stability"));
     CHECK_THROWS_WITH(revchain::count_modes(bent, {.conical_height = 0.1}), ContainsSubstring("stability"));
     CHECK_THROWS_WITH(revchain::modes(light, {.gravity = 0}), ContainsSubstring("gravity"));
-    CHECK(revchain::modes(light).size() == 19);
+    CHECK(revchain::modes(light, {.count = revchain::all_modes}).size() == 19);
     const Chain<double> beads = Chain<double>::uniform_plummets(4, 1.0, 3.0);
     CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})), ContainsSubstring("must exceed the weight 3"));
     CHECK_THROWS_WITH(revchain::count_modes(Held(rods, {.tension = 2.0}), {.conical_height = 0.1}),
