@@ -209,7 +209,7 @@ TEST_CASE("cord: derivatives of its heights are those of differences") {
             CHECK(std::abs(s.exponent[0] - by_exponent) < 1e-9 * whole);
             CHECK(s.tension[0] == 0);
         }
-    for (const double tension : {3.0000001, 3.5, 5.9, 6.1, 3e4})
+    for (const double tension : {3.001, 3.5, 5.9, 6.1, 3e4})
         for (const bool weightless : {false, true}) {
             CAPTURE(tension, weightless);
             const auto held = [&](double x) { return Held<Cord>(rope, {.tension = x, .weightless = weightless}); };
