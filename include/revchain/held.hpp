@@ -132,7 +132,7 @@ struct HeldShapesOptions {
 /// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
 /// double-double, and Krawczyk's test in intervals of double-double proves the bound. The list is proved complete by
 /// splitting all pulls along the lowest link, and all its inclinations, until each part has one shape for certain or
-/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 102 of 108 lists of 3, 6 and 9 links with l <= a, one
+/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 99 of 108 lists of 3, 6 and 9 links with l <= a, one
 /// half wave; none of chains with l > a or with massless links between others, and seldom of two half waves or more.
 /// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On arms and
 /// springs: all of 36 lists of 3 links and two half waves, 25 of 36 of 4 links and three; past the resonance of a

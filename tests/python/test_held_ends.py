@@ -88,6 +88,19 @@ def test_past_resonance_no_shape_is_where_the_list_has_none(ends, kind, seed):
     assert all(known(shapes, offset, height) for offset, height, _ in found)
 
 
+@pytest.mark.parametrize("speed", [3.0, 8.649])
+def test_a_rod_that_is_hardly_pulled_leaves_a_list_open(speed):
+    """It could settle in two directions; here the middle one is nearly upright between two that lean."""
+    rods = rc.Chain(mass=np.ones(3), length=1.0, centroid=0.5, radius_of_gyration=12**-0.5)
+    held = rc.Held(rods, span=0.633, weightless=speed == 3.0)
+    shapes = rc.steady_shapes(held, angular_speed=speed, gravity=G)
+    found = shapes_by_pins(held, speed, np.random.default_rng(0), 100, 1)
+    assert found
+    assert not shapes.complete
+    assert all(known(shapes, offset, height) for offset, height, _ in found)
+    assert np.diff(shapes.undecided).sum() < 1e-6
+
+
 @pytest.mark.parametrize("ends", ENDS)
 def test_without_gravity(ends):
     rng = np.random.default_rng(3)

@@ -294,15 +294,14 @@ class HeldCells : public HeldBounds {
                    in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
         };
         if (to - from > 0.07) return in_halves();
-        // Newton's method about the middle of the arc: slopes are those between it and where the link may be
-        const auto [s, c] = arc(quarter, (from + to) / 2, (from + to) / 2);
-        const Span left = at.along * s + turning * s * c - R * c;
+        // Newton's method about the middle, with slopes between it and where the link may be
         for (int round = 0; round < 3; ++round) {
-            const Span beside_s = hull(sine, s), beside_c = hull(cosine, c);
-            const Span growth = at.along * beside_c + turning * (square(beside_c) - square(beside_s)) + R * beside_s;
+            const Span at_s(sine.middle()), at_c(cosine.middle()), size = sqrt(square(at_s) + square(at_c));
+            const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s), near_c = hull(cosine, c);
+            const Span growth = at.along * near_c + turning * (square(near_c) - square(near_s)) + R * near_s;
             if (!growth.positive()) break;
-            const Span turn = -(left / growth);
-            sine = common(sine, s + beside_c * turn), cosine = common(cosine, c - beside_s * turn);
+            const Span turn = (R * c - at.along * s - turning * s * c) / growth;
+            sine = common(sine, s + near_c * turn), cosine = common(cosine, c - near_s * turn);
             if (!(sine.low <= sine.high && cosine.low <= cosine.high)) return false;
         }
         Start next = chain;
