@@ -12,6 +12,7 @@
 namespace {
 
 using revchain::Cord;
+using HeldCord = revchain::Held<Cord>;
 using revchain::CordModes;
 using revchain::CordShape;
 using revchain::CordShapes;
@@ -58,11 +59,12 @@ Cord cord_of(double length, std::optional<double> weight, const Density& density
     return Cord(length, options);
 }
 
-CordModes modes(const Cord& cord, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
+template <class System>
+CordModes modes(const System& cord, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
                 std::optional<std::tuple<double, double, double>> angular_speed, std::optional<double> rtol,
-                revchain::Progress* progress) {
+                revchain::Progress* progress, double gravity) {
     const py::gil_scoped_release release;
-    revchain::ModesOptions<double> options{.first = first, .count = count};
+    revchain::ModesOptions<double> options{.first = first, .count = count, .gravity = gravity};
     if (conical_height) options.conical_height = {conical_height->first, conical_height->second};
     if (angular_speed) {
         options.angular_speed = {std::get<0>(*angular_speed), std::get<1>(*angular_speed)};
@@ -107,7 +109,8 @@ void bind_cord(py::module_& module) {
     };
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
         .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
-        .def("__call__", [](const LineDensity& density, double s) { return density.about(s)[0]; }, "s"_a)
+        .def(
+            "__call__", [](const LineDensity& density, double s) { return density.about(s)[0]; }, "s"_a)
         .def("weight_below", &LineDensity::weight_below, "s"_a)
         .def(py::pickle(&get_state, &set_state));
     py::class_<Cord>(module, "Cord", "A flexible cord hung from one end; immutable.")
@@ -125,20 +128,26 @@ void bind_cord(py::module_& module) {
         .def("slope", &along<&CordModes::slope>, "arc_length"_a)
         .def_property_readonly("nodes", &of_modes<&CordModes::nodes>)
         .def_property_readonly("vertical_points", &of_modes<&CordModes::vertical_points>);
-    module.def("cord_modes", &modes, "cord"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a,
-               "progress"_a = py::none());
+    py::class_<HeldCord>(module, "HeldCord", "A cord held at both ends; immutable.")
+        .def(py::init([](const Cord& cord, std::optional<double> span, std::optional<double> tension, bool weightless) {
+                 return HeldCord(cord, {.span = span, .tension = tension, .weightless = weightless});
+             }),
+             "cord"_a, "span"_a, "tension"_a, "weightless"_a);
+    module.def("cord_modes", &modes<Cord>, "cord"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
+               "rtol"_a, "progress"_a = py::none(), "gravity"_a = revchain::conical_pendulum::standard_gravity);
+    module.def("held_modes", &modes<HeldCord>, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
+               "rtol"_a, "progress"_a, "gravity"_a);
     module.def(
-        "count_cord_modes",
-        [](const Cord& cord, const Array& height) {
-            py::array_t<std::int64_t> result(std::vector<py::ssize_t>(height.shape(), height.shape() + height.ndim()));
-            const py::gil_scoped_release release;
-            std::transform(height.data(), height.data() + height.size(), result.mutable_data(), [&](double h) {
-                revchain::detail::look();
-                return revchain::count_modes(cord, {.conical_height = h});
-            });
-            return result;
+        "cord_sensitivity",
+        [](const CordModes& found) {
+            const auto s = without_lock([&] { return revchain::sensitivity(found); });
+            return py::make_tuple(to_numpy(s.length), to_numpy(s.weight), to_numpy(s.tip_weight), to_numpy(s.exponent),
+                                  to_numpy(s.tension));
         },
-        "cord"_a, "conical_height"_a);
+        "modes"_a);
+    module.def("count_cord_modes", &counts_above<Cord>, "cord"_a, "conical_height"_a,
+               "gravity"_a = revchain::conical_pendulum::standard_gravity);
+    module.def("count_held_modes", &counts_above<HeldCord>, "held"_a, "conical_height"_a, "gravity"_a);
     py::class_<CordShape>(module, "CordShape", "A steady shape of a whirling cord.")
         .def_property_readonly("arc_length", column(&CordShape::arc_length))
         .def_property_readonly("offset", column(&CordShape::offset))

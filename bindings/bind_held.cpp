@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
+#include "revchain/cord.hpp"
 #include "revchain/held.hpp"
 #include "revchain/stability.hpp"
 
@@ -13,13 +14,21 @@ using revchain::Held;
 using revchain::HeldCordShape;
 using revchain::HeldShape;
 
+/// Stiffness, carriage weight and radius of what holds an end.
+using End = std::array<double, 3>;
+revchain::Support support(const End& end) { return {end[0], end[1], end[2]}; }
+
 /// Shapes of a chain or a cord; without holding the GIL.
 template <class System>
 auto shapes(const System& system, std::optional<double> span, std::optional<double> tension, bool weightless,
-            std::optional<double> conical_height, std::optional<double> angular_speed, double gravity,
-            int max_half_waves, bool prove, long budget) {
+            const End& lower, const End& upper, std::optional<double> conical_height,
+            std::optional<double> angular_speed, double gravity, int max_half_waves, bool prove, long budget) {
     const py::gil_scoped_release release;
-    return revchain::steady_shapes(Held(system, {.span = span, .tension = tension, .weightless = weightless}),
+    return revchain::steady_shapes(Held(system, {.span = span,
+                                                 .tension = tension,
+                                                 .weightless = weightless,
+                                                 .lower = support(lower),
+                                                 .upper = support(upper)}),
                                    {.conical_height = conical_height,
                                     .angular_speed = angular_speed,
                                     .gravity = gravity,
@@ -30,8 +39,8 @@ auto shapes(const System& system, std::optional<double> span, std::optional<doub
 
 template <class System>
 void def_shapes(py::module_& module) {
-    module.def("held_shapes", &shapes<System>, "system"_a, "span"_a, "tension"_a, "weightless"_a, "conical_height"_a,
-               "angular_speed"_a, "gravity"_a, "max_half_waves"_a, "prove"_a, "budget"_a);
+    module.def("held_shapes", &shapes<System>, "system"_a, "span"_a, "tension"_a, "weightless"_a, "lower"_a, "upper"_a,
+               "conical_height"_a, "angular_speed"_a, "gravity"_a, "max_half_waves"_a, "prove"_a, "budget"_a);
 }
 
 template <class Shape>
@@ -54,6 +63,7 @@ py::class_<Shape> bind_shape(py::module_& module, const char* name, const char* 
         .def_readonly("conical_height", &Shape::conical_height)
         .def_readonly("residual", &Shape::residual)
         .def_readonly("error_bound", &Shape::error_bound)
+        .def_readonly("moment_of_inertia", &Shape::moment_of_inertia)
         .def_readonly("condition", &Shape::condition);
 }
 
@@ -65,13 +75,47 @@ py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
         .def_readonly("complete", &Shapes::complete);
 }
 
+template <class Shape>
+void def_branches(py::module_& module, const char* name) {
+    using Branch = revchain::HeldBranchOf<Shape>;
+    py::class_<Branch>(module, name, "A branch of shapes of what is held at a span.")
+        .def_readonly("mode", &Branch::mode)
+        .def_readonly("shapes", &Branch::shapes)
+        .def_readonly("folds", &Branch::folds)
+        .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); });
+}
+
+template <class System>
+void def_on_branches(py::module_& module) {
+    module.def(
+        "held_branches",
+        [](const System& system, double span, const End& lower, const End& upper, double height, double max_step) {
+            const py::gil_scoped_release release;
+            return revchain::branches(Held(system, {.span = span, .lower = support(lower), .upper = support(upper)}),
+                                      {.min_conical_height = height, .max_step = max_step});
+        },
+        "system"_a, "span"_a, "lower"_a, "upper"_a, "height"_a, "max_step"_a);
+    module.def(
+        "held_shape",
+        [](const System& system, double span, const End& lower, const End& upper, int mode, const std::string& name,
+           double value, double gravity) {
+            const py::gil_scoped_release release;
+            revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
+            (name == "conical_height"  ? options.conical_height
+             : name == "angular_speed" ? options.angular_speed
+                                       : options.top_tension) = value;
+            return revchain::steady_shape(
+                Held(system, {.span = span, .lower = support(lower), .upper = support(upper)}), options);
+        },
+        "system"_a, "span"_a, "lower"_a, "upper"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
+}
+
 }  // namespace
 
 void bind_held(py::module_& module) {
     bind_shape<HeldShape>(module, "HeldShape", "A steady shape of a chain held at both ends.")
         .def_property_readonly("force_inclination", column(&HeldShape::force_inclination))
         .def_readonly("proved", &HeldShape::proved)
-        .def_readonly("moment_of_inertia", &HeldShape::moment_of_inertia)
         .def_readonly("height_times_energy", &HeldShape::height_times_energy);
     bind_shapes<revchain::HeldShapes>(module, "HeldShapes")
         .def_property_readonly("undecided",
@@ -100,32 +144,20 @@ void bind_held(py::module_& module) {
             },
             "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
-    py::class_<revchain::HeldBranch>(module, "HeldBranch", "A branch of shapes of a chain held at a span.")
-        .def_readonly("mode", &revchain::HeldBranch::half_waves)
-        .def_readonly("shapes", &revchain::HeldBranch::shapes)
-        .def_readonly("folds", &revchain::HeldBranch::folds)
-        .def_property_readonly("end", [](const revchain::HeldBranch& b) { return std::string(to_string(b.end)); });
-    module.def(
-        "held_branches",
-        [](const Chain& chain, double span, double height, double max_step) {
-            const py::gil_scoped_release release;
-            return revchain::branches(Held(chain, {.span = span}),
-                                      {.min_conical_height = height, .max_step = max_step});
-        },
-        "chain"_a, "span"_a, "height"_a, "max_step"_a);
-    module.def(
-        "held_shape",
-        [](const Chain& chain, double span, int mode, const std::string& name, double value, double gravity) {
-            const py::gil_scoped_release release;
-            revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
-            (name == "conical_height"  ? options.conical_height
-             : name == "angular_speed" ? options.angular_speed
-                                       : options.top_tension) = value;
-            return revchain::steady_shape(Held(chain, {.span = span}), options);
-        },
-        "chain"_a, "span"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
+    def_branches<HeldShape>(module, "HeldBranch");
+    def_branches<HeldCordShape>(module, "HeldCordBranch");
+    def_on_branches<Chain>(module);
+    def_on_branches<revchain::Cord>(module);
     def_shapes<Chain>(module);
     def_shapes<revchain::Cord>(module);
+    module.def(
+        "held_stability",
+        [](const revchain::Cord& cord, const HeldCordShape& shape, bool driven) {
+            const py::gil_scoped_release release;
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            return revchain::stability(cord, shape, frame);
+        },
+        "cord"_a, "shape"_a, "driven"_a);
     module.def(
         "held_stability",
         [](const Chain& chain, const HeldShape& shape, bool driven) {

@@ -165,9 +165,11 @@ using HeldChain = revchain::Held<Chain>;
 /// Modes of a chain held straight under a tension at its upper end.
 FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> count,
                       std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
-                      std::optional<double> rtol, revchain::Progress* progress) {
+                      std::optional<double> rtol, revchain::Progress* progress, double gravity) {
     const Asked asked{first, count, conical_height, angular_speed, rtol, false, revchain::ModesMethod::automatic};
-    return {without_lock([&] { return revchain::modes(held, asked.options<double>(progress)); }), false};
+    auto options = asked.options<double>(progress);
+    options.gravity = gravity;
+    return {without_lock([&] { return revchain::modes(held, options); }), false};
 }
 
 template <std::size_t N>
@@ -244,25 +246,18 @@ void bind_linear(py::module_& module) {
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);
     py::class_<HeldChain>(module, "Held", "A chain held at both ends; immutable.")
-        .def(py::init(
-                 [](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless) {
-                     return HeldChain(chain, {.span = span, .tension = tension, .weightless = weightless});
-                 }),
-             "chain"_a, "span"_a, "tension"_a, "weightless"_a);
+        .def(py::init([](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless,
+                         const std::array<double, 3>& lower, const std::array<double, 3>& upper) {
+                 return HeldChain(chain, {.span = span,
+                                          .tension = tension,
+                                          .weightless = weightless,
+                                          .lower = {lower[0], lower[1], lower[2]},
+                                          .upper = {upper[0], upper[1], upper[2]}});
+             }),
+             "chain"_a, "span"_a, "tension"_a, "weightless"_a, "lower"_a, "upper"_a);
     module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
-               "rtol"_a, "progress"_a = py::none());
-    module.def(
-        "count_held_modes",
-        [](const HeldChain& held, const Array& height) {
-            py::array_t<std::int64_t> result(std::vector<py::ssize_t>(height.shape(), height.shape() + height.ndim()));
-            const py::gil_scoped_release release;
-            std::transform(height.data(), height.data() + height.size(), result.mutable_data(), [&](double h) {
-                revchain::detail::look();
-                return revchain::count_modes(held, {.conical_height = h});
-            });
-            return result;
-        },
-        "held"_a, "conical_height"_a);
+               "rtol"_a, "progress"_a, "gravity"_a);
+    module.def("count_held_modes", &counts_above<HeldChain>, "held"_a, "conical_height"_a, "gravity"_a);
     module.def(
         "recurrence_matrices",
         [](const Chain& chain) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <complex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,20 +44,47 @@ py::tuple response(const Carried& carried, const Array& given, bool speeds, doub
                           to_numpy(found.support_force_error));
 }
 
-py::tuple swing(const Chain<double>& chain, const Array& offsets, const Array& velocities, const Array& time,
+template <class Number>
+revchain::Vector<Number> column(const py::array_t<Number, py::array::c_style | py::array::forcecast>& array) {
+    return Eigen::Map<const revchain::Vector<Number>>(array.data(), array.size());
+}
+
+template <class System>
+py::tuple swing(const System& system, const Array& offsets, const Array& velocities, const Array& time,
                 std::optional<Index> modes, double gravity) {
-    const auto column = [](const Array& array) {
-        return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
-    };
     const revchain::SwingOptions options{.offset = column(offsets),
                                          .velocity = column(velocities),
                                          .time = as_vector(time),
                                          .count = modes,
                                          .gravity = gravity};
-    const auto found = without_lock([&] { return revchain::swing(chain, options); });
+    const auto found = without_lock([&] { return revchain::swing(system, options); });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
                           to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
                           to_numpy(found.start), found.projected, found.energy_left_out,
+                          to_numpy(found.truncation_error), to_numpy(found.error_bound));
+}
+
+template <class Numbers>
+py::array complex_numbers(const Numbers& values, std::vector<py::ssize_t> shape) {
+    py::array_t<std::complex<double>> array(std::move(shape));
+    std::copy_n(values.data(), values.size(), array.mutable_data());
+    return frozen(std::move(array));
+}
+
+using ComplexArray = py::array_t<std::complex<double>, py::array::c_style | py::array::forcecast>;
+
+py::tuple whirl_swing(const Rig& rig, const ComplexArray& offsets, const ComplexArray& velocities, const Array& time,
+                      std::optional<Index> whirls, double gravity) {
+    const revchain::WhirlSwingOptions options{.offset = column(offsets),
+                                              .velocity = column(velocities),
+                                              .time = as_vector(time),
+                                              .count = whirls,
+                                              .gravity = gravity};
+    const auto found = without_lock([&] { return revchain::whirl_swing(rig, options); });
+    const std::vector<py::ssize_t> shape{found.offset.rows(), found.offset.cols()};
+    return py::make_tuple(complex_numbers(found.offset, shape), complex_numbers(found.velocity, shape),
+                          to_numpy(found.angular_speed), complex_numbers(found.amplitude, {found.amplitude.size()}),
+                          to_numpy(found.energy), to_numpy(found.shape), found.energy_left_out,
                           to_numpy(found.truncation_error), to_numpy(found.error_bound));
 }
 
@@ -66,5 +95,8 @@ void bind_response(py::module_& module) {
                "gravity"_a, "threads"_a = 1);
     module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
                "gravity"_a, "threads"_a = 1);
-    module.def("swing", &swing, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a, "gravity"_a);
+    module.def("swing", &swing<Chain<double>>, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
+               "gravity"_a);
+    module.def("rig_swing", &swing<Rig>, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a, "gravity"_a);
+    module.def("whirl_swing", &whirl_swing, "rig"_a, "offsets"_a, "velocities"_a, "time"_a, "whirls"_a, "gravity"_a);
 }

@@ -5,7 +5,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -97,3 +99,16 @@ void bind_points(py::module_& module);
 void bind_elliptic(py::module_& module);
 void bind_response(py::module_& module);
 void bind_models(py::module_& module);
+
+/// How many modes are above each conical height, shape of the argument; the GIL released.
+template <class System>
+py::array_t<std::int64_t> counts_above(const System& system, const Array& height, double gravity) {
+    py::array_t<std::int64_t> result(std::vector<py::ssize_t>(height.shape(), height.shape() + height.ndim()));
+    std::int64_t* out = result.mutable_data();
+    const py::gil_scoped_release release;
+    std::transform(height.data(), height.data() + height.size(), out, [&](double h) {
+        revchain::detail::look();
+        return count_modes(system, {.conical_height = h, .gravity = gravity});
+    });
+    return result;
+}

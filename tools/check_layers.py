@@ -77,7 +77,10 @@ PUBLIC = {
     "analytic.hpp": "",
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
-FURTHER = {"branches.hpp": {"finite/branch/diagram.hpp"}}  # more files that define what a public header declares
+FURTHER = {  # more files that define what a public header declares
+    "branches.hpp": {"finite/branch/diagram.hpp"},
+    "cord.hpp": {"analytic/cord_sensitivity.hpp"},
+}
 MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
 PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}

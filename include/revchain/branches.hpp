@@ -242,31 +242,6 @@ SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options);
 ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
 ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& options);
 
-namespace detail {
-template <class System>
-concept WithoutBranches = std::same_as<System, Held<Cord>>;
-[[noreturn]] inline void throw_no_branches(std::string_view place) {
-    throw_invalid(place,
-                  "branches are not yet followed for a held cord; cut it into links, or ask steady_shapes of "
-                  "it at each speed");
-}
-}  // namespace detail
-
-/// Throw InvalidArgument: branches of a held cord cannot be followed yet. Those of a `Cord` are in cord.hpp, those of a
-/// held chain in held.hpp.
-template <detail::WithoutBranches System>
-Branch branch(const System&, const BranchOptions&) {
-    detail::throw_no_branches("branch");
-}
-template <detail::WithoutBranches System>
-Branches branches(const System&, const BranchesOptions&) {
-    detail::throw_no_branches("branches");
-}
-template <detail::WithoutBranches System>
-SteadyShape steady_shape(const System&, const SteadyShapeOptions&) {
-    detail::throw_no_branches("steady_shape");
-}
-
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)

@@ -9,6 +9,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/cord/diagram.hpp"
 #include "revchain/finite/cord/shape_on_branch.hpp"
+#include "revchain/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/system/cord.hpp"
@@ -33,7 +34,8 @@
 /// Greenhill (1908) section 4.
 namespace revchain {
 
-/// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first.
+/// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first. Of a cord that is held straight
+/// at both ends the free end is the lower end.
 struct CordModes {
     Cord cord;
     Index first = 1;                  ///< number of the slowest mode here
@@ -41,20 +43,22 @@ struct CordModes {
     Vector<double> error_bound{};     ///< (k,) relative; measured to hold (see `modes`)
     std::string method{};             ///< that found the heights
     Status status = Status::success;  ///< whether `rtol` is met
+    std::optional<HeldBy> held{};     ///< absent: the cord hangs
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, divided by that of the free end. Throws InvalidArgument for s not
-    /// in 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
+    /// Offset of the mode at index j at arc length s, divided by that of the free end; of a cord held at both ends, by
+    /// the largest one, which is that at the lowest vertical point. Throws InvalidArgument for s not in 0 ... length.
+    /// Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
     double offset(Index j, double s) const;
     Vector<double> offset(Index j, const Vector<double>& s) const;
-    /// d offset / ds, -1 / lambda at the free end. Throws and costs as `offset`.
+    /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
     double slope(Index j, double s) const;
     Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending, without the support.
+    /// Arc lengths at which the mode at index j crosses the axis, ascending, without the ends held.
     Vector<double> nodes(Index j) const;
     /// Arc lengths at which it is vertical, one above each node, ascending: what hangs below has its centre of gravity
-    /// on the axis.
+    /// on the axis. Of a cord held at both ends one below each node, and one below the upper end.
     Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -82,6 +86,35 @@ CordModes modes(const Cord& cord, const ModesOptions<double>& options = {});
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for more than 1e15
 /// modes, and with series for a length above 1e6 heights.
 Index count_modes(const Cord& cord, const CountOptions<double>& options);
+
+/// Modes of a uniform cord that a tension holds straight between two points of the axis, and how many are slower than a
+/// speed. Without gravity a height is `gravity` over the square of the speed, with the gravity of the options: the
+/// modes are those of a string, n = k pi sqrt(tension / (mass length)).
+///
+/// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp (tests/cpp/cord.cpp).
+/// Offsets are within 1e-15 times the mode number of the largest one. Cost: as of a cord with a tip weight.
+/// Throws InvalidArgument for a span, for a tension that does not exceed the weight (the cord would not be straight),
+/// and as for a cord that hangs.
+CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
+Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
+
+/// d(conical height)/d(datum) of each mode, (k,); all else is held. Of speeds: d n = - n / (2 lambda) d lambda.
+struct CordSensitivity {
+    Index first = 1;
+    Vector<double> length;      ///< of a cord as a whole, its density spread in proportion
+    Vector<double> weight;      ///< of the cord without its tip, spread in proportion
+    Vector<double> tip_weight;  ///< 0 of a cord held at both ends
+    Vector<double> exponent;    ///< of the density, the weight kept; NaN where it is a function
+    Vector<double> tension;     ///< at the upper end; 0 of a cord that hangs
+};
+
+/// How the data of a cord move the heights of its modes. A change dV of the weight below, tip and all, moves
+///     lambda = integral of y^2 dV / integral of V y'^2    by    - integral of dV y' (2 y + lambda y') / that of V
+/// y'^2.
+/// Heights are as the length; they depend on the ratio of weights (and tension) alone.
+/// Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
+/// held at both ends two slopes, or 16 for each half wave.
+CordSensitivity sensitivity(const CordModes& modes);
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed through every fold until it first comes to
 /// the conical height or speed given.
@@ -117,7 +150,7 @@ CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
 /// not throw, where the number is not met. Otherwise as `steady_shape`.
 CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options);
 
-/// The stability of a steady shape of a cord.
+/// The stability of a steady shape of a cord that hangs.
 ///
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), 8 and 10 nodes each. `exponents` are those
 /// of which the two agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely many. `margin`
@@ -133,6 +166,8 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.
 Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
+/// Of a cord held at both ends, which stay where they are.
+Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// A start of a cord: none (on the axis, at rest); values at `CordSwingOptions::arc_length`, straight between them; or
 /// a continuous function of the arc length. The support's must be 0.
@@ -179,4 +214,5 @@ Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 }  // namespace revchain
 
 #include "revchain/analytic/cord.hpp"
+#include "revchain/analytic/cord_sensitivity.hpp"
 #include "revchain/finite/stability/cord.hpp"

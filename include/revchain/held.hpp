@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "revchain/count.hpp"
 #include "revchain/explain.hpp"
 #include "revchain/finite/held/branch.hpp"
-#include "revchain/finite/held/cord.hpp"
+#include "revchain/finite/held/cord_branch.hpp"
 #include "revchain/finite/held/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/system/cord.hpp"
@@ -31,15 +33,24 @@ namespace revchain {
 
 /// How the two ends are held: give either `span` or `tension`.
 struct HeldBy {
-    std::optional<double> span{};     ///< distance of the two ends, less than the length
+    std::optional<double> span{};     ///< distance of the two ends along the axis, less than the length
     std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
-    bool weightless = false;          ///< no gravity: weights are masses; for a span, the speed plays no part
+    bool weightless = false;          ///< no gravity: weights are masses; between firm ends the speed plays no part
+    Support lower{};                  ///< of a chain: what holds its lower end; a radius below 0 is on the other side
+    Support upper{};                  ///< what holds its upper end
+
+    bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
+    bool firm() const { return lower.is_firm() && upper.is_firm(); }
 };
 
-/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here.
+/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis
+/// unless `lower` and `upper` say otherwise: on a spring, alike in all directions across the axis, or carried round the
+/// axis at a radius, both in one plane with it, as two arms of a jib are.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, for one that is not positive and finite, a
-/// span that is not less than the length, and a cord that is not uniform or has a tip weight.
+/// span that is not less than the length, firm ends as far apart as the length, stiffnesses not positive, carriages
+/// negative, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform
+/// or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
@@ -51,6 +62,11 @@ class Held {
         if (by.span) detail::require_positive("Held", "span", *by.span);
         if (by.span && !(*by.span < length()))
             detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
+        check("lower", by.lower), check("upper", by.upper);
+        const double apart = by.span ? std::hypot(*by.span, by.upper.radius - by.lower.radius) : 0;
+        if (by.firm() && by.span && !(apart < length()))
+            detail::throw_invalid(
+                "Held", "the ends must be nearer to each other than the length " + detail::in_digits(length()), apart);
         if constexpr (std::is_same_v<System, Cord>)
             if (!system_.is_uniform() || system_.tip_weight() != 0)
                 detail::throw_invalid("Held",
@@ -68,6 +84,20 @@ class Held {
     }
 
    private:
+    void check(const std::string& name, const Support& end) const {
+        if (!(end.stiffness > 0)) detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness);
+        detail::require_not_negative("Held", name + " carriage weight", end.carriage_weight);
+        detail::require_finite("Held", name + " radius", end.radius);
+        if (by_.tension && end.radius != 0)
+            detail::throw_invalid(
+                "Held", "under a tension both ends must be on the axis; give the span instead; " + name + " radius",
+                end.radius);
+        if (std::is_same_v<System, Cord> && !(end == Support{}))
+            detail::throw_invalid(
+                "Held", "the ends of a cord are firm points on the axis; cut it into links; " + name + " stiffness",
+                end.stiffness);
+    }
+
     System system_;
     HeldBy by_;
 };
@@ -83,11 +113,12 @@ struct HeldShapesOptions {
     long budget = 300'000;  ///< limit of looks at links for the proof of completeness, 1 to 2 microseconds each
 };
 
-/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves. The first of each
-/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then gravity grows.
-/// For a tension these are all shapes on that branch with this tension at the upper end. Then, of a chain, every other
-/// shape found. Each link points along the force on it, as threads do. `missing` lists the numbers of half waves for
-/// which there is none.
+/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves: these are counted
+/// about the line between the places of rest of the two ends, and ends on springs count as pins do. The first of each
+/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then brought to their
+/// radii and springs, then gravity grows. For a tension these are all shapes on that branch with this tension at the
+/// upper end. Then, of a chain, every other shape found. Each link points along the force on it, as threads do.
+/// `missing` lists the numbers of half waves for which there is none.
 /// `complete`: proved, no other shape has one of these numbers of half waves. Otherwise `undecided` gives the ranges of
 /// the lowest link's inclination (rad) with which others may begin. A cord has `complete` only at a span without
 /// gravity.
@@ -101,9 +132,11 @@ struct HeldShapesOptions {
 /// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
 /// double-double, and Krawczyk's test in intervals of double-double proves the bound. The list is proved complete by
 /// splitting all pulls along the lowest link, and all its inclinations, until each part has one shape for certain or
-/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 102 of 108 lists of 3, 6 and 9 links with l <= a, one
+/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 99 of 108 lists of 3, 6 and 9 links with l <= a, one
 /// half wave; none of chains with l > a or with massless links between others, and seldom of two half waves or more.
-/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left.
+/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On arms and
+/// springs: all of 36 lists of 3 links and two half waves, 25 of 36 of 4 links and three; past the resonance of a
+/// carriage on its spring 8 of 24 of 3 links and three (tests/python/test_held_ends.py has part of them).
 /// For cords: power series of degree
 /// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
 /// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
@@ -116,28 +149,25 @@ HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOption
 HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options = {});
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
-/// choose them as they do for a hanging chain. In `shapes` both ends are 0, the largest offset is 1, and that of the
-/// lowest free pin is positive; nodes are distances from the lower end. Shapes of finite amplitude begin at these
-/// heights, where the span is all but the length.
+/// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
+/// largest offset is 1, and that of the lowest pin that moves is positive; nodes are distances from the lower end.
+/// Shapes of finite amplitude begin at these heights, where the span is all but the length. Without gravity a height is
+/// `gravity` over the square of the speed, with the gravity of the options. Modes of a held cord: cord.hpp.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
 /// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
 /// next height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no
 /// effect.
-/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), without gravity (the
-/// result holds conical heights), for a tension that does not exceed the weight (the chain would not be straight), for
-/// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, less one for each
-/// free pin without mass.
+/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
+/// does not exceed the weight (the chain would not be straight), for `certify`, and for wrong numbers and windows as
+/// `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
+/// moves without mass.
 Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options = {});
 
 /// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
 /// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
 Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
-
-/// Throws InvalidArgument: modes of a cord under tension are not available; cut the cord into links.
-Modes<double> modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
-Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// How far branches go: give one of the first two.
 struct HeldBranchesOptions {
@@ -147,33 +177,40 @@ struct HeldBranchesOptions {
     double max_step = 0.1;  ///< between two shapes: relative change of the forces at the end and of the height
 };
 
-/// The branches of a chain held at a span, one for each number of half waves from 1 up to the last that has a shape at
-/// the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without gravity,
-/// and is followed to slower speeds, through folds, until a link becomes slack or turns over (`slack`), the greatest
-/// speed is reached again (`speed`), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half
-/// waves is number k - 1 of these.
+/// The branches of a chain or cord held at a span, one for each number of half waves from 1 up to the last that has a
+/// shape at the greatest speed. Each begins there with the shape that is reached from the nearly straight one without
+/// gravity between firm ends on the axis (radii and the springs' compliances are then brought in), and is followed to
+/// slower speeds, through folds, until a link becomes slack or turns over (`slack`), the cord hangs folded along the
+/// axis (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths (`rest`: off
+/// the axis), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half waves is number k - 1 of
+/// these. Between ends off the axis there are two of each: modes 2 k - 1, whose lowest link first leads outwards, and
+/// 2 k, inwards. One that comes back to the greatest speed where another would begin stands for both.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
 /// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
 /// none. Accuracy: 1e-15 rad where `condition` is moderate, an estimate. Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, without gravity, unless exactly one of height and speed is given, positive and
 /// finite, and for a step not positive.
+/// A cord folds towards a slowest speed at which one of its two straight parts, hung from its end, begins to whirl; its
+/// offsets vanish there faster than any power of the distance, so that the last speed found is some percent above that.
 std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options);
+std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options);
 
 /// Which shape of a branch: give one of the three after `mode`.
 struct HeldShapeOptions {
-    int mode = 1;  ///< half waves with which the branch begins
+    int mode = 1;  ///< of the branch: half waves with which it begins; two for each off the axis, see `branches`
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s
     std::optional<double> top_tension{};    ///< at the upper end, in the unit of the weights
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// The shape of a chain held at a span on the branch of `mode`: at a speed that which is reached from the nearly
-/// straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
+/// The shape of a chain or cord held at a span on the branch of `mode`: at a speed that which is reached from the
+/// nearly straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
 /// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
-/// `branches` does, for a mode below 1, and where the branch does not reach what is given.
+/// `branches` does, for a mode below 1, a tension between springs, and where the branch does not reach what is given.
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
+HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options);
 
 /// Throws InvalidArgument: a held chain or cord cannot be tuned yet.
 template <class System>

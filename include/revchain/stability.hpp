@@ -45,7 +45,7 @@ struct Stability {
     Verdict verdict = Verdict::undecided;
     std::vector<std::complex<double>>
         exponents;                  ///< s of exp(s n t), by imaginary part; free: without the double 0 of a rotation
-    double growth_rate = 0;         ///< largest real part of an exponent; at least 0
+    double growth_rate = 0;         ///< largest real part of an exponent; at least 0; NaN: not known
     double margin = 0;              ///< a growth rate up to this may be rounding error
     Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)
     /// The effect of a small damping c on each exponent, to first order: times g c it is added to the real part of s n.
@@ -73,10 +73,12 @@ struct Stability {
 /// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
 
-/// Returns what becomes of a small disturbance of a shape with both ends held. Both ends stay where they are. N links
-/// have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity.
+/// Returns what becomes of a small disturbance of a shape with both ends held. Firm ends stay where they are, those on
+/// springs move across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and
+/// without gravity; each end on a spring adds 4, or 2. Arms turn at a constant speed: between ends off the axis no
+/// rotation is free, and there are 2 more if free.
 /// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3/2.
-/// Throws InvalidArgument as above, and for a free pin that carries no mass.
+/// Throws InvalidArgument as above, and for a pin that moves and carries no mass, but for the upper end.
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// How a rig is disturbed, and how the shape of it was found.
@@ -98,8 +100,11 @@ struct RigStabilityOptions {
 /// ball joints pass no torque along a link. Driven, the links turn with the plane, and wheels on free bearings keep
 /// theirs.
 /// Still fluid: buoyancy and added mass, in every direction of motion.
-/// Throws InvalidArgument as above; for weight displaced of a fluid that turns, since its own motion around a disturbed
-/// link is not modelled; for a pin or a motion without mass; for a flywheel that acts on a massless upper end.
+/// Fluid that turns: how it moves around a disturbed link (inertial waves, which depend on its walls) is not modelled,
+/// so that there are no exponents. The energy says whether a shape is a minimum, at constant speed and but for a
+/// rotation; it is then stable in any fluid, viscous or not. Else the verdict is undecided, and the growth rate NaN.
+/// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; for a flywheel that
+/// acts on a massless upper end.
 Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options = {});
 
 }  // namespace revchain

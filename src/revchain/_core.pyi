@@ -180,6 +180,7 @@ def gyrostatic_string_rotation(
 
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
+_End = tuple[float, float, float]
 
 _Complex = numpy.typing.NDArray[numpy.complex128]
 
@@ -700,6 +701,8 @@ class HeldCordShape:
     @property
     def error_bound(self) -> float: ...
     @property
+    def moment_of_inertia(self) -> float: ...
+    @property
     def condition(self) -> float: ...
     @property
     def arc_length(self) -> _Floats: ...
@@ -725,9 +728,36 @@ class HeldBranch:
     @property
     def end(self) -> str: ...
 
-def held_branches(chain: Chain, span: float, height: float, max_step: float) -> list[HeldBranch]: ...
-def held_shape(chain: Chain, span: float, mode: int, name: str, value: float, gravity: float) -> HeldShape: ...
+class HeldCordBranch:
+    @property
+    def mode(self) -> int: ...
+    @property
+    def shapes(self) -> list[HeldCordShape]: ...
+    @property
+    def folds(self) -> list[int]: ...
+    @property
+    def end(self) -> str: ...
+
+@typing.overload
+def held_branches(
+    system: Chain, span: float, lower: _End, upper: _End, height: float, max_step: float
+) -> list[HeldBranch]: ...
+@typing.overload
+def held_branches(
+    system: Cord, span: float, lower: _End, upper: _End, height: float, max_step: float
+) -> list[HeldCordBranch]: ...
+@typing.overload
+def held_shape(
+    system: Chain, span: float, lower: _End, upper: _End, mode: int, name: str, value: float, gravity: float
+) -> HeldShape: ...
+@typing.overload
+def held_shape(
+    system: Cord, span: float, lower: _End, upper: _End, mode: int, name: str, value: float, gravity: float
+) -> HeldCordShape: ...
+@typing.overload
 def held_stability(chain: Chain, shape: HeldShape, driven: bool) -> Stability: ...
+@typing.overload
+def held_stability(cord: Cord, shape: HeldCordShape, driven: bool) -> Stability: ...
 class Branch:
     @property
     def mode(self) -> int: ...
@@ -868,6 +898,14 @@ def swing(
 ) -> tuple[
     _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, bool, float, _Floats, _Floats
 ]: ...
+def rig_swing(
+    rig: Rig, offsets: _Floats, velocities: _Floats, time: _Floats, modes: int | None, gravity: float
+) -> tuple[
+    _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, bool, float, _Floats, _Floats
+]: ...
+def whirl_swing(
+    rig: Rig, offsets: _Complex, velocities: _Complex, time: _Floats, whirls: int | None, gravity: float
+) -> tuple[_Complex, _Complex, _Floats, _Complex, _Floats, _Floats, float, _Floats, _Floats]: ...
 def stiffness_for_speed(rig: Rig, angular_speed: float, gravity: float) -> float: ...
 
 class Cord:
@@ -932,7 +970,12 @@ class CordShapes:
 
 class Held:
     def __init__(
-        self, chain: Chain, span: float | None, tension: float | None, weightless: bool
+        self, chain: Chain, span: float | None, tension: float | None, weightless: bool, lower: _End, upper: _End
+    ) -> None: ...
+
+class HeldCord:
+    def __init__(
+        self, cord: Cord, span: float | None, tension: float | None, weightless: bool
     ) -> None: ...
 
 class CordBranch:
@@ -1003,9 +1046,12 @@ def cord_modes(
     angular_speed: tuple[float, float, float] | None,
     rtol: float | None,
     progress: Progress | None = None,
+    gravity: float = 9.80665,
 ) -> CordModes: ...
-def count_cord_modes(cord: Cord, conical_height: _Floats) -> numpy.typing.NDArray[numpy.int64]: ...
+def cord_sensitivity(modes: CordModes) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
+def count_cord_modes(cord: Cord, conical_height: _Floats, gravity: float = 9.80665) -> numpy.typing.NDArray[numpy.int64]: ...
 def cord_shapes(cord: Cord, height: float, scanned: int) -> CordShapes: ...
+@typing.overload
 def held_modes(
     held: Held,
     first: int,
@@ -1013,15 +1059,36 @@ def held_modes(
     conical_height: tuple[float, float] | None,
     angular_speed: tuple[float, float, float] | None,
     rtol: float | None,
-    progress: Progress | None = None,
+    progress: Progress | None,
+    gravity: float,
 ) -> Modes: ...
-def count_held_modes(held: Held, conical_height: _Floats) -> numpy.typing.NDArray[numpy.int64]: ...
+@typing.overload
+def held_modes(
+    held: HeldCord,
+    first: int,
+    count: int | None,
+    conical_height: tuple[float, float] | None,
+    angular_speed: tuple[float, float, float] | None,
+    rtol: float | None,
+    progress: Progress | None,
+    gravity: float,
+) -> CordModes: ...
+@typing.overload
+def count_held_modes(
+    held: Held, conical_height: _Floats, gravity: float
+) -> numpy.typing.NDArray[numpy.int64]: ...
+@typing.overload
+def count_held_modes(
+    held: HeldCord, conical_height: _Floats, gravity: float
+) -> numpy.typing.NDArray[numpy.int64]: ...
 @typing.overload
 def held_shapes(
     system: Chain,
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,
@@ -1035,6 +1102,8 @@ def held_shapes(
     span: float | None,
     tension: float | None,
     weightless: bool,
+    lower: _End,
+    upper: _End,
     conical_height: float | None,
     angular_speed: float | None,
     gravity: float,

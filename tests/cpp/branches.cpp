@@ -229,14 +229,3 @@ TEST_CASE("the end of a branch is given as a speed or as a height", "[finite]") 
         CHECK_THROWS_AS(low.shapes_at(bad), revchain::InvalidArgument);
     }
 }
-
-TEST_CASE("branches of a held cord are refused with what to ask instead", "[finite]") {
-    const auto refused = [](const auto& system) {
-        using Catch::Matchers::ContainsSubstring;
-        const auto instead = ContainsSubstring("ask steady_shapes of it at each speed");
-        CHECK_THROWS_WITH(revchain::branches(system, {.min_conical_height = 0.1}), instead);
-        CHECK_THROWS_WITH(revchain::branch(system, {.min_conical_height = 0.1}), instead);
-        CHECK_THROWS_WITH(revchain::steady_shape(system, {.tip_radius = 0.1}), instead);
-    };
-    refused(revchain::Held(revchain::Cord(1.0), {.span = 0.5}));
-}

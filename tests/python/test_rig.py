@@ -71,7 +71,7 @@ def test_rigs_of_equal_numbers_are_equal():
     [
         (rc.Support, "stiffness", (0.0, -3.5, np.nan, -np.inf)),
         (rc.Support, "weight", (-1.25, np.inf, np.nan)),
-        (rc.Support, "radius", (-0.5, np.inf, np.nan)),
+        (rc.Support, "radius", (np.inf, np.nan)),
         (rc.Flywheel, "momentum", ([0.0, np.inf], np.nan)),
         (rc.Flywheel, "axial_moment", ([-2.5, 0.0], np.inf)),
         (rc.Displaced, "weight", ([0.0, -7.5], np.nan)),
@@ -100,6 +100,7 @@ def test_wrong_parts_are_refused(make, name, values):
         ({"displaced": rc.Displaced(weight=1.0, added_weight=0.5), "fluid": "turning"}, "no added mass, got 0.5"),
         ({"displaced": rc.Displaced(mass=1.0)}, "displaced"),
         ({"support": rc.Support(mass=1.0)}, "support"),
+        ({"support": rc.Support(radius=-0.5)}, "support radius must not be negative, got -0.5"),
         ({"inverted": [1, 0]}, r"inverted must be True, False or an array of them"),
         ({"inverted": [True]}, r"one for each of the 2 links, got \[True\]"),
         ({"fluid": "air"}, r"fluid must be one of still, turning, got 'air'"),

@@ -201,12 +201,33 @@ def test_the_other_direction_mirrors_wheels():
         np.testing.assert_allclose(p.stability().internal_damping, q.stability().internal_damping, rtol=1e-9)
 
 
+BODIES3 = rc.Chain(weight=[1.0, 2.0, 0.8], length=[0.5, 0.4, 0.6], centroid=[0.3, 0.2, 0.35], radius_of_gyration=0.1)
+
+
 def test_what_is_refused():
-    turning = rigged(THREE, displaced=[0.3, 0.0, 0.1], fluid="turning")
-    with pytest.raises(ValueError, match=r"fluid that turns .*links\[0\]"):
-        rc.steady_shapes(turning, conical_height=0.3)[0].stability()
     wheel = rigged(THREE, stiffness=80.0, momentum=[0.0, 0.0, 0.1])
     with pytest.raises(ValueError, match="give it a carriage"):
         rc.steady_shapes(wheel, conical_height=0.5)[0].stability()
     with pytest.raises(ValueError, match="frame must be"):
         rc.steady_shapes(RIGS["arm"], conical_height=0.3)[0].stability(frame="fixed")
+
+
+@pytest.mark.parametrize("more", [{}, {"stiffness": 60.0, "carriage": 0.5}, {"radius": 0.2}, {"momentum": [0.1, 0.0, -0.1]}])
+@pytest.mark.parametrize("frame", ["free", "driven"])
+def test_in_a_fluid_that_turns_the_energy_decides(more, frame):
+    """Signs of the second differences of the energy in the turning frame, in 60 digits; no other motion is known."""
+    seen = set()
+    for displaced in ([0.3, 0.2, 0.1], [0.1, 0.5, 0.0]):
+        rig = rigged(BODIES3, displaced=displaced, centroid=0.3, gyration=0.15, fluid="turning", **more)
+        for shape in rc.steady_shapes(rig, conical_height=0.12):
+            got = shape.stability(frame=frame)
+            stiff = small_motions(rig, shape, frame).stiffness
+            with mp.workdps(60):
+                signs = [x for x in mp.eigsy(stiff, eigvals_only=True) if abs(x) > mp.mpf(10) ** -8]
+            rotates = frame == "free" and not rig.support.radius
+            assert len(signs) == stiff.rows - rotates
+            assert got.negative_directions == sum(x < 0 for x in signs)
+            assert got.verdict == ("undecided" if got.negative_directions else "minimum")
+            assert got.exponents.size == 0 and math.isnan(got.growth_rate) == (got.verdict == "undecided")
+            seen.add(got.verdict)
+    assert "minimum" in seen

@@ -16,7 +16,7 @@ from revchain.scenes.ask import QUESTIONS, Ask, AskModes, Spread
 from revchain.scenes.scene import Scene, json_schema
 from revchain.scenes.tables import Link, UniformChain
 
-_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Held")
+_HANGING = ("Link", "UniformChain", "TaperedChain", "Cord", "Support", "Flywheel", "Displaced", "Held", "End")
 
 ONE = {"mass": 1.0, "length": 1.0}
 
@@ -270,6 +270,21 @@ def test_a_cord():
     rope = rc.Scene.from_dict({"cord": {"length": 1, "mass": 1}, "held": {"span": 0.5}})
     shapes = rope.steady_shapes(angular_speed="200 rpm", max_half_waves=2)
     assert len(shapes) == 2 and shapes.system == rc.Held(rc.Cord(1.0, mass=1.0), span=0.5)
+
+
+def test_ends_on_arms_and_springs():
+    lower, upper = {"stiffness": "2 kN/m", "mass": 0.3}, {"radius": "-50 cm"}
+    made = rc.Scene.from_dict({**RODS, "held": {"span": 0.6, "lower": lower, "upper": upper}})
+    ends = {"lower": rc.Support(stiffness=2000.0, mass=0.3), "upper": rc.Support(radius=-0.5)}
+    assert made.system() == rc.Held(rc.Scene.from_dict(RODS).system(), span=0.6, **ends)
+    for held, message in (
+        ({"span": 0.6, "lower": {"mass": 0.3}}, r"held\.lower\.stiffness: is missing"),
+        ({"span": 0.6, "upper": {"radius": 30.0}}, r"held\.span: the ends must be nearer"),
+        ({"tension": 200.0, "upper": {"radius": 0.1}}, r"held\.upper: end must be on the axis under a tension"),
+        ({"span": 0.6, "upper": {"stiffness": -1.0}}, r"held\.upper\.stiffness"),
+    ):
+        with pytest.raises(rc.SceneError, match=message):
+            rc.Scene.from_dict({**RODS, "held": held}).system()
 
 
 def test_certify_and_precision_of_a_scene():

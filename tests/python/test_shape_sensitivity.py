@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Derivatives of steady shapes against differences of shapes found in 40 digits by Newton's method on the moments."""
 
+import math
 from types import SimpleNamespace
 
 import mpmath as mp
 import numpy as np
 import pytest
+import rigs
 from mechanics import random_chain
+from rigs import G, columns
 
 import revchain as rc
 
@@ -114,8 +117,171 @@ def test_along_a_branch_and_scales():
     np.testing.assert_allclose(scaled, shape.offset, rtol=1e-9, atol=1e-11)
 
 
-def test_what_it_is_not_for():
-    rig = rc.Rig(rc.Chain.uniform_rods(2, mass=1.0), support=rc.Support(stiffness=20.0))
-    shape = rc.steady_shapes(rig, angular_speed=9.0)[0]
-    with pytest.raises(ValueError, match="is for shapes of a Chain, or of a Rig with a firm support"):
-        _ = shape.sensitivity
+class Figure:
+    """A rig's steady shape and what may change, in 50 digits: moments, body by body, from the potential in the turning
+    frame. Data are by weight."""
+
+    def __init__(self, rig, shape):
+        self.rig, self.size, self.slides = rig, len(rig), np.isfinite(rig.support.stiffness)
+        self.data = {name: [mp.mpf(float(x)) for x in column] for name, column in vars(columns(rig)).items()}
+        support = rig.support
+        self.data |= {"stiffness": [mp.mpf(support.stiffness)], "carriage": [mp.mpf(support.carriage)]}
+        self.data["speed"] = [shape.direction * mp.sqrt(mp.mpf(G) / mp.mpf(float(shape.conical_height)))]
+        self.data["radius"] = [mp.mpf(support.radius)]
+        self.start = [mp.mpf(float(x)) for x in [*shape.inclination, shape.offset[-1]]][: self.size + self.slides]
+        self.slope = None
+        self.start, self.slope = self.found(self.data), self.slopes(self.data)
+
+    def balance(self, data, place):
+        """Moments, the force on the support, the sideways pull at upper pins, and what hangs there."""
+        size, n = self.size, data["speed"][0]
+        rate = n * n / mp.mpf(G)
+        sine, cosine = [mp.sin(x) for x in place[:size]], [mp.cos(x) for x in place[:size]]
+        top = place[size] if self.slides else data["radius"][0]
+        moment, pull, hung = ([mp.mpf(0)] * size for _ in range(3))
+        for m in range(size):
+            fluid, lent = data["fluid"][m], -data["fluid"][m] if self.rig.fluid == "turning" else data["added"][m]
+            for bears, moves, depth, turn in (
+                (data["w"][m], data["w"][m], data["h"][m], data["rho"][m]), (-fluid, lent, data["hf"][m], data["rf"][m]),
+            ):  # fmt: skip
+                out = top + depth * sine[m] + sum(data["a"][r] * sine[r] for r in range(m + 1, size))
+                for r in range(m, size):
+                    arm = depth if r == m else data["a"][r]
+                    moment[r] += arm * (bears * sine[r] - moves * rate * out * cosine[r])
+                    pull[r] += moves * rate * out
+                    hung[r] += bears
+                moment[m] -= moves * rate * turn**2 * sine[m] * cosine[m]
+            moment[m] += (data["p"][m] + data["c"][m] * n * cosine[m] / mp.mpf(G)) * n * sine[m]
+        drawn = data["stiffness"][0] * (top - data["radius"][0]) if self.slides else 0
+        force = [drawn - data["carriage"][0] * rate * top - pull[-1]] if self.slides else []
+        return moment + force, pull, hung
+
+    def slopes(self, data):
+        step, count = mp.mpf(10) ** -22, len(self.start)
+        columns = []
+        for i in range(count):
+            ends = [self.balance(data, [x + sign * step * (i == j) for j, x in enumerate(self.start)])[0] for sign in (1, -1)]
+            columns.append([(x - y) / (2 * step) for x, y in zip(*ends, strict=True)])
+        return mp.matrix(columns).T
+
+    def found(self, data):
+        place, slope = list(self.start), self.slope or self.slopes(data)
+        for _ in range(6):
+            change = mp.lu_solve(slope, mp.matrix(self.balance(data, place)[0]))
+            place = [x - y for x, y in zip(place, change, strict=True)]
+        return place
+
+    def numbers(self, data):
+        """Inclinations, offsets of the pins, tensions."""
+        place = self.found(data)
+        _, pull, hung = self.balance(data, place)
+        offset = [place[self.size] if self.slides else data["radius"][0]]
+        for m in reversed(range(self.size)):
+            offset.insert(0, offset[0] + data["a"][m] * mp.sin(place[m]))
+        return place[: self.size], offset, [mp.hypot(x, y) for x, y in zip(pull, hung, strict=True)]
+
+    def derivative(self, name, link, sign=1):
+        step = mp.mpf(10) ** -14
+
+        def moved(by):
+            return self.numbers(self.data | {name: [x + by * (k == link) for k, x in enumerate(self.data[name])]})
+
+        ends = [moved(step), moved(-step)]
+        return [np.array([float(sign * (x - y) / (2 * step)) for x, y in zip(*pair, strict=True)])
+                for pair in zip(*ends, strict=True)]  # fmt: skip
+
+
+OF_RIG = {
+    "mass": "w", "length": "a", "centroid": "h", "radius_of_gyration": "rho", "momentum": "p", "axial_moment": "c",
+    "displaced_mass": "fluid", "added_mass": "added",
+}  # fmt: skip
+OF_SUPPORT = {"stiffness": "stiffness", "support_mass": "carriage", "support_radius": "radius", "angular_speed": "speed"}
+
+
+def check_rig(rig, shape):
+    """Largest difference over what is promised."""
+    with mp.workdps(50):
+        figure, size = Figure(rig, shape), len(rig)
+        expected = {}
+        for name, key in OF_SUPPORT.items():
+            if figure.slides or name not in ("stiffness", "support_mass"):
+                expected[name] = figure.derivative(key, 0, shape.direction if name == "angular_speed" else 1)
+        for name, key in OF_RIG.items():
+            if name == "added_mass" and rig.fluid == "turning":
+                continue
+            each = [figure.derivative(key, m) for m in range(size)]
+            expected[name] = [np.stack([of_link[q] for of_link in each], axis=1) for q in range(3)]
+    worst = (0.0, "", "")
+    for q, quantity in enumerate(("inclination", "offset", "tension")):
+        found = getattr(shape.sensitivity, quantity)
+        for name, values in expected.items():
+            got, want = getattr(found, name), values[q]
+            assert got.shape == want.shape
+            off = float(np.max(np.abs(got - want)) / max(1e-3, np.max(np.abs(want))))
+            worst = max(worst, (off / (1e-13 * max(10.0, float(shape.condition))), quantity, name))
+    return worst
+
+
+def random_rig(kind, size, seed):
+    rng = np.random.default_rng([seed, size])
+    given = {"chain": rigs.random_chain(rng, size, 1.0, plummets=seed % 3 == 0)}
+    weight, length = given["chain"].weight, given["chain"].length
+    scale = weight.sum() * length.sum()
+    if "spring" in kind:
+        given |= {"stiffness": weight.sum() / length.sum() * rng.uniform(2, 9), "carriage": weight.sum() * rng.uniform(0, 1)}
+    if "arm" in kind:
+        given["radius"] = rng.uniform(0.1, 2)
+    if "wheels" in kind:
+        given |= {"momentum": scale * rng.uniform(-0.3, 0.3, size), "axial_moment": weight * length**2 * rng.uniform(0, 0.2, size)}
+    if "fluid" in kind:
+        given |= {"displaced": weight * rng.uniform(0.1, 0.7, size), "centroid": length * rng.uniform(0.3, 0.8, size)}
+        given |= {"gyration": length * rng.uniform(0.1, 0.4, size)}
+    if "still" in kind:
+        given["added"] = weight * rng.uniform(0, 0.5, size)
+    if "turning" in kind:
+        given["fluid"] = "turning"
+    if "standing" in kind:
+        given["inverted"] = rng.random(size) < 0.5
+    return rigs.rigged(**given)
+
+
+KINDS = ("spring", "spring arm", "wheels", "wheels spring arm", "still fluid", "turning fluid spring", "standing",
+         "wheels still fluid spring standing")  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("size", [1, 3])
+def test_of_rigs_against_differences_in_fifty_digits(kind, size):
+    seen = 0
+    for seed, faster in ((0, 3), (1, 9), (2, 6)):
+        rig = random_rig(kind, size, seed)
+        speed, direction = math.sqrt(faster * G / rig.chain.length.sum()), -1 if "wheels" in kind and seed else 1
+        shapes = rc.steady_shapes(rig, angular_speed=speed, direction=direction)
+        for shape in [x for x in shapes if x.condition < 1e6][-2:]:
+            seen += 1
+            worst = check_rig(rig, shape)
+            assert worst[0] < 1, worst
+    assert seen
+
+
+def test_of_rigs_by_mass_and_spin():
+    chain = rc.Chain(mass=[2.0, 1.0], length=[0.6, 0.5], centroid=[0.3, 0.2], radius_of_gyration=[0.2, 0.1])
+    given = {"stiffness": 200.0, "mass": 0.5, "radius": 0.1}
+    wheels = {"mass": [0.4, 0.2], "radius_of_gyration": 0.3, "spin": [9.0, -4.0], "driven": [True, False]}
+
+    def shape(support=given, wheels=wheels, **fluid):
+        displaced = rc.Displaced(mass=[0.3, 0.2], added_mass=[0.1, 0.2])
+        rig = rc.Rig(chain, support=rc.Support(**support), flywheels=rc.Flywheel(**wheels), displaced=displaced, **fluid)
+        return next(x for x in rc.steady_shapes(rig, angular_speed=6.0) if x.half_waves == 1 and x.inclination[0] > 0)
+
+    s = shape().sensitivity
+    for name, step in (("stiffness", 1e-3), ("mass", 1e-5), ("radius", 1e-5)):
+        ends = [shape(support=given | {name: given[name] + e}) for e in (step, -step)]
+        field = {"mass": "support_mass", "radius": "support_radius"}.get(name, name)
+        for part in ("inclination", "offset", "tension"):
+            difference = (getattr(ends[0], part) - getattr(ends[1], part)) / (2 * step)
+            np.testing.assert_allclose(getattr(getattr(s, part), field), difference, rtol=1e-7, atol=1e-9)
+    ends = [shape(wheels=wheels | {"spin": [9.0 + e, -4.0]}) for e in (1e-4, -1e-4)]
+    for part in ("inclination", "offset", "tension"):
+        difference = (getattr(ends[0], part) - getattr(ends[1], part)) / 2e-4
+        np.testing.assert_allclose(getattr(s, part).spin[:, 0], difference, rtol=1e-7, atol=1e-9)

@@ -42,6 +42,9 @@ def results():
     bent = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))[0].sensitivity
     yield "ShapeSensitivity", bent
     yield "ShapeDerivatives", bent.offset
+    bent = rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2)), angular_speed=3.0)[0].sensitivity
+    yield "ShapeSensitivity of a rig", bent
+    yield "RigShapeDerivatives", bent.offset
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity
@@ -69,6 +72,18 @@ def results():
     blade = rc.Held(rc.Chain.uniform_rods(8, length=1.0, mass=1.0), span=0.7)
     yield "HeldBranches", rc.branches(blade, max_angular_speed=15.0)
     yield "HeldBranch", rc.branch(blade, 1, max_angular_speed=15.0)
+    rope = rc.Held(rc.Cord(1.0, mass=1.0), span=0.7)
+    yield "HeldBranches of a cord", rc.branches(rope, max_angular_speed=15.0)
+    yield "HeldBranch of a cord", rc.branch(rope, 1, max_angular_speed=15.0)
+    yield "HeldCordShape of a branch", rc.branch(rope, 1, max_angular_speed=15.0).shape(3)
+    yield "HeldCordShape of a mode", rc.steady_shape(rope, top_tension=20.0)
+    taut = rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0), 2)
+    yield "CordModes of what is held", taut
+    yield "CordModes without gravity", rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True), 2)
+    yield "Modes of a chain without gravity", rc.modes(rc.Held(three, tension=20.0, weightless=True), 2)
+    yield "CordSensitivity", taut.sensitivity
+    yield "CordDerivatives", taut.sensitivity.relative
+    yield "CordUncertainty", taut.uncertainty(mass="1 %", tension=0.3)
     yield "HeldShape of a branch", rc.branch(blade, 1, max_angular_speed=15.0).shape(3)
     yield "HeldShape of a mode", rc.steady_shape(blade, top_tension=20.0)
     yield "StabilityWindow", diagram[0].stability_windows()[0]
@@ -102,12 +117,17 @@ def results():
     yield "CordBranch", rc.branch(tip, 2, min_conical_height=0.08)
     yield "CordBranches", rc.branches(tip, min_conical_height=0.08, lists=2)
     yield "CordShape on a branch", rc.steady_shape(tip, mode=2, tip_inclination=1.0)
+    yield "Swing of a rig", rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=9.0)), np.ones(CHAIN.size) / 9, None, [0.0, 1.0])
+    whirling = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2))
+    yield "WhirlSwing", rc.swing(whirling, np.ones(CHAIN.size) * (0.1 + 0.05j), None, [0.0, 1.0])
     yield "CordSwing", rc.swing(tip, [0.1, 0.0], None, [0.0, 1.0], count=8)
     yield "Stability of a cord", cord[0].stability()
     yield "Modes, taut", rc.modes(rc.Held(named, tension=50.0))
     held = rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5), angular_speed=9.0, max_half_waves=3)
     yield "SteadyShapes, held", held
     yield "HeldShape", held[0]
+    arms = {"lower": rc.Support(stiffness=90.0, weight=0.2, radius=0.1), "upper": rc.Support(radius=-0.2)}
+    yield "SteadyShapes, on arms", rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5, **arms), angular_speed=9.0)
     yield "HeldShape, weightless", rc.steady_shapes(rc.Held(named, span=0.5, weightless=True), angular_speed=9.0)[0]
     yield "HeldCordShape", rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0]
     impact = {"front_mass": 1, "rear_mass": 3, "buffer_stiffness": 10, "coupling_stiffness": 1, "speed": 2}

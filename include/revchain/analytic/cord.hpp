@@ -4,9 +4,11 @@
 #include "revchain/analytic/cord_start.hpp"
 #include "revchain/cord.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
+#include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
 #include "revchain/special/tapered_chain.hpp"
+#include "revchain/special/taut_cord.hpp"
 #include "revchain/special/tip_mass.hpp"
 
 namespace revchain {
@@ -25,6 +27,47 @@ struct HeavyChainMode {
     Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
 };
 
+/// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as much.
+struct StringMode {
+    Index mode;
+    double length;
+    Wide<double> taut;
+
+    double waves() const { return static_cast<double>(mode) * std::numbers::pi; }
+    double conical_height() const {
+        const Wide<double> turn = two_word_pi * static_cast<double>(mode), one = Wide<double>(length) / turn;
+        return static_cast<double>(one / taut * one);
+    }
+    double shape(double s) const { return s < length ? std::sin(waves() * s / length) : 0.0; }
+    double slope(double s) const { return waves() / length * std::cos(waves() * s / length); }
+    Vector<double> nodes() const { return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1); }
+    Vector<double> vertical_points() const {
+        return (Vector<double>::LinSpaced(mode, 0.5, static_cast<double>(mode) - 0.5) *
+                (length / static_cast<double>(mode)));
+    }
+};
+
+/// A cord that hangs straight or is held straight.
+struct StraightCord {
+    const Cord& cord;
+    std::optional<HeldBy> held{};
+    std::optional<Wide<double>> taut{};  ///< held: tension at the lower end as the length of cord that weighs as much
+
+    StraightCord(const Cord& of) : cord(of) {}
+    StraightCord(std::string_view place, const Held<Cord>& of, double gravity)
+        : cord(of.system()), held(of.by()), taut(as_length(place, of, gravity)) {}
+    /// For shapes, which are those of a string under any gravity.
+    explicit StraightCord(const CordModes& modes) : cord(modes.cord), held(modes.held) {
+        if (held) taut = as_length("CordModes", {cord, *held}, 1.0);
+    }
+
+   private:
+    static Wide<double> as_length(std::string_view place, const Held<Cord>& of, double gravity) {
+        return lower_tension(place, of, gravity) / Wide<double>(of.system().weight()) *
+               Wide<double>(of.system().length());
+    }
+};
+
 /// The method that finds the modes of a cord, and its accuracy.
 struct CordMethod {
     std::string_view name;
@@ -32,9 +75,11 @@ struct CordMethod {
     bool is_closed;  ///< whether mode k is known without those before it
 };
 
-inline CordMethod method_for(const Cord& cord) {
+inline CordMethod method_for(const StraightCord& straight) {
     const double ulp = epsilon<double>();
-    if (cord.is_uniform() && cord.tip_weight() == 0) return {"zeros of J_0", 3 * ulp, true};
+    const Cord& cord = straight.cord;
+    if (straight.held && straight.held->weightless) return {"half waves of a string", 2 * ulp, true};
+    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0) return {"zeros of J_0", 3 * ulp, true};
     if (cord.is_uniform()) return {"zeros of a cross product of Bessel functions", 2 * ulp, true};
     if (cord.exponent() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
     return {"power series", 4e-15, false};
@@ -42,15 +87,22 @@ inline CordMethod method_for(const Cord& cord) {
 
 /// The result of `f` for one mode in closed form.
 template <class F>
-auto in_closed_form(const Cord& cord, Index mode, const F& f) {
+auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
     namespace forms = analytic;
+    const Cord& cord = straight.cord;
+    if (straight.held) {
+        if (straight.held->weightless) return f(StringMode{mode, cord.length(), *straight.taut});
+        return f(forms::taut_cord::Mode(mode, cord.length(), *straight.taut));
+    }
     if (!cord.is_uniform()) return f(forms::tapered_chain::Mode(mode, cord.length(), *cord.exponent()));
     if (cord.tip_weight() == 0) return f(HeavyChainMode{mode, cord.length()});
     return f(forms::tip_mass::Mode(mode, cord.length(), cord.tip_length()));
 }
 
-inline double closed_height(const Cord& cord, Index mode) {
-    return in_closed_form(cord, mode, [](const auto& form) { return form.conical_height(); });
+inline double closed_height(const StraightCord& straight, Index mode) {
+    if (straight.held && !straight.held->weightless)
+        return analytic::taut_cord::conical_height(mode, straight.cord.length(), *straight.taut);
+    return in_closed_form(straight, mode, [](const auto& form) { return form.conical_height(); });
 }
 
 /// The result of `f` for the mode at index j.
@@ -58,62 +110,80 @@ template <class F>
 auto with_mode(std::string_view place, const CordModes& modes, Index j, const F& f) {
     if (j < 0 || j >= modes.size())
         throw_invalid(place, "the index must be from 0 to " + std::to_string(modes.size() - 1), j);
-    if (method_for(modes.cord).is_closed) return in_closed_form(modes.cord, modes.first + j, f);
+    const StraightCord straight(modes);
+    if (method_for(straight).is_closed) return in_closed_form(straight, modes.first + j, f);
     return f(finite::CordModeShape(finite::ContinuousChain(modes.cord), modes.conical_height[j], modes.first + j));
 }
 
 /// The number of conical heights that exceed `height`. Heights in closed form fall with the number of the mode.
-inline Index modes_above(const Cord& cord, double height) {
-    if (!method_for(cord).is_closed) return finite::critical_heights_above(finite::ContinuousChain(cord), height);
+inline Index modes_above(const StraightCord& straight, double height) {
+    if (!method_for(straight).is_closed)
+        return finite::critical_heights_above(finite::ContinuousChain(straight.cord), height);
     constexpr Index most = 1'000'000'000'000'000;
     Index above = 0, not_above = 1;  // numbers of modes
-    while (closed_height(cord, not_above) > height) {
+    while (closed_height(straight, not_above) > height) {
         above = not_above, not_above *= 2;
         if (not_above > most)
             throw_invalid("count_modes", "there are more than 1e15 modes above conical height", height);
     }
     while (not_above - above > 1) {
         const Index middle = above + (not_above - above) / 2;
-        (closed_height(cord, middle) > height ? above : not_above) = middle;
+        (closed_height(straight, middle) > height ? above : not_above) = middle;
     }
     return above;
+}
+
+/// The modes of a straight cord that the options choose.
+inline CordModes modes_of(const StraightCord& straight, const ModesOptions<double>& options) {
+    if (options.certify)
+        throw_invalid("modes", "certificates of a Cord are not available; count_modes counts at any height");
+    if (options.count == all_modes)
+        throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
+    const auto within = [&](const HeightWindow<double>& window) {
+        if (!(window.low > 0))
+            throw_invalid("modes",
+                          "a cord has infinitely many modes; the window must end at a height above 0, "
+                          "or at a finite speed; its lowest height is",
+                          window.low);
+        return modes_within(window, 0, [&](double height) { return modes_above(straight, height); });
+    };
+    const ModeRange range = chosen(all_modes, options, within, [&](const SpeedWindow<double>& window) {
+        return within(window_of_heights(window, options.gravity));
+    });
+    const CordMethod method = method_for(straight);
+    CordModes result{straight.cord, range.first, Vector<double>(range.count),
+                     Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
+    result.held = straight.held;
+    if (options.rtol && !(method.error_bound <= *options.rtol)) result.status = Status::tolerance_not_met;
+    if (!method.is_closed && range.count > 0)
+        result.conical_height =
+            finite::critical_heights(finite::ContinuousChain(straight.cord), range.first - 1 + range.count)
+                .tail(range.count);
+    for (Index j = 0; method.is_closed && j < range.count; ++j) {
+        result.conical_height[j] = closed_height(straight, range.first + j);
+        advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
+    }
+    return result;
 }
 
 }  // namespace detail
 
 inline CordModes modes(const Cord& cord, const ModesOptions<double>& options) {
     detail::check(options);
-    if (options.certify)
-        detail::throw_invalid("modes", "certificates of a Cord are not available; count_modes counts at any height");
-    if (options.count == all_modes)
-        detail::throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
-    const auto within = [&](const HeightWindow<double>& window) {
-        if (!(window.low > 0))
-            detail::throw_invalid("modes",
-                                  "a cord has infinitely many modes; the window must end at a height above 0, "
-                                  "or at a finite speed; its lowest height is",
-                                  window.low);
-        return detail::modes_within(window, 0, [&](double height) { return detail::modes_above(cord, height); });
-    };
-    const ModeRange range = detail::chosen(all_modes, options, within, [&](const SpeedWindow<double>& window) {
-        return within(detail::window_of_heights(window, options.gravity));
-    });
-    const detail::CordMethod method = detail::method_for(cord);
-    CordModes result{cord, range.first, Vector<double>(range.count),
-                     Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
-    if (options.rtol && !(method.error_bound <= *options.rtol)) result.status = Status::tolerance_not_met;
-    if (!method.is_closed && range.count > 0)
-        result.conical_height =
-            finite::critical_heights(finite::ContinuousChain(cord), range.first - 1 + range.count).tail(range.count);
-    for (Index j = 0; method.is_closed && j < range.count; ++j) {
-        result.conical_height[j] = detail::closed_height(cord, range.first + j);
-        detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
-    }
-    return result;
+    return detail::modes_of(cord, options);
+}
+
+inline CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options) {
+    detail::check(options);
+    return detail::modes_of({"modes", held, options.gravity}, options);
 }
 
 inline Index count_modes(const Cord& cord, const CountOptions<double>& options) {
     return detail::modes_above(cord, detail::height_given("count_modes", options));
+}
+
+inline Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
+    return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
 }
 
 namespace detail {

@@ -7,6 +7,7 @@
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain {
@@ -47,42 +48,56 @@ inline double height_times_tension(const HeldBy& by, double height, const HeldSh
     return product;
 }
 
+/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the speed.
+inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
+                                        const HeldShapesOptions& options) {
+    if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
+    if (!options.angular_speed)
+        throw_invalid("steady_shapes",
+                      "without gravity shapes between springs depend on the speed; give angular_speed");
+    const Wide<double> speed(*options.angular_speed), unit(1.0);
+    return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
+}
+
 /// The straight chain under the tension at its lower end.
-inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held) {
-    const Chain<double>& chain = held.system();
-    if (held.by().span)
-        throw_invalid(place,
-                      "a chain whose ends are a span apart is bent, and has no modes of the straight chain; ask "
-                      "steady_shapes for its shapes and stability for small motions about one; span",
-                      *held.by().span);
-    if (held.by().weightless)
-        throw_invalid(place,
-                      "modes are given as conical heights, of which there are none without gravity; leave out "
-                      "weightless, and take a weight that is small beside the tension");
-    const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
-    if (!(lower > Wide<double>(0)))
-        throw_invalid(place,
-                      "tension at the upper end must exceed the weight of the chain " +
-                          in_digits(chain.total_weight()) + ", or its lower part is slack",
-                      *held.by().tension);
-    return {chain, lower};
+inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held, double gravity) {
+    HeldBy by = held.by();
+    const Wide<double> lower = lower_tension(place, held, gravity);
+    if (by.weightless) by.lower.stiffness /= gravity, by.upper.stiffness /= gravity;  // in masses times gravity
+    return {held.system(), lower, by.weightless, {by.lower, by.upper, {}}};
 }
 
-/// The span of a chain of whose shapes at every speed a question is.
-inline double span_asked(std::string_view place, const Held<Chain<double>>& held) {
-    if (!held.by().span)
-        throw_invalid(place,
-                      "is for a chain held at a span; ask steady_shapes at each speed, or modes, under a tension",
-                      *held.by().tension);
-    if (held.by().weightless)
-        throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
-    return *held.by().span;
+/// The span of what is held, of whose shapes at every speed a question is.
+inline double span_asked(std::string_view place, const HeldBy& by) {
+    if (!by.span)
+        throw_invalid(place, "is for what is held at a span; under a tension ask steady_shapes at each speed, or modes",
+                      *by.tension);
+    if (by.weightless)
+        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) ask steady_shapes");
+    return *by.span;
 }
 
-[[noreturn]] inline void no_modes_of_cords(std::string_view place) {
-    throw_invalid(place,
-                  "modes of a cord under tension are not available yet; cut it into links, as "
-                  "Held(Chain<double>::uniform_rods(1000, length, weight), {.tension = ...})");
+/// `at_height(span, height)` and `of_tension(span, tension)` look for the shape that is asked for.
+template <class AtHeight, class OfTension>
+auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeight& at_height,
+                const OfTension& of_tension) {
+    constexpr std::string_view place = "steady_shape";
+    const double span = span_asked(place, by);
+    if (options.mode < 1) throw_invalid(place, "mode must be at least 1", options.mode);
+    const int given =
+        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
+    if (given != 1) throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
+    if (options.top_tension) {
+        require_positive(place, "top_tension", *options.top_tension);
+        if (auto shape = of_tension(span, *options.top_tension)) return *shape;
+        throw_invalid(place, "no shape of the branch has this tension at its upper end", *options.top_tension);
+    }
+    const Wide<double> height = height_asked(
+        by,
+        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
+    if (auto shape = at_height(span, height)) return *shape;
+    throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
+                  static_cast<double>(height));
 }
 
 }  // namespace detail
@@ -90,10 +105,11 @@ inline double span_asked(std::string_view place, const Held<Chain<double>>& held
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
     const Wide<double> height = detail::height_asked(held.by(), options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
-    if (held.by().span) return finite::held_shapes(held.system(), *held.by().span, height, wanted);
+    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options);
+    if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
     const double rounded = static_cast<double>(height);
-    return finite::held_shapes_under_tension(held.system(), detail::height_times_tension(held.by(), rounded, options),
-                                             rounded, wanted);
+    return finite::held_shapes_under_tension(
+        held.system(), supports, detail::height_times_tension(held.by(), rounded, options), rounded, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
@@ -105,11 +121,35 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldS
 
 REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {
     constexpr std::string_view place = "branches";
-    const double span = detail::span_asked(place, held);
+    const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
     const double least = finite::lowest_height(place, options);
+    const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
-    for (int k = 1; k < held.system().size(); ++k) {
+    std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
+    const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
+    const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
+    for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
+        auto branch = finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
+        if (!branch) {
+            ++without;
+            continue;
+        }
+        without = 0;
+        if (branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
+        if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
+        result.push_back(std::move(*branch));
+    }
+    return result;
+}
+
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options) {
+    constexpr std::string_view place = "branches";
+    const double span = detail::span_asked(place, held.by());
+    detail::require_positive(place, "max_step", options.max_step);
+    const double least = finite::lowest_height(place, options);
+    std::vector<HeldCordBranch> result;
+    for (int k = 1; k <= 1000; ++k) {
         auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
         if (!branch) break;
         result.push_back(std::move(*branch));
@@ -118,37 +158,40 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
 }
 
 REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options) {
-    constexpr std::string_view place = "steady_shape";
-    const double span = detail::span_asked(place, held);
-    if (options.mode < 1) detail::throw_invalid(place, "mode must be at least 1", options.mode);
-    const int given =
-        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
-    if (given != 1) detail::throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
-    if (options.top_tension) {
-        detail::require_positive(place, "top_tension", *options.top_tension);
-        auto met = finite::held_shapes_of_tension(held.system(), span, *options.top_tension, options.mode);
-        if (met.empty())
-            detail::throw_invalid(place, "no shape of the branch has this tension at its upper end",
-                                  *options.top_tension);
-        return met.front();
-    }
-    const Wide<double> height = detail::height_asked(
-        held.by(),
-        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
-    finite::HeldChain chain(held.system());
-    const int exponent = chain.links().units.length_exponent;
-    const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    if (const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda)))
-        if (auto shape = chain.finished(*state, apart, lambda, true)) return *shape;
-    detail::throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
-                          static_cast<double>(height));
+    const HeldBy& by = held.by();
+    const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
+        finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
+        const finite::HeldStart start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
+        const int exponent = chain.links().units.length_exponent;
+        const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
+        const auto state = chain.at_height(start.half_waves, apart, static_cast<double>(lambda), start.outwards);
+        if (!state) return {};
+        return chain.finished(*state, apart, lambda, true);
+    };
+    return detail::held_shape(by, options, at_height, [&](double span, double tension) {
+        if (!by.firm())
+            detail::throw_invalid("steady_shape",
+                                  "the speed of a tension between springs is not available: a spring gives way without "
+                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                                  tension);
+        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
+    });
+}
+
+REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options) {
+    const auto at_height = [&](double span, const Wide<double>& height) {
+        return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
+    };
+    return detail::held_shape(held.by(), options, at_height, [&](double span, double tension) {
+        return finite::held_shape_of_tension(held.system(), span, tension, options.mode);
+    });
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options) {
     detail::check(options);
     if (options.certify)
         detail::throw_invalid("modes", "certificates of a Held are not available; count_modes counts at any height");
-    const finite::TautChain taut = detail::taut_chain("modes", held);
+    const finite::TautChain taut = detail::taut_chain("modes", held, options.gravity);
     const auto within = [&](const HeightWindow<double>& window) {
         return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
     };
@@ -179,15 +222,7 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
 }
 
 REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
-    return detail::taut_chain("count_modes", held).above(detail::height_given("count_modes", options));
-}
-
-REVCHAIN_INLINE Modes<double> modes(const Held<Cord>&, const ModesOptions<double>&) {
-    detail::no_modes_of_cords("modes");
-}
-
-REVCHAIN_INLINE Index count_modes(const Held<Cord>&, const CountOptions<double>&) {
-    detail::no_modes_of_cords("count_modes");
+    return detail::taut_chain("count_modes", held, options.gravity).above(detail::height_given("count_modes", options));
 }
 
 }  // namespace revchain

@@ -25,10 +25,11 @@ class OscillatingChain {
     using S = DoubleDouble;
     using Offsets = Vector<S>;
 
-    explicit OscillatingChain(const Chain<double>& chain) : assembled_(assemble(converted<S>(chain))) {
-        if (!assembled_.pencil.units.empty())
+    explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(assemble(converted<S>(chain))) {
+        if (!pencil().units.empty())
             throw_invalid("swing", "weights must not be more than 1e123 apart", chain.total_weight());
     }
+    explicit OscillatingChain(AssembledChain<S> assembled) : assembled_(std::move(assembled)) {}
     const pencil::ElementPencil<S>& pencil() const { return assembled_.pencil; }
     const ChainUnits& units() const { return assembled_.units; }
     Index size() const { return pencil().size(); }
@@ -165,47 +166,52 @@ inline void superpose(Swing& result, const Superposition& modes, const std::vect
     }
 }
 
-inline Vector<double> checked_start(const Chain<double>& chain, std::string_view name, const Vector<double>& given) {
-    constexpr std::string_view place = "swing";
-    if (given.size() == 0) return Vector<double>::Zero(chain.size() + 1);
-    if (given.size() != chain.size() && given.size() != chain.size() + 1)
+/// A start as it was given, with the support's 0 where that was left out and does not yield.
+template <class Number>
+Vector<Number> checked_start(std::string_view place, Index links, bool yields, std::string_view name,
+                             const Vector<Number>& given) {
+    if (given.size() == 0) return Vector<Number>::Zero(links + 1);
+    if (given.size() != links && given.size() != links + 1)
         throw_invalid(place,
-                      std::string(name) + " must have a number for each of the " + std::to_string(chain.size() + 1) +
+                      std::string(name) + " must have a number for each of the " + std::to_string(links + 1) +
                           " pins, the support's last or left out",
                       given.size());
-    for (const double x : given)
-        if (!std::isfinite(x)) throw_invalid(place, std::string(name) + " must be finite", x);
-    Vector<double> result = Vector<double>::Zero(chain.size() + 1);
-    result.head(chain.size()) = given.head(chain.size());
-    if (given.size() > chain.size() && given[chain.size()] != 0)
-        throw_invalid(place, std::string(name) + " of the support must be 0", given[chain.size()]);
+    for (const Number& x : given)
+        if (!std::isfinite(std::abs(x))) throw_invalid(place, std::string(name) + " must be finite", std::abs(x));
+    Vector<Number> result = Vector<Number>::Zero(links + 1);
+    result.head(given.size()) = given;
+    if (!yields && result[links] != Number(0))
+        throw_invalid(place, std::string(name) + " of the support must be 0", std::abs(result[links]));
     return result;
 }
 
-}  // namespace detail
+/// How many of `all` modes are asked for. Throws InvalidArgument for times and gravity that cannot be, too.
+inline Index checked_count(std::string_view place, const std::vector<double>& time, double gravity,
+                           const std::optional<Index>& asked, Index all) {
+    require_positive(place, "gravity", gravity);
+    for (const double t : time)
+        if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);
+    const Index count = asked.value_or(all);
+    if (count < 0 || count > all) throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
+    return count;
+}
 
-REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& options) {
+/// The sum of `count` of `all` modes. The links and, if that yields, the support are the elements of `system`;
+/// `found(first, count)` has their heights and shapes.
+template <class Found>
+Swing superposed(const OscillatingChain& system, const SwingOptions& options, const Vector<double>& from,
+                 const Vector<double>& speed, Index count, Index all, const Found& found) {
     using S = DoubleDouble;
     using Offsets = Vector<S>;
-    constexpr std::string_view place = "swing";
-    detail::require_positive(place, "gravity", options.gravity);
-    const Vector<double> from = detail::checked_start(chain, "offset", options.offset);
-    const Vector<double> speed = detail::checked_start(chain, "velocity", options.velocity);
-    const std::vector<double>& time = options.time;
-    for (const double t : time)
-        if (!std::isfinite(t)) detail::throw_invalid(place, "times must be finite", t);
-    const Index all = chain.mode_count(), count = options.count.value_or(all);
-    if (count < 0 || count > all) detail::throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
-
-    const detail::OscillatingChain system(chain);
     const int length = system.units().length_exponent, weight = system.units().weight_exponent;
-    const Index pins = chain.size() + 1;
+    const Index pins = from.size(), all_pins = system.size() + 1;  // what a support that yields is on, too
     Swing result;
     result.start = from;
-    Offsets rest = from.cast<S>(), rest_speed = speed.cast<S>();
+    Offsets rest = Offsets::Zero(all_pins), rest_speed = rest;
+    rest.head(pins) = from.cast<S>(), rest_speed.head(pins) = speed.cast<S>();
     double unsettled = 0, unsettled_speed = 0;
-    if (all < chain.size()) {
-        const double least = std::ldexp(modes(chain, {.first = all, .count = 1}).conical_height[0], -length);
+    if (all < system.size()) {
+        const double least = all == 0 ? 1 : std::ldexp(found(all, 1).conical_height[0], -length);
         const S h(1e-8 * least);
         rest = system.settled(rest, h, unsettled), rest_speed = system.settled(rest_speed, h, unsettled_speed);
         for (Index m = 0; m < pins; ++m) result.start[m] = static_cast<double>(rest[m]);
@@ -213,15 +219,14 @@ REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& opti
     }
 
     const S gravity = ldexp(S(options.gravity), -length);
-    detail::Superposition parts;
-    Modes<double> found;
-    if (count > 0) found = modes(chain, {.count = count, .progress = options.progress});
+    Superposition parts;
+    const auto modes = found(1, count);
     result.shape.resize(count, pins);
     for (auto* column : {&result.angular_frequency, &result.energy, &result.cosine, &result.sine})
         column->resize(count);
-    Vector<double> reached = Vector<double>::Zero(pins);
+    Vector<double> reached = Vector<double>::Zero(pins), rough = Vector<double>::Zero(all_pins);
     for (Index k = 0; k < count; ++k) {
-        const Vector<double> rough = found.shapes().row(k).transpose();
+        rough.head(pins) = modes.shapes().row(k).transpose();
         const S height = pencil::rayleigh_quotient<S, double>(system.pencil(), rough);
         const Offsets shape = pencil::eigenvector(system.pencil(), height).offset;
         const S inertia = system.inertia(shape, shape), frequency = sqrt(gravity / height);
@@ -238,9 +243,9 @@ REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& opti
         parts.amplitude.push_back(amplitude);
         parts.unbalanced.push_back(amplitude * system.residual(height, shape));
         reached += 1.5 * amplitude * result.shape.row(k).cwiseAbs().transpose();
-        detail::advance(options.progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
+        advance(options.progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
     }
-    parts.largest = reached.maxCoeff();
+    parts.largest = count == 0 ? 0 : reached.maxCoeff();
 
     // What is left moves by itself, and keeps its energy.
     const double left = std::sqrt(std::max(0.0, static_cast<double>(system.stiffness(rest, rest)))) + unsettled;
@@ -248,16 +253,27 @@ REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& opti
         std::sqrt(std::max(0.0, static_cast<double>(system.inertia(rest_speed, rest_speed) / gravity)));
     const Vector<double> flexibility = system.flexibility();
     const double norm = std::hypot(left, left_speed) * (1 + 1e-10);
-    result.truncation_error = norm * flexibility.cwiseSqrt();
+    result.truncation_error = norm * flexibility.head(pins).cwiseSqrt();
     result.energy_left_out = std::ldexp(norm * norm / 2, weight - length);
-    const auto times = static_cast<Index>(time.size());
+    const auto times = static_cast<Index>(options.time.size());
     result.offset.resize(times, pins), result.velocity.resize(times, pins), result.error_bound.resize(times);
-    detail::superpose(result, parts, time, std::sqrt(flexibility[0]) * (1 + 1e-10), options.progress);
+    superpose(result, parts, options.time, std::sqrt(flexibility[0]) * (1 + 1e-10), options.progress);
     return result;
 }
 
-REVCHAIN_INLINE Swing swing(const Rig&, const SwingOptions&) {
-    detail::throw_invalid("swing", "small oscillations of a Rig are not available yet; ask its modes, or its chain");
+}  // namespace detail
+
+REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& options) {
+    constexpr std::string_view place = "swing";
+    const Vector<double> from = detail::checked_start(place, chain.size(), false, "offset", options.offset);
+    const Vector<double> speed = detail::checked_start(place, chain.size(), false, "velocity", options.velocity);
+    const Index all = chain.mode_count();
+    const Index count = detail::checked_count(place, options.time, options.gravity, options.count, all);
+    return detail::superposed(detail::OscillatingChain(chain), options, from, speed, count, all,
+                              [&](Index first, Index number) {
+                                  if (number == 0) return Modes<double>{};
+                                  return modes(chain, {.first = first, .count = number, .progress = options.progress});
+                              });
 }
 
 }  // namespace revchain

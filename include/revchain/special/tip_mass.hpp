@@ -37,6 +37,28 @@ inline const PhaseSeries& series(int order) {
     return all[static_cast<std::size_t>(order)];
 }
 
+/// J_0 and Y_0 at a place, and theta_0'.
+struct OrderZero {
+    TwoDoubles J, Y;
+    double rate;
+
+    explicit OrderZero(const TwoDoubles& place) {
+        const double z = place.high;
+        if (z < 45) {
+            const Cylinders f(place);
+            J = f.J0, Y = f.Y0;
+            rate = 2 / (std::numbers::pi * z * (J.high * J.high + Y.high * Y.high));
+        } else {
+            rate = 1 / series(0).density(z);
+            const TwoDoubles phase = place - two_word_pi * 0.25 - series(0).lag(z);
+            const double c = std::cos(phase.high), s = std::sin(phase.high);
+            J = two_sum(c, -s * phase.low), Y = two_sum(s, c * phase.low);
+        }
+    }
+    /// theta_0 to about a tenth.
+    static double rough(double z) { return std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi); }
+};
+
 /// The end with the particle: J_2 and Y_2 at z_0, and theta_2 to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
@@ -80,22 +102,11 @@ inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const T
     if (end.is_far())
         return {(apart - two_word_pi * (turns - 1)).high + (series(2).lag(end.z) - series(0).lag(z)),
                 1 / series(0).density(z)};
-    TwoDoubles J0, Y0;
-    double rate;
-    if (z < 45) {
-        const Cylinders f(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
-        J0 = f.J0, Y0 = f.Y0;
-        rate = 2 / (std::numbers::pi * z * (J0.high * J0.high + Y0.high * Y0.high));
-    } else {
-        rate = 1 / series(0).density(z);
-        const TwoDoubles phase = place - two_word_pi * 0.25 - series(0).lag(z);
-        const double c = std::cos(phase.high), s = std::sin(phase.high);
-        J0 = two_sum(c, -s * phase.low), Y0 = two_sum(s, c * phase.low);
-    }
-    const TwoDoubles sine = end.J2 * Y0 - end.Y2 * J0, cosine = end.J2 * J0 + end.Y2 * Y0;
+    const OrderZero at(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
+    const TwoDoubles sine = end.J2 * at.Y - end.Y2 * at.J, cosine = end.J2 * at.J + end.Y2 * at.Y;
     const double value = std::atan(sine.high / cosine.high);
-    const double rough = std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi);
-    return {value + std::numbers::pi * std::round((rough - end.rough - value) / std::numbers::pi - turns), rate};
+    return {value + std::numbers::pi * std::round((OrderZero::rough(z) - end.rough - value) / std::numbers::pi - turns),
+            at.rate};
 }
 
 inline void check(std::string_view where, std::string_view name, Index number, double length, double tip) {
@@ -110,14 +121,20 @@ struct Ends {
     TwoDoubles ratio;  ///< z_0 / z_L
     TwoDoubles gap;    ///< 1 - ratio
 
-    Ends(double length, double tip) {
+    Ends(double length, TwoDoubles tip) {
         int unit = 0;  // a power of two near the larger: no sum, no split product overflows
-        std::frexp(std::max(length, tip), &unit);
-        length = std::ldexp(length, -unit), tip = std::ldexp(tip, -unit);
-        const TwoDoubles whole = two_sum(length, tip);
+        std::frexp(std::max(length, tip.high), &unit);
+        length = std::ldexp(length, -unit), tip = ldexp(tip, -unit);
+        const TwoDoubles whole = tip + length;
         share = TwoDoubles(length) / whole;
-        ratio = sqrt(TwoDoubles(tip) / whole);
+        ratio = sqrt(tip / whole);
         gap = share / (ratio + 1.0);
+    }
+
+    /// z - z_0 at `part` of the length, over z_L - z_0, without a difference.
+    double part_apart(double part) const {
+        const double r = ratio.high;
+        return part > 0 ? part * ((1 + r) / (std::sqrt(r * r + part * share.high) + r)) : 0.0;
     }
 
     /// z_L - z_0 by Newton's method on the phases, kept between bounds.
@@ -242,13 +259,10 @@ class Mode {
         return a_.high * detail::gsl_value(order == 0 ? gsl_sf_bessel_J0_e : gsl_sf_bessel_J1_e, z) + second;
     }
 
-    /// z - z_0 at x, without a difference.
+    /// z - z_0 at x.
     double apart_at(double x, std::string_view where) const {
         analytic::detail::check_place(where, x, length_);
-        const double r = ends_.ratio.high, share = x / length_;
-        if (!(share > 0)) return 0;
-        const double root = std::sqrt(r * r + share * ends_.share.high);
-        return apart_.high * (share * ((1 + r) / (root + r)));
+        return apart_.high * ends_.part_apart(x / length_);
     }
 
     Index mode_;

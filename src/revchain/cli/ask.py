@@ -245,19 +245,17 @@ _SHAPES = (
 _MODES = "ask for its modes: revchain modes {path}"
 _CUT = "cut it into links: [tapered_chain] with count = 100 and exponent = density, instead of [cord]"
 _NO_ANSWER = {  # by question, and what hangs
-    "modes": {"bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES},
-    "explain": {"bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES},
+    "modes": {"bent": _SHAPES},
+    "explain": {"bent": _SHAPES},
     "shapes": {},
-    "response": {"cord": _CUT, "bent": _SHAPES, "held cord": _SHAPES, "weightless": _SHAPES, "held": _MODES},
-    "swing": {"rig": _MODES, "cord": _CUT, "bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES, "held": _MODES},
-    "branches": dict.fromkeys(("bent", "held cord", "weightless", "held"), _SHAPES) | {"cord": _CUT},
+    "response": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
+    "swing": {"cord": _CUT, "bent": _SHAPES, "held": _MODES},
+    "branches": {"cord": _CUT, "bent": _SHAPES, "held": _SHAPES},
 }
 _NAMES = {
     "rig": "a chain with a support, standing links, flywheels or a fluid",
-    "bent": "a chain whose ends are held a span apart",
-    "held cord": "a cord held at both ends",
-    "weightless": "a chain held at both ends without gravity",
-    "held": "a chain held at both ends",
+    "bent": "a chain or cord whose ends are held a span apart",
+    "held": "a chain or cord held at both ends",
     "cord": "a cord",
 }
 
@@ -265,9 +263,8 @@ _NAMES = {
 def without_answer(question: str, system: System, path: Path) -> str:
     """Why a question has no answer for what hangs, and what to ask instead; empty if it has."""
     kind = {Rig: "rig", Cord: "cord", Held: "held"}.get(type(system), "")
-    if isinstance(system, Held):
-        cord, bent = isinstance(system.system, Cord), system.span is not None
-        kind = "bent" if bent else "held cord" if cord else "weightless" if system.weightless else kind
+    if isinstance(system, Held) and system.span is not None:
+        kind = "bent"
     instead = _NO_ANSWER[question].get(kind, "").format(path=path)
     return f"{question}: no answer for {_NAMES[kind]}; {instead}" if instead else ""
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..results.cord_motions import CordSwing
-    from ..results.motions import Response, Swing
+    from ..results.motions import Response, Swing, WhirlSwing
 
 MOST_CURVES = 4  # of pins, unless asked
 
@@ -85,7 +85,8 @@ def _known(pins: Iterable[int], available: list[int]) -> list[int]:
 
 def plot_swing(found: Swing, ax: Axes | None, kind: str, pins: Iterable[int]) -> Axes:
     """See `Swing.plot`."""
-    lengths = found.system.length
+    chain: Any = getattr(found.system, "chain", found.system)
+    lengths = chain.length
     depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
     return _swing("Swing.plot", found, ax, kind, "pin", pins, depth)
 
@@ -95,15 +96,48 @@ def plot_cord_swing(found: CordSwing, ax: Axes | None, kind: str, places: Iterab
     return _swing("CordSwing.plot", found, ax, kind, "place", places, found.system.length - found.arc_length)
 
 
+def plot_whirl_swing(found: WhirlSwing, ax: Axes | None, kind: str, pins: Iterable[int]) -> Axes:
+    """See `WhirlSwing.plot`."""
+    place = "WhirlSwing.plot"
+    word(place, "kind", kind, ("path", "time"))
+    chosen = _pins_of(place, "pins", pins, found.offset.shape[1])
+    ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 5.0)))
+    order = np.argsort(found.time)
+    for number, column in enumerate(chosen):
+        at = found.offset[order, column]
+        kept = thinned(np.abs(at))
+        style: dict[str, Any] = {"color": f"C{number % 10}", "linewidth": 1.2}
+        name = "free end" if column == 0 else f"pin {column}"
+        if kind == "path":
+            ax.plot(at.real[kept], at.imag[kept], label=name, **style)
+        else:
+            ax.plot(found.time[order][kept], at.real[kept], label=name, **style)
+            ax.plot(found.time[order][kept], at.imag[kept], linestyle="--", **style)
+    if kind == "path":
+        ax.set_aspect("equal")
+        ax.plot(0.0, 0.0, marker="+", color="0.4", zorder=0)
+        ax.set(xlabel="x (m)", ylabel="y (m)")
+    else:
+        ax.set(xlabel="time (s)", ylabel="distance from the axis along x, dashed along y (m)")
+    if chosen:
+        ax.legend()
+    return ax
+
+
+def _pins_of(place: str, what: str, which: Iterable[int], count: int) -> list[int]:
+    chosen = [integer(place, what, number) for number in listed(place, what, which)]
+    for number in chosen:
+        if not 0 <= number < count:
+            raise ValueError(f"{place}: {what} must be numbers from 0 to {count - 1}, got {number}")
+    return chosen
+
+
 def _swing(
     place: str, found: Swing | CordSwing, ax: Axes | None, kind: str, what: str, which: Iterable[int], depth: Floats
 ) -> Axes:
     """Offsets of pins or places, at these depths, at the times asked or against time."""
     word(place, "kind", kind, ("shapes", "time"))
-    chosen = [integer(place, f"{what}s", number) for number in listed(place, f"{what}s", which)]
-    for number in chosen:
-        if not 0 <= number < depth.size:
-            raise ValueError(f"{place}: {what}s must be numbers from 0 to {depth.size - 1}, got {number}")
+    chosen = _pins_of(place, f"{what}s", which, depth.size)
     ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
     order = np.argsort(found.time)
     if kind == "time":

@@ -32,7 +32,7 @@ def plot_shapes(shapes: Sequence[Shape], ax: Axes | None) -> Axes:
         ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
         if isinstance(shape.system, Held):
             origin = "lower end"
-            ax.plot([0.0, 0.0], [0.0, drawn.span], color="black", marker="o", linestyle="none", markersize=6.0)
+            ax.plot(x[[0, -1]], [0.0, drawn.span], color="black", marker="o", linestyle="none", markersize=6.0)
         elif not linked:
             ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
     if origin == "support":

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypedDict, Unpack, overload
 
 from .. import _core
-from ..results.bent import CordShape, HeldShape
+from ..results.bent import CordShape, HeldCordShape, HeldShape
 from ..results.branches import Branch, Branches, branches_made
 from ..results.cord_branches import CordBranch, CordBranches
 from ..results.held_branches import HeldBranch, HeldBranches
@@ -63,14 +63,14 @@ def branch(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself, rigged, or held at both ends a span apart; or a flexible cord. Along the branch
+        A chain of N links, by itself or rigged; a flexible cord; either held at both ends a span apart. Along the branch
         of a rig every link keeps its posture.
     mode : int
         Number of the mode, from 1, the slowest. Of a rig whose support is off the axis it must be 1, the branch from
-        rest; `branches` finds the isolated ones. Of a held chain it is the number of half waves at the start of the
+        rest; `branches` finds the isolated ones. Of what is held it is the number of half waves at the start of the
         branch.
     max_angular_speed : float
-        The speed at which to stop, rad/s, above that of the mode. The branch of a held chain begins at this speed and
+        The speed at which to stop, rad/s, above that of the mode. The branch of what is held begins at this speed and
         goes to slower ones.
     min_conical_height : float
         Instead of `max_angular_speed`: the conical height of that speed, m.
@@ -79,9 +79,9 @@ def branch(
     direction : {1, -1}, optional
         Of rotation. Only a rig with flywheels depends on it.
     max_points : int, optional
-        Largest number of points; there ``end`` is ``budget``. Not used for a held chain, which stops after 3000 steps.
+        Largest number of points; there ``end`` is ``budget``. Not used for what is held: that stops after 3000 steps.
     max_step : float, optional
-        Largest step between two points: of the arc, which has no unit (see ``Branch.arc``); of a held chain the
+        Largest step between two points: of the arc, which has no unit (see ``Branch.arc``); of what is held the
         relative change of the forces at its end and of the conical height.
 
     Returns
@@ -90,7 +90,8 @@ def branch(
         The points of the branch, from the critical speed of the mode to the speed given. The first point is the
         straight chain. If double precision cannot separate the end from it, it is the only one (``end`` is then
         ``stuck``). Of a rig whose support is off the axis: from a tenth of the first critical speed of the rig with its
-        support in the axis, or of the speed given if that is slower. Of a held chain: until a link becomes slack.
+        support in the axis, or of the speed given if that is slower. Of what is held: until a link becomes slack,
+        or a cord folds.
         Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, of a cord to 1e-9.
 
     Raises
@@ -98,7 +99,7 @@ def branch(
     ValueError
         If there is no such mode (of a support off the axis: if `mode` is not 1), if not exactly one of
         `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, or if
-        `direction` is neither 1 nor -1. For a `Held`: if it is a cord, is held by a tension or has no gravity.
+        `direction` is neither 1 nor -1. For a `Held`: if it is held by a tension or has no gravity.
 
     Notes
     -----
@@ -171,7 +172,7 @@ def branches(
     ----------
     system : Chain, Rig, Cord or Held
         A chain or a rig of few links, as all shapes are listed (`steady_shapes`), those of a rig in its own posture. Or
-        a flexible cord. Or a chain held at both ends a span apart: of that only the branches are found that begin with
+        a flexible cord. Or either held at both ends a span apart: of that only the branches are found that begin with
         the nearly straight chain, and `lists`, `budget` and `proof_budget` are not used.
     max_angular_speed : float
         The speed up to which to go, rad/s.
@@ -192,16 +193,16 @@ def branches(
     -------
     Branches, CordBranches or HeldBranches
         A sequence of branches: those that leave the vertical, slowest first (of a rig whose support is off the axis the
-        one from rest), then isolated ones, which are born in a fold, slowest first. Of a held chain by half waves.
+        one from rest), then isolated ones, which are born in a fold, slowest first. Of what is held by half waves.
         Of a cord ``complete`` is true where a theorem counts the shapes (see `steady_shapes`) and every branch was
-        followed to its end. A held chain has no ``complete``: `steady_shapes` proves its list at one speed.
+        followed to its end. What is held has no ``complete``: `steady_shapes` proves the list of a chain at one speed.
 
     Raises
     ------
     ValueError
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
-        a link of a rig has no effective tension at a speed looked at. For a `Held`: if it is a cord, is held by a
-        tension or has no gravity.
+        a link of a rig has no effective tension at a speed looked at. For a `Held`: if it is held by a tension or
+        has no gravity.
 
     Notes
     -----
@@ -278,7 +279,7 @@ def steady_shape(system: Cord, *, all: Literal[False] = ..., **wanted: Unpack[_W
 @overload
 def steady_shape(system: Cord, *, all: Literal[True], **wanted: Unpack[_Wanted]) -> tuple[CordShape, ...]: ...
 @overload
-def steady_shape(system: Held, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> HeldShape: ...
+def steady_shape(system: Held, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> HeldShape | HeldCordShape: ...
 def steady_shape(
     system: Chain | Rig | Cord | Held,
     *,
@@ -292,18 +293,18 @@ def steady_shape(
     direction: int = 1,
     all: bool = False,
     min_conical_height: float | None = None,
-) -> SteadyShape | CordShape | HeldShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
+) -> SteadyShape | CordShape | HeldShape | HeldCordShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, up to 100,000 and more, by itself, rigged or held at both ends a span apart; or a flexible
-        cord.
+        A chain of N links, up to 100,000 and more, by itself or rigged; a flexible cord; either held at both ends a span
+        apart.
     mode : int, optional
         Number of the mode at which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off
         the axis it must be 1, the branch from rest; shapes of other branches: `Branch.at` of those that `branches`
-        finds. Of a held chain it is the number of half waves with which the branch begins at great speed.
+        finds. Of what is held it is the number of half waves with which the branch begins at great speed.
     conical_height : float
         Conical height of the speed, m, less than that of the mode.
     angular_speed : float
@@ -315,7 +316,7 @@ def steady_shape(
         Instead: the distance of the free end from the axis, m; on either side.
     top_tension : float
         Instead: the tension at the topmost pin, more than the weight that it bears: N, or of systems by weight in its
-        unit. Of a held chain at its upper end.
+        unit. Of what is held at its upper end.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
@@ -324,13 +325,13 @@ def steady_shape(
         All shapes on the branch that fit, as a tuple, which is empty where there is none. Otherwise the first one.
     min_conical_height : float, optional
         The conical height at which the search ends, m, less than that of the mode. Left out, with `all` and a speed:
-        half of its height; else 1e-6 of that of the mode. Not used for a held chain.
+        half of its height; else 1e-6 of that of the mode. Not used for what is held.
 
     Returns
     -------
-    SteadyShape, CordShape, HeldShape or tuple of them
+    SteadyShape, CordShape, HeldShape, HeldCordShape or tuple of them
         Inclinations are within ``error_bound``, which is proved except at a fold (measured: 2.3e-16); of a cord within
-        ``error_estimate``. That the shape is on this branch is checked at every step, see `branch`. Of a held chain: at
+        ``error_estimate``. That the shape is on this branch is checked at every step, see `branch`. Of what is held: at
         a speed the shape that is reached from the nearly straight chain; with a top tension the fastest one on the
         branch that has it.
 
@@ -339,8 +340,8 @@ def steady_shape(
     ValueError
         If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
         neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
-        at that speed, or, unless `all`, if what is given is not met on it. For a `Held`: if it is a cord, is held by a
-        tension or has no gravity, and for `tip_inclination`, `tip_radius` and ``all=True``.
+        at that speed, or, unless `all`, if what is given is not met on it. For a `Held`: if it is held by a tension or
+        has no gravity, and for `tip_inclination`, `tip_radius` and ``all=True``.
     TypeError
         If `all` is not a bool.
 

@@ -100,7 +100,7 @@ def _method(place: str, system: Any, first: int, count: int) -> tuple[str, float
     if isinstance(system, Rig):
         spinning = system.has_momentum
         return "rig, by counts or discs", 2.0**-50 if spinning else 2.0**-51, 2.5e-5 + 1e-6 * system.size * count * (1 + spinning)
-    if isinstance(system, Cord):
+    if isinstance(system, Cord) or isinstance(getattr(system, "system", None), Cord):
         one = modes(system, 1)
         return one.method, float(one.error_bound[0]), (1e-3 * (first + count) if one.method == "power series" else 1e-5 * count)
     return "bisection", 2.0**-52, 6e-6 * system.size * count

@@ -100,6 +100,11 @@ def fit(
     if not isinstance(system, Chain | Rig | Cord | Held):
         raise no_system(_PLACE, system)
     g = one_positive(_PLACE, "gravity", gravity)
+    if isinstance(system, Held) and system.span is not None:
+        raise ValueError(
+            f"{_PLACE}: what is held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
+            "a speed and the tension at that speed"
+        )
     if isinstance(system, Held):
         straight(_PLACE, system, g)
     paths, starts = _varied(vary)

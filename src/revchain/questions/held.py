@@ -1,60 +1,76 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Questions about a chain held at a span that hanging chains answer in another way."""
+"""Questions about what is held at a span that hanging chains answer in another way."""
 
 from __future__ import annotations
 
+from typing import Any
+
 from .. import _core
-from ..results.bent import HeldShape
+from ..results.bent import HeldCordShape, HeldShape
 from ..results.held_branches import HeldBranch, HeldBranches, held_branches_made
-from ..systems.cord import Cord
+from ..systems.chain import Chain
 from ..systems.held import Held
 
 
 def held_branch(place: str, held: Held, mode: int, least: float, gravity: float, step: float) -> HeldBranch:
     """See `branch`."""
     found = held_branches(place, held, least, gravity, step)
-    if mode > len(found):
+    for each in found:
+        if each.mode == mode:
+            return each
+    if held.is_on_axis:
         most = len(found)
         raise ValueError(f"{place}: mode must be from 1 to {most}, the branches at the greatest speed, got {mode}")
-    return found[mode - 1]
+    modes = ", ".join(str(each.mode) for each in found) or "none"
+    raise ValueError(f"{place}: mode must be that of a branch at the greatest speed, here one of {modes}, got {mode}")
 
 
 def held_branches(place: str, held: Held, least: float, gravity: float, step: float = 0.1) -> HeldBranches:
     """See `branches`; down to the conical height `least`."""
-    chain, span = _spanned(place, held)
-    return held_branches_made(_core.held_branches(chain, span, least, step), held, gravity, (least, step))
+    span = _span(place, held)
+    found: Any = _core.held_branches(held.system._compiled, span, *held._ends(gravity), least, step)
+    return held_branches_made(found, held, gravity, (least, step, gravity))
 
 
-def held_shape(place: str, held: Held, mode: int, name: str, value: float, gravity: float, every: bool) -> HeldShape:
+def held_shape(
+    place: str, held: Held, mode: int, name: str, value: float, gravity: float, every: bool
+) -> HeldShape | HeldCordShape:
     """See `steady_shape`."""
-    chain, span = _spanned(place, held)
+    span = _span(place, held)
     if name not in ("conical_height", "angular_speed", "top_tension"):
         raise ValueError(
-            f"{place}: a held chain has no free end; give conical_height, angular_speed or top_tension, got {name}"
+            f"{place}: what is held has no free end; give conical_height, angular_speed or top_tension, got {name}"
         )
     if every:
-        raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of a held chain")
-    if mode > max(chain.size - 1, 1):
-        raise ValueError(f"{place}: mode must be from 1 to {max(chain.size - 1, 1)}, got {mode}")
+        raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of what is held")
+    most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
+    if isinstance(held.system, Chain) and mode > most:
+        raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
+    if name == "top_tension" and not held.is_firm:
+        raise ValueError(
+            f"{place}: the speed of a top_tension is for firm ends; between springs give angular_speed, or read it from "
+            f"the top_tension of a branch, got {value:g}"
+        )
     asked = value / held._force(gravity) if name == "top_tension" else value
-    found = _core.held_shape(chain, span, mode, name, asked, gravity)
-    return HeldShape._made(
+    found = _core.held_shape(held.system._compiled, span, *held._ends(gravity), mode, name, asked, gravity)
+    kind: Any = HeldShape if isinstance(held.system, Chain) else HeldCordShape
+    shape: HeldShape | HeldCordShape = kind._made(
         found,
         system=held,
         gravity=gravity,
         angular_speed=value if name == "angular_speed" else float((gravity / found.conical_height) ** 0.5),
         _asked=("mode", mode, name, asked, gravity),
     )
+    return shape
 
 
-def _spanned(place: str, held: Held) -> tuple[_core.Chain, float]:
-    """The chain and its span."""
-    if isinstance(held.system, Cord):
-        raise ValueError(f"{place}: is for chains; cut the cord into links: Held(cord.chain(100), span=...)")
+def _span(place: str, held: Held) -> float:
+    """The span of what is held at one."""
     if held.span is None:
         raise ValueError(
-            f"{place}: is for a chain held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"
+            f"{place}: is for what is held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"
         )
     if held.weightless:
-        raise ValueError(f"{place}: without gravity a shape is the same at every speed; ask steady_shapes")
-    return held.system._compiled, held.span
+        why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
+        raise ValueError(f"{place}: without gravity {why}; ask steady_shapes")
+    return held.span

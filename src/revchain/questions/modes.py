@@ -95,7 +95,8 @@ def modes(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself or rigged; a flexible cord; a chain held straight by a tension at both ends.
+        A chain of N links, by itself or rigged; a flexible cord; a chain or cord held straight by a tension at both ends,
+        with gravity or without.
     count : int or "all", optional
         How many modes, slowest first: 10 if left out, or fewer where there are fewer. For a rig with flywheels, so many
         in each direction of rotation; `first` and windows, of the sizes of speeds, choose in each, too. A cord has
@@ -144,7 +145,7 @@ def modes(
         If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
         `method` or `precision` unknown. For a rig if `method` or `precision` is given; for a rig of
         more than 20,000 links whose speeds may be complex (inverted links or driven wheels together with momentum,
-        floats in fluid that turns). For a held system unless it is a chain under a tension that exceeds its weight.
+        floats in fluid that turns). For a held system unless it is under a tension that exceeds its weight.
     TypeError
         If `system` is none of these.
 
@@ -308,33 +309,29 @@ def _of_cord_or_held(
     if not isinstance(system, Held):
         raise no_system(place, system)
     _refuse(place, asked, "is for a Chain that hangs")
-    core = straight(place, system, gravity)
-    wanted = None if heights or speeds else count_of(place, count, max(min(10, system.mode_count - first + 1), 1))
-    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress)
+    core, most = straight(place, system, gravity), system.mode_count
+    if most is None and count == "all":
+        raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
+    default = 10 if most is None else max(min(10, most - first + 1), 1)
+    wanted = None if heights or speeds else count_of(place, count, default, each=24)
+    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress, gravity)
+    if most is None:
+        return CordModes._made(of_held, system=system, gravity=gravity, rtol=rtol)
     return Modes._made(of_held, system=system, gravity=gravity, precision="double", rtol=rtol)
 
 
-def straight(place: str, held: Held, gravity: float) -> _core.Held:
-    """A chain that a tension holds straight."""
-    if isinstance(held.system, Cord):
-        raise ValueError(
-            f"{place}: modes of a cord under tension are not available; cut it into links: "
-            "Held(cord.chain(1000), tension=...)"
-        )
+def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldCord:
+    """A chain or cord that a tension holds straight."""
     if held.span is not None:
         raise ValueError(
-            f"{place}: a chain whose ends are a span apart is bent, and has no modes of the straight chain; ask "
+            f"{place}: a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; ask "
             f"steady_shapes, and stability of a shape, got span {held.span:g}"
         )
-    if held.weightless:
-        raise ValueError(
-            f"{place}: modes are given as conical heights, of which there are none without gravity; leave out weightless"
-        )
-    least = held._force(gravity) * held.system._compiled.total_weight
+    least = 0.0 if held.weightless else held._force(gravity) * held._total
     if held.tension is not None and not held.tension > least:
         raise ValueError(
-            f"{place}: tension at the upper end must exceed the weight {least:.6g} of the chain, or its lower part is "
-            f"slack, got {held.tension:g}"
+            f"{place}: tension at the upper end must exceed the weight {least:.6g}, or the lower part is slack, got "
+            f"{held.tension:g}"
         )
     return held._under(gravity)
 
@@ -385,7 +382,7 @@ def count_modes(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself or rigged, a cord, or a chain held straight by a tension.
+        A chain of N links, by itself or rigged, a cord, or what is held straight by a tension.
     conical_height : array_like, optional
         Heights, m, positive, any shape.
     angular_speed : array_like, optional
@@ -449,7 +446,7 @@ def count_modes(
     if isinstance(system, Cord):
         return _core.count_cord_modes(system._under(g), height)[()]
     if isinstance(system, Held):
-        return _core.count_held_modes(straight(place, system, g), height)[()]
+        return _core.count_held_modes(straight(place, system, g), height, g)[()]
     if isinstance(system, Rig):
         return _core.count_rig_modes(system._under(g), height, True, g)[()]
     raise no_system(place, system)

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..results.cord_motions import CordSwing
-from ..results.motions import SWING, Response, Swing
-from ..systems.chain import Chain, compiled
+from ..results.motions import SWING, WHIRL_SWING, Response, Swing, WhirlSwing
+from ..systems.chain import Chain, checked, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import (
@@ -194,8 +194,19 @@ def swing(
     arc_length: ArrayLike | None = ...,
     gravity: float = ...,
 ) -> CordSwing: ...
+@overload
 def swing(
-    system: Chain | Cord,
+    system: Rig,
+    offset: ArrayLike,
+    velocity: ArrayLike | None,
+    time: ArrayLike,
+    *,
+    count: int | None = ...,
+    arc_length: ArrayLike | None = ...,
+    gravity: float = ...,
+) -> Swing | WhirlSwing: ...
+def swing(
+    system: Chain | Cord | Rig,
     offset: Start | None,
     velocity: Start | None,
     time: ArrayLike,
@@ -203,18 +214,20 @@ def swing(
     count: int | None = None,
     arc_length: ArrayLike | None = None,
     gravity: float = STANDARD_GRAVITY,
-) -> Swing | CordSwing:
-    """Start a hanging chain or cord anywhere and see it swing, by superposing its modes.
+) -> Swing | CordSwing | WhirlSwing:
+    """Start a hanging chain, rig or cord anywhere and see it swing, by superposing its modes.
 
     Small oscillations in one plane, of natural angular frequencies that are the whirl speeds of `modes`. For motions in
-    both directions ask for each: they are independent.
+    both directions ask for each: they are independent, but where a `Rig` has flywheels with momentum. These turn the
+    plane of the swing: offsets and velocities are then complex, x + i y.
 
     Parameters
     ----------
-    system : Chain or Cord
-        The chain of N links, or a flexible cord.
+    system : Chain, Rig or Cord
+        The chain of N links, what it is rigged with, or a flexible cord.
     offset : array_like, shape (N + 1,) or (N,)
-        Offsets of the pins at time 0, m, free end first; that of the support, 0, last or left out. Of a cord a
+        Offsets of the pins at time 0, m, free end first; that of the support last or left out: 0, but of a `Rig` whose
+        support yields. Of a cord a
         continuous function of the distance from the free end, or numbers at `arc_length`, straight between them; None:
         on the axis.
     velocity : array_like, shape (N + 1,) or (N,), or None
@@ -222,7 +235,7 @@ def swing(
     time : array_like
         Times in s, of either sign, a number or one axis.
     count : int, optional
-        Only so many of the slowest modes; all if left out, of a cord 40.
+        Only so many of the slowest modes; all if left out, of a cord 40. With momentum those of both senses count.
     arc_length : array_like, optional
         Cords: distances from the free end at which to look, m, ascending; for numbers as `offset` or `velocity` from 0 to
         the length. If left out: evenly spaced, as many as numbers are given, or 101.
@@ -231,24 +244,29 @@ def swing(
 
     Returns
     -------
-    Swing or CordSwing
+    Swing, WhirlSwing or CordSwing
         The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one. Of a cord the
-        offset of place m is within ``error_estimate[m]``.
+        offset of place m is within ``error_estimate[m]``. A `WhirlSwing` for a rig with momentum.
 
     Raises
     ------
     TypeError
         If `system` is none of the four systems.
     ValueError
-        For a rig and what is held at both ends; for numbers that are not finite, starts of another length, a
-        support that would move, more modes than there are, and weights more than 1e123 apart; for a function that jumps,
-        and `arc_length` of a chain.
+        For what is held at both ends; for numbers that are not finite, starts of another length, a support that would
+        move, more modes than there are, and weights more than 1e123 apart; for a function that jumps, and `arc_length` of
+        a chain. For a rig whose straight position is unstable, with the rate at which it falls; whose support is carried
+        round (ask `response`); in a fluid that turns; with momentum and pins without inertia; for complex starts without
+        momentum.
 
     Notes
     -----
     Pins that have no inertia, between massless threads, cannot be anywhere: offsets given for them are
     replaced by those to which their neighbours pull them, and velocities likewise, as a light thread snaps
     straight. `Swing.projected` says that it was done.
+
+    Links of a `Rig` do not turn about their own axes: of its wheels `momentum` alone plays a part (a driven wheel's is that
+    of its spin). Still fluid bears, and moves as the added mass says.
 
     Method: heights and shapes as of `modes`, once more in words of two doubles, with angles in two words: beats of
     many years keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 2 microseconds for each link
@@ -277,8 +295,7 @@ def swing(
     (-0.0959, True)
     """
     place = "revchain.swing"
-    others: dict[type, str] = {Rig: "ask its modes, or swing of its chain", Held: "ask its modes"}
-    refuse_other(place, system, (Chain, Cord), others)
+    refuse_other(place, system, (Chain, Rig, Cord), {Held: "ask its modes"})
     times = floats(place, "time", time)
     if times.ndim > 1:
         raise ValueError(f"{place}: time must be a number or have one axis, got an array of shape {times.shape}")
@@ -291,17 +308,44 @@ def swing(
         return cord_swing(place, system, offset, velocity, times, arc_length, kept, g)
     if arc_length is not None:
         raise ValueError(f"{place}: arc_length is for a Cord; pins of a Chain are where they are, got {shown(arc_length)}")
-    core = compiled(place, system)
-    start = _start(place, "offset", offset, system.size)
-    speed = _start(place, "velocity", np.zeros(system.size) if velocity is None else velocity, system.size)
-    found: dict[str, Any] = dict(zip(SWING, _core.swing(core, start, speed, times, number, g), strict=True))
+    if isinstance(system, Rig) and system.has_momentum:
+        return _whirling(place, system, offset, velocity, times, number, g)
+    start = _start(place, "offset", offset, system)
+    speed = _start(place, "velocity", np.zeros(system.size) if velocity is None else velocity, system)
+    asked = (start, speed, times, number, g)
+    if isinstance(system, Rig):
+        swung = checked(place, system.by_mass, _core.rig_swing, system._under(g), *asked)
+    else:
+        swung = _core.swing(compiled(place, system), *asked)
+    found: dict[str, Any] = dict(zip(SWING, swung, strict=True))
     if system.by_mass:
         found |= {name: g * found[name] for name in ("energy", "energy_left_out")}
     return Swing._made(None, system=system, gravity=g, time=np.array(times), **found)
 
 
-def _start(place: str, name: str, value: Any, size: int) -> Floats:
-    array = floats(place, name, value)
+def _whirling(
+    place: str, rig: Rig, offset: Any, velocity: Any, times: Floats, count: int | None, gravity: float
+) -> WhirlSwing:
+    start = _start(place, "offset", offset, rig)
+    speed = _start(place, "velocity", np.zeros(rig.size) if velocity is None else velocity, rig)
+    asked = (start.astype(np.complex128), speed.astype(np.complex128), times, count, gravity)
+    swung = checked(place, rig.by_mass, _core.whirl_swing, rig._under(gravity), *asked)
+    found: dict[str, Any] = dict(zip(WHIRL_SWING, swung, strict=True))
+    if rig.by_mass:
+        found |= {name: gravity * found[name] for name in ("energy", "energy_left_out")}
+    return WhirlSwing._made(None, system=rig, gravity=gravity, time=np.array(times), **found)
+
+
+def _start(place: str, name: str, value: Any, system: Chain | Rig) -> Any:
+    """Numbers for the pins; complex ones for a rig whose momentum turns the plane of the swing."""
+    size, array = system.size, array_of(value)
+    if array.dtype.kind != "c":
+        array = floats(place, name, value)
+    elif not (isinstance(system, Rig) and system.has_momentum):
+        raise ValueError(
+            f"{place}: {name} must be real: without momentum of flywheels the two level directions are independent; ask "
+            f"for each, got {shown(value)}"
+        )
     if array.shape not in ((size,), (size + 1,)):
         raise ValueError(
             f"{place}: {name} must have shape ({size + 1},), a number for each pin, or ({size},), the support's 0 "

@@ -88,10 +88,11 @@ def steady_shapes(
 
         Held systems: shapes of 1 to `max_half_waves` half waves, by half waves; those on the branch that is reached from
         the nearly straight chain without gravity, by drawing its ends together and then letting gravity grow, come first.
-        All links settle where they are pulled, as threads do; of two mirror images the one whose lowest free pin is at a
-        positive offset. ``missing`` lists the half waves for which none was found. Held chains: ``complete`` is true where
-        it is proved that there are no others of so many half waves; else ``undecided`` says with which inclinations of
-        the lowest link others may begin. Mostly proved for one half wave of 3 to 9 links with ``l <= a`` and mass
+        All links settle where they are pulled, as threads do. Of two mirror images the one whose lowest link leads
+        outwards is given; between ends off the axis there are none. Half waves are counted about the line between the
+        ends' places of rest, ends on springs included. ``missing`` lists the half waves for which none was found. Held
+        chains: ``complete`` is true where it is proved that there are no others of so many half waves; else
+        ``undecided`` says with which inclinations of the lowest link others may begin. Mostly proved for one half wave of 3 to 9 links with ``l <= a`` and mass
         at every pin; with 20 and more a few hundredths of a radian are often left; seldom proved for more half
         waves. Held cords: ``complete`` for a span without gravity, where there is one
         shape for every number of half waves.
@@ -223,5 +224,5 @@ def _weightless(
 
 
 def _held(held: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]) -> SteadyShapes:
-    by = (held.span, held._pull(gravity), held.weightless)
+    by = (held.span, held._pull(gravity), held.weightless, *held._ends(gravity))
     return held_shapes_made(_core.held_shapes(held.system._compiled, *by, *asked), held, height, speed, gravity, asked)

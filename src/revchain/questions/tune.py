@@ -18,6 +18,7 @@ from ..systems.datum import Datum, read
 from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, one_positive, real, shown
 from ..systems.rig import Rig
+from .held import held_shape
 from .modes import modes, straight
 from .refuse import no_system
 from .speeds import speeds
@@ -34,6 +35,7 @@ def tune(
     mode: int = 1,
     angular_speed: float | None = None,
     conical_height: float | None = None,
+    top_tension: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     between: tuple[float, float] | None = None,
 ) -> Tuned:
@@ -42,7 +44,7 @@ def tune(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system as it is; what is held, a chain by its tension.
+        The system as it is; what is held, by its tension, or at a span with `top_tension`.
     vary : str
         The path to the datum that may change, all else held:
 
@@ -55,13 +57,17 @@ def tune(
         - of a rig ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and what was given of
           flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
           ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``.
-        - of a cord ``"tip_mass"``; of what is held ``"tension"``.
+        - of a cord ``"tip_mass"``; of what is held ``"tension"`` or ``"span"``.
     mode : int
-        Number of the mode, from 1 for the slowest; of a rig among those of the direction of the speed wanted.
+        Number of the mode, from 1 for the slowest; of a rig among those of the direction of the speed wanted; of what is
+        held at a span the number of half waves.
     angular_speed : float, optional
         The whirl speed wanted, rad/s; of a rig of either sign.
     conical_height : float, optional
         Instead: the conical height wanted, m.
+    top_tension : float, optional
+        Of what is held at a span, which is bent at every speed: the tension at the upper end with which it shall go at the
+        speed wanted (`steady_shape`), N or in the unit of the weights.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     between : (low, high), optional
@@ -79,7 +85,8 @@ def tune(
     ------
     ValueError
         Unless exactly one of speed and height is given; for numbers out of range, another path, a range in which the
-        link would stand rather than hang, a mode that is not there; for what is held and has no modes.
+        link would stand rather than hang, a mode that is not there; for what is held at a span without `top_tension`, and for
+        `top_tension` of anything else.
     TypeError
         If `system` is none of the four systems.
 
@@ -93,7 +100,9 @@ def tune(
     than the mass, in ratio. Of a rig there is one stiffness, one momentum and one spin of a link for each speed, formed in
     double-double to 1e-15; the modes of the new rig tell which mode it is. All other data of rigs, cords and what is held
     are searched for: the speed is found at 65 values and where it turns between them, and each two neighbours with the
-    speed wanted between them are bisected. Solutions may lie unseen, and `complete` is False. The error bound is then that of two
+    speed wanted between them are bisected. Solutions may lie unseen, and `complete` is False; of what is held there is at
+    most one tension or mass for a speed, and `complete` is True where it is found. At a span the speed with `top_tension` is
+    that of `steady_shape`, the fastest on the branch, and its error is an estimate. The error bound is then that of two
     values whose speeds, with their own bounds, are on either side of the one wanted.
 
     Examples
@@ -114,6 +123,12 @@ def tune(
     -3.0
     >>> rc.tune(rc.Held(chain, tension=60.0), vary="tension", angular_speed="60 rpm").value.__round__(9)
     73.927601407
+
+    A skipping rope goes twice round in a second; how heavy must it be to pull with 9 N?
+
+    >>> rope = rc.Held(rc.Cord(2.6, mass=0.15), span=1.2)
+    >>> round(rc.tune(rope, vary="mass", angular_speed="2 Hz", top_tension=9.0).value, 6)
+    0.173584
     """
     if not isinstance(system, Chain | Rig | Cord | Held):
         raise no_system(_PLACE, system)
@@ -125,19 +140,36 @@ def tune(
         name, value = _of_either_sign(angular_speed, conical_height)
     else:
         name, value = exactly_one(_PLACE, conical_height=conical_height, angular_speed=angular_speed)
-    if isinstance(system, Held):
+    bent = isinstance(system, Held) and system.span is not None
+    if bent and top_tension is None:
+        raise ValueError(
+            f"{_PLACE}: what is held at a span is bent and has no critical speed; give top_tension too, the tension at the "
+            "upper end with which it shall go at the speed"
+        )
+    if top_tension is not None and not bent:
+        raise ValueError(f"{_PLACE}: top_tension is for what is held at a span, got {shown(top_tension)}")
+    if isinstance(system, Held) and not bent:
         straight(_PLACE, system, g)
     datum = read(_PLACE, system, vary, g)
     if isinstance(system, Chain) and vary != "length":
         return _link(system, datum, number, name, value, g, between)
     speed = value if name == "angular_speed" else float(np.sqrt(g / value))
+    if bent:
+        pull = one_positive(_PLACE, "top_tension", top_tension)
+        return _searched(datum, speed, g, between, lambda held: _speed_under(held, number, pull, g))
     one: Tuned | None = None
     if isinstance(system, Rig):
         one = _formed(system, datum, number, speed, g)
-    elif vary == "length" and not isinstance(system, Held):
-        one = _length(system, datum, number, value if name == "conical_height" else g / value**2)
+    elif vary == "length":
+        one = _length(system, datum, number, value if name == "conical_height" else g / value**2, g)
     if one is None:
-        return _searched(system, datum, number, speed, g, between)
+        signed = np.array([number if speed > 0 else -number])
+
+        def speed_of(changed: Any) -> tuple[float, float]:
+            found = speeds(_PLACE, changed, signed, g)
+            return float(found.speed[0]), float(found.bound[0])
+
+        return _searched(datum, speed, g, between, speed_of)
     if between is not None:
         raise ValueError(f"{_PLACE}: between is for what is searched for; {vary} has one value, got {shown(between)}")
     return one
@@ -175,9 +207,9 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
     )
 
 
-def _length(system: Chain | Cord, datum: Datum, mode: int, height: float) -> Tuned:
-    """Heights are as the length."""
-    found = modes(system, 1, first=mode)
+def _length(system: Chain | Cord | Held, datum: Datum, mode: int, height: float, gravity: float) -> Tuned:
+    """Heights are as the length, also under a tension."""
+    found = modes(system, 1, first=mode, gravity=gravity)
     length = height / float(found.conical_height[0]) * datum.present
     return _one(system, datum, datum.change(length), length, length * (float(found.error_bound[0]) + 2.0**-50))
 
@@ -229,14 +261,21 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
     return _one(rig, datum, tuned, value if is_met else None, None)
 
 
-def _searched(system: Any, datum: Datum, mode: int, speed: float, gravity: float, between: Any) -> Tuned:
+def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple[float, float]:
+    """The speed at which the branch of so many half waves has a tension, and what its relative error is taken for."""
+    shape = held_shape(_PLACE, held, mode, "top_tension", tension, gravity, False)
+    return shape.angular_speed, 1e-13 if held.size else 1e-11
+
+
+def _searched(
+    datum: Datum, speed: float, gravity: float, between: Any, speed_of: Callable[[Any], tuple[float, float]]
+) -> Tuned:
     """All else: bisection between neighbours with the speed wanted between theirs."""
-    number = np.array([mode if speed > 0 else -mode])
 
     def found(value: float) -> tuple[float, float]:
         """The speed over the one wanted, less 1, and its bound; a ValueError where the system has no such mode."""
-        one = speeds(_PLACE, datum.change(value), number, gravity)
-        return float(one.speed[0]) / speed - 1, float(one.bound[0]) * float(one.speed[0]) / speed + 2.0**-52
+        there, bound = speed_of(datum.change(value))
+        return there / speed - 1, bound * there / speed + 2.0**-52
 
     low, high = _range(datum) if between is None else _ends(between, datum)
     if not -np.inf < low < high < np.inf:
@@ -252,7 +291,7 @@ def _searched(system: Any, datum: Datum, mode: int, speed: float, gravity: float
         seen(value)
     if not off:
         found(datum.present)  # says why
-        raise ValueError(f"{_PLACE}: there is no mode {mode} anywhere between {low:g} and {high:g}")
+        raise ValueError(f"{_PLACE}: there is no such mode anywhere between {low:g} and {high:g}")
     for before, here, after in list(zip(off, [*off][1:], [*off][2:], strict=False)):
         if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # it turns: towards the speed wanted
             _turn(lambda x, sign=np.sign(off[here]): sign * seen(x), before, after)  # type: ignore[misc]
@@ -271,7 +310,7 @@ def _searched(system: Any, datum: Datum, mode: int, speed: float, gravity: float
         value=nearest,
         error_bound=None if nearest is None else values[nearest],
         values=np.array(sorted(values)),
-        complete=False,
+        complete=datum.one_way and nearest is not None,
         present=datum.present,
         between=(low, high),
         reachable=(float(heights.min()), float(heights.max())) if nearest is None else None,

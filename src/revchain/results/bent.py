@@ -15,6 +15,8 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
+from .held_sensitivity import held_shape_sensitivity
+from .shape_sensitivity import ShapeSensitivity
 from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven, judged
 from .sheet import Column, Sheet
 
@@ -61,30 +63,6 @@ class _Bent(Shape):
         part=True,
     )
     _asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
-
-    def stability(self, *, frame: str = "free") -> Stability:
-        """Refuse: the stability of cords is not available. Ask that of a chain of links.
-
-        Parameters
-        ----------
-        frame : {"free", "driven"}
-            As of chains.
-
-        Raises
-        ------
-        ValueError
-            Always.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> chain = rc.Cord(1.0).chain(10)
-        >>> rc.steady_shapes(chain, conical_height=0.2)[0].stability().verdict
-        'minimum'
-        """
-        place = f"revchain.{type(self).__name__}.stability"
-        is_driven(place, frame)
-        raise ValueError(f"{place}: is for chains; cut the cord into links: cord.chain(10)")
 
     @property
     def _reach(self) -> float:
@@ -242,12 +220,12 @@ class _HeldShape(_Bent):
         part=True,
     )
     lower_pull: Field[Floats] = Field(
-        "The pull on the lower bearing, shape (2,): to the side of the second pin, and up.",
+        "The chain's pull on the lower bearing, shape (2,): outwards (to the side where offsets are positive), and up.",
         lambda s: s._per * np.array(s._found().lower_pull),
         part=True,
     )
     upper_pull: Field[Floats] = Field(
-        "The pull on the upper bearing, shape (2,): to the side of the lowest free pin, and up.",
+        "The chain's pull on the upper bearing, shape (2,): outwards, and up.",
         lambda s: s._per * np.array(s._found().upper_pull),
         part=True,
     )
@@ -280,13 +258,14 @@ class _HeldShape(_Bent):
             return branch_again(held, tuple(asked[1:])).shapes[place]
         if asked and asked[0] == "mode":
             mode, name, value = asked[1:]
-            return _core.held_shape(held.system._compiled, held.span, mode, name, value, place)
-        by = (held.span, held._pull(self.gravity), held.weightless)
+            lower, upper = held._ends(self.gravity)
+            return _core.held_shape(held.system._compiled, held.span, lower, upper, mode, name, value, place)
+        by = (held.span, held._pull(self.gravity), held.weightless, *held._ends(self.gravity))
         return _core.held_shapes(held.system._compiled, *by, *asked).shapes[place]
 
 
 class HeldShape(_HeldShape):
-    """One steady shape of a chain with both ends on the axis: links lowest first, pins from the lower end up.
+    """One steady shape of a chain with both ends held: links lowest first, pins from the lower end up.
 
     Examples
     --------
@@ -303,11 +282,18 @@ class HeldShape(_HeldShape):
     )
     error_bound: Field[float] = Field("Of every inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
+    sensitivity: Field[ShapeSensitivity] = Field(
+        "Derivatives of inclinations, offsets and tensions at the pins by the speed, the data of each link, the span or the "
+        "tension, and what holds the ends: each part is `HeldShapeDerivatives`.",
+        held_shape_sensitivity,
+    )
     moment_of_inertia: Field[float] = Field(
-        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+        "About the axis, carriages of springs included, kg m^2; of a chain given by weight, weight times length squared.",
+        part=True,
     )
     effective_energy: Field[float] = Field(
-        "Potential energy less that of the centrifugal forces, J: stationary among figures of the same span.",
+        "Potential energy, with that of springs, less that of the centrifugal forces, J: stationary among figures of the "
+        "same span.",
         forced("height_times_energy"),
         part=True,
     )
@@ -315,7 +301,7 @@ class HeldShape(_HeldShape):
     _axes: ClassVar[tuple[str, str]] = ("link", "pin")
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance, both ends staying where they are.
+        """Say what becomes of a small disturbance; firm ends stay where they are, those on springs move across the axis.
 
         Parameters
         ----------
@@ -327,13 +313,14 @@ class HeldShape(_HeldShape):
         -------
         Stability
             Of N links ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven one, to about 1e-13
-            of the largest where they are simple. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
+            of the largest where they are simple; for each end on a spring 4 more, or 2. Off the axis arms turn at a
+            constant speed, and there are 2 more in the free frame. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
             in `Stability.internal_damping` and `Stability.external_damping`.
 
         Raises
         ------
         ValueError
-            If `frame` is neither, or a pin has no mass.
+            If `frame` is neither, or a pin that moves has no mass (the upper end on a spring may have none).
 
         Examples
         --------
@@ -367,6 +354,38 @@ class HeldCordShape(_HeldShape):
         lambda s: s._found().error_bound,
         part=True,
     )
+    moment_of_inertia: Field[float] = Field(
+        "About the axis, kg m^2; of a cord given by weight, weight times length squared.", part=True
+    )
+
+    def stability(self, *, frame: str = "free") -> Stability:
+        """Say what becomes of a small disturbance, both ends staying where they are.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}, optional
+            ``free``: no torque about the axis, so that angular momentum is kept. ``driven``: it moves in a plane that is
+            made to turn at constant speed.
+
+        Returns
+        -------
+        Stability
+            As of a cord that hangs: see `CordShape.stability`.
+
+        Raises
+        ------
+        ValueError
+            If `frame` is neither.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.Held(rc.Cord(1.0), span=0.5)
+        >>> [shape.stability().verdict for shape in rc.steady_shapes(rope, conical_height=0.01, max_half_waves=2)]
+        ['minimum', 'spectrally stable']
+        """
+        driven = is_driven("revchain.HeldCordShape.stability", frame)
+        return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return what there is at distances along the cord.

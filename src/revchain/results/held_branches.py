@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes of chains held at both ends, a span apart."""
+"""Branches of steady shapes of chains and cords held at both ends, a span apart."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.numbers import Floats, Whole, place_of
 from .base import Field, Result, Results
-from .bent import HeldShape
+from .bent import HeldCordShape, HeldShape
 from .branches import branch_items, branch_sizes, fold_words, is_fold
 from .sheet import Column, Sheet
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class HeldBranch(Result):
-    """A branch of shapes of a chain held at a span, point by point; returned by `branch` and in what `branches` returns.
+    """A branch of shapes of a chain or cord held at a span, point by point; returned by `branch` and in what `branches` returns.
 
     Arrays have one number for each point, from the greatest speed to slower ones and, past a fold, back.
 
@@ -35,20 +35,24 @@ class HeldBranch(Result):
     """
 
     __slots__ = ()
-    system: Field[Held] = Field("The chain held at both ends.", part=True)
+    system: Field[Held] = Field("What is held at both ends.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    mode: Field[int] = Field("Half waves with which it begins at the greatest speed.", part=True)
+    mode: Field[int] = Field(
+        "Its number: half waves with which it begins at the greatest speed. Between ends off the axis ``2 * k - 1`` where it "
+        "is reached from k half waves whose lowest link leads outwards, ``2 * k`` inwards.",
+        part=True,
+    )
     conical_height: Field[Floats] = Field(
         "Conical height of the speed, m.", lambda b: _each(b, lambda s: s.conical_height), part=True
     )
     angular_speed: Field[Floats] = Field("Speed at every point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
     lowest_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link to the upward vertical, rad.",
+        "Inclination of the lowest link, or of a cord at its lower end, to the upward vertical, rad.",
         lambda b: _each(b, lambda s: s.inclination[0]),
         part=True,
     )
     largest_offset: Field[Floats] = Field(
-        "Largest distance of a pin from the axis, m.", lambda b: _each(b, lambda s: np.abs(s.offset).max()), part=True
+        "Largest distance of a pin or place from the axis, m.", lambda b: _each(b, lambda s: np.abs(s.offset).max()), part=True
     )
     top_tension: Field[Floats] = Field(
         "Tension at the upper end, N or in the unit of the weights.",
@@ -72,12 +76,14 @@ class HeldBranch(Result):
     )
     end: Field[str] = Field(
         "Why it ends: ``'slack'``, where a link becomes slack or turns over (the last speed within 2e-5, relative, as "
-        "measured); ``'speed'``, at the greatest speed again; ``'budget'``, after 3000 steps.",
+        "measured); ``'folded'``, where a cord hangs folded along the axis; ``'speed'``, at the greatest speed again; "
+        "``'rest'``, off the axis, where the chain hangs as at rest, at a conical height of 10,000 lengths; ``'budget'``, "
+        "after 3000 steps.",
         part=True,
     )
     asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
 
-    def shape(self, point: int) -> HeldShape:
+    def shape(self, point: int) -> HeldShape | HeldCordShape:
         """Return the shape at a point.
 
         Parameters
@@ -87,8 +93,8 @@ class HeldBranch(Result):
 
         Returns
         -------
-        HeldShape
-            Its `error_bound` is an estimate. `steady_shapes` at its speed proves one.
+        HeldShape or HeldCordShape
+            Its error bound is an estimate. `steady_shapes` at its speed proves one for a chain.
 
         Raises
         ------
@@ -103,13 +109,15 @@ class HeldBranch(Result):
         'minimum'
         """
         k = place_of("revchain.HeldBranch.shape", "point", point, len(self))
-        return HeldShape._made(
+        kind: Any = HeldShape if isinstance(self.system.system, Chain) else HeldCordShape
+        shape: HeldShape | HeldCordShape = kind._made(
             self._found().shapes[k],
             system=self.system,
             gravity=self.gravity,
             angular_speed=float(self.angular_speed[k]),
             _asked=("branch", *self.asked, k),
         )
+        return shape
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
         """Draw a number of the branch against the speed; folds are marked.
@@ -150,7 +158,7 @@ class HeldBranch(Result):
     def __len__(self) -> int:
         return int(self.conical_height.size)
 
-    def _again(self) -> _core.HeldBranch:
+    def _again(self) -> Any:
         return branch_again(self.system, self.asked)
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -165,16 +173,19 @@ class HeldBranch(Result):
             Column("fold", is_fold(self), "fold"),
             Column("moment_of_inertia", self.moment_of_inertia),
         ]
-        heading = f"Branch of {self.mode} half wave{'s' * (self.mode != 1)}: {fold_words(self)}"
+        waves = self.mode if self.system.is_on_axis else int(self.half_waves[0])
+        name = f"Branch of {waves} half wave{'s' * (waves != 1)}"
+        name += "" if self.system.is_on_axis else f" (mode {self.mode})"
+        heading = f"{name}: {fold_words(self)}"
         facts = {"mode": self.mode, "end": self.end, "gravity": self.gravity}
         return Sheet("point", heading, columns, facts, spread=True)
 
 
 class HeldBranches(Results[HeldBranch]):
-    """The branches of a chain held at a span that begin at one speed, by half waves."""
+    """The branches of a chain or cord held at a span that begin at one speed, by half waves."""
 
     __slots__ = ()
-    system: Field[Held] = Field("The chain held at both ends.", part=True)
+    system: Field[Held] = Field("What is held at both ends.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
@@ -211,7 +222,8 @@ class HeldBranches(Results[HeldBranch]):
         return plot_held_branches(self, ax, quantity=quantity, place="revchain.HeldBranches.plot")
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("mode", [each.mode for each in self], "half waves"), *branch_sizes(self)]
+        on_axis = self.system.is_on_axis
+        columns = [Column("mode", [each.mode for each in self], "half waves" if on_axis else "mode"), *branch_sizes(self)]
         number = f"{len(self)} branch{'es' * (len(self) != 1)}"
         return Sheet("branch", f"{number} from the nearly straight chain", columns, {"gravity": self.gravity})
 
@@ -220,15 +232,15 @@ def _each(branch: HeldBranch, of: Any) -> Floats:
     return np.array([of(shape) for shape in branch._found().shapes], float)
 
 
-def branch_again(held: Held, asked: tuple[Any, ...]) -> _core.HeldBranch:
+def branch_again(held: Held, asked: tuple[Any, ...]) -> Any:
     """A compiled branch, found once more."""
-    height, step, place = asked
-    assert held.span is not None and isinstance(held.system, Chain)
-    found: _core.HeldBranch = _core.held_branches(held.system._compiled, held.span, height, step)[place]
-    return found
+    height, step, gravity, place = asked
+    assert held.span is not None
+    found: Any = _core.held_branches(held.system._compiled, held.span, *held._ends(gravity), height, step)
+    return found[place]
 
 
-def held_branches_made(found: list[_core.HeldBranch], held: Held, gravity: float, asked: tuple[Any, ...]) -> HeldBranches:
+def held_branches_made(found: list[Any], held: Held, gravity: float, asked: tuple[Any, ...]) -> HeldBranches:
     """A list around compiled branches."""
     given: dict[str, Any] = {"system": held, "gravity": gravity}
     return HeldBranches._made(None, _items=branch_items(HeldBranch, found, asked, given), **given)

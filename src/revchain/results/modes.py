@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .motions import Response
+    from .cord_sensitivity import CordSensitivity, CordUncertainty
     from .sensitivity import RigSensitivity, RigUncertainty, Sensitivity, Uncertainty
 
 Complex = NDArray[np.complex128]
@@ -197,8 +198,8 @@ class Modes(Result):
         Raises
         ------
         ValueError
-            If gravity is not positive and finite; for a rig, and for a chain by mass under a tension: springs, flywheels and
-            tensions in newtons do not scale with gravity.
+            If gravity is not positive and finite; for a rig, and for what a tension holds, by mass or without gravity:
+            springs, flywheels and tensions in newtons do not scale with gravity.
 
         Examples
         --------
@@ -207,7 +208,7 @@ class Modes(Result):
         >>> m.at(gravity=9.81).angular_speed
         array([2.])
         """
-        held = isinstance(self.system, Held) and self.system.by_mass
+        held = isinstance(self.system, Held) and (self.system.by_mass or self.system.weightless)
         if isinstance(self.system, Rig) or held:
             what = "what a tension in newtons holds" if held else "a rig"
             raise ValueError(
@@ -246,8 +247,8 @@ class Modes(Result):
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a cord
-            and for what is held.
+            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a chain
+            that is held at both ends.
 
         Notes
         -----
@@ -266,8 +267,8 @@ class Modes(Result):
 
         if not isinstance(self.system, Chain):
             raise ValueError(
-                f"revchain.Modes.uncertainty: is for a Chain or a Rig, got a {type(self.system).__name__}; cut a cord: "
-                "cord.chain(100), of what is held change the datum and ask again"
+                "revchain.Modes.uncertainty: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the "
+                "datum and ask again"
             )
         given = {
             "mass": mass,
@@ -322,17 +323,20 @@ class Modes(Result):
             none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
         if isinstance(self.system, Held):
-            held = self.system._under(self.gravity)
-            return _core.held_modes(held, int(self.number[0]), len(self), None, None, self.rtol)
+            return self._again_held()
         method = self.method if self.method in _core.METHODS else "auto"
         first, certified = int(self.number[0]), self.certificate is not None
         return _core.modes(
             self.system._compiled, first, len(self), None, None, self.rtol, certified, self.precision, method
         )
 
+    def _again_held(self) -> Any:
+        held = self.system._under(self.gravity)
+        return _core.held_modes(held, int(self.number[0]), len(self), None, None, self.rtol, None, self.gravity)
+
     def _which(self) -> str:
         """How many modes of how many, or which where they are not the slowest."""
-        count = None if isinstance(self.system, Cord) else self.system.mode_count
+        count = getattr(self.system, "mode_count", None)
         total = "infinitely many" if count is None else f"{count:,}"
         if len(self) == 0 or self.number[0] == 1:
             return f"{len(self):,} of {total} mode{'s' * (count != 1)}"
@@ -355,8 +359,12 @@ class Modes(Result):
         """A table is brief: it shows nodes where they are known or soon found."""
         if brief and "nodes" not in self._kept and self.system.size * len(self) > MOST_OFFSETS:
             return []
-        nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
+        nodes = self._node_column()
         return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
+
+    def _node_column(self) -> Column:
+        end = "lower" if isinstance(self.system, Held) else "free"
+        return Column("nodes", self.nodes, f"nodes (m from the {end} end)", axes=("node",), shown=_texts(self.nodes))
 
     def _heading(self, which: str) -> str:
         system = repr(self.system)
@@ -590,10 +598,12 @@ class RigModes(Modes):
 class CordModes(Modes):
     """The modes of a cord, slowest first; `k` modes. Shapes are known at every place.
 
+    Of a cord held straight at both ends, distances begin at its lower end.
+
     Notes
     -----
     Heights are zeros of Bessel functions, Greenhill (1908) section 4: of ``J0`` for a uniform cord, ``Jp`` for a density
-    s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip; all others are found by power series.
+    s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends; all others are found by power series.
     ``error_bound`` says their accuracy: 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: within
     5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: a height in closed form 0.01 to 15 microseconds, by
     power series 1 millisecond for each mode up to the last; a node as its height, a vertical point with a tip or by power
@@ -622,23 +632,74 @@ class CordModes(Modes):
         lambda m: np.linspace(0.0, m.system.length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets at these places from the axis, shape (k, 201); that of the free end is 1.",
+        "Offsets at these places from the axis, shape (k, 201); that of the free end is 1. Held at both ends: the largest, at "
+        "the lowest vertical point, is 1.",
         lambda m: m.offset(m.arc_length),
     )
     vertical_points: Field[tuple[Numbers, ...]] = Field(
         "For each mode the distances from the free end at which it is vertical, one above each node: what hangs below has "
-        "its centre of gravity on the axis, (13) and (14) of section 4 of the paper.",
+        "its centre of gravity on the axis, (13) and (14) of section 4 of the paper. Held at both ends: one below each node, "
+        "and one below the upper end.",
         lambda m: m._points("vertical_points"),
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end at which it crosses the axis, without the support.",
+        "For each mode the distances from the free end at which it crosses the axis, without the ends held.",
         lambda m: m._points("nodes"),
     )
     residual: Field[Any] = Field("Always None: shapes are closed forms or power series.", lambda m: None)
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
     certificate: Field[Certificate | None] = Field("Always None: `revchain.modes` certifies chains only.", lambda m: None)
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    sensitivity: Field[Any] = Field("Not available: a ValueError.", lambda m: _sensitivity(m))
+    sensitivity: Field[CordSensitivity] = Field(  # type: ignore[assignment]
+        "Derivatives with respect to length, mass, tip, exponent of the density and tension.", lambda m: _sensitivity(m)
+    )
+
+    def uncertainty(  # type: ignore[override]
+        self,
+        *,
+        mass: float | str | None = None,
+        weight: float | str | None = None,
+        length: float | str | None = None,
+        tip_mass: float | str | None = None,
+        tip_weight: float | str | None = None,
+        exponent: float | None = None,
+        tension: float | str | None = None,
+    ) -> CordUncertainty:
+        """Return how uncertain conical heights and speeds are where the data are.
+
+        Parameters
+        ----------
+        mass, weight, length, tip_mass, tip_weight, tension : float or str, optional
+            Standard deviation of each, or text such as ``"5 %"``: that part of the datum. Left out: exactly known.
+            `CordSensitivity` says what is held while one changes; deviations of different data are independent.
+        exponent : float, optional
+            Standard deviation of the exponent of the density.
+
+        Returns
+        -------
+        CordUncertainty
+
+        Raises
+        ------
+        ValueError
+            For deviations that are negative or not finite, a mass of a cord given by weight, a tension of one that hangs,
+            a tip or an exponent of one that is held, an exponent where the density is a function.
+
+        Notes
+        -----
+        First order: heights are taken as linear in the data.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> u = rc.modes(rc.Cord(2.0, mass=0.5, tip_mass=0.1), 2).uncertainty(length="1 %", tip_mass=0.02)
+        >>> u.relative.round(5), u.largest
+        (array([0.01867, 0.04308]), (('tip_mass', 0), ('tip_mass', 0)))
+        """
+        from .cord_sensitivity import cord_uncertainty
+
+        given = {"mass": mass, "weight": weight, "length": length, "tip_mass": tip_mass, "tip_weight": tip_weight}
+        return cord_uncertainty(self, given | {"exponent": exponent, "tension": tension})
 
     def offset(self, arc_length: ArrayLike) -> Floats:
         """Return the offsets of all modes at places of the cord.
@@ -651,7 +712,7 @@ class CordModes(Modes):
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            Over that of the free end. Within 1e-15 times the mode number, twice that with a tip, for a density s^p 1e-15
+            Over that of the free end; held at both ends, over the largest. Within 1e-15 times the mode number, twice that with a tip, for a density s^p 1e-15
             times ``1 + 2 sqrt((p + 1) length / conical_height)``, by power series 1e-14; of the largest of each mode,
             which exceeds 1 with a tip and for p below -1/2. Cost: 1 to 15 microseconds for each mode and place, 100 for
             a density function.
@@ -670,7 +731,7 @@ class CordModes(Modes):
         return self._along("offset", arc_length)
 
     def slope(self, arc_length: ArrayLike) -> Floats:
-        """Return ``d offset / d arc_length`` of all modes at places of the cord, ``-1 / conical_height`` at the free end.
+        """Return ``d offset / d arc_length`` of all modes at places of the cord, ``-1 / conical_height`` at a free end.
 
         Parameters
         ----------
@@ -680,7 +741,7 @@ class CordModes(Modes):
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            In 1/m, for an offset 1 of the free end. Accuracy and cost are those of `offset`, of the largest slope.
+            In 1/m, for offsets as `offset` returns them. Accuracy and cost are those of `offset`, of the largest slope.
 
         Raises
         ------
@@ -720,10 +781,12 @@ class CordModes(Modes):
         if not len(self):
             none = lambda arc: np.empty((0, len(arc)))  # noqa: E731
             return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
+        if isinstance(self.system, Held):
+            return self._again_held()
         return _core.cord_modes(self.system._compiled, int(self.number[0]), len(self), None, None, self.rtol)
 
     def _shape_columns(self, brief: bool) -> list[Column]:
-        nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
+        nodes = self._node_column()
         return [nodes] if brief else [nodes, Column("shape", self.shape, axes=("place",))]
 
 
@@ -764,9 +827,15 @@ def _sensitivity(modes: Modes) -> Any:
 
     if isinstance(modes, RigModes):
         return sensitivity.of_rig(modes)
+    if isinstance(modes, CordModes):
+        from .cord_sensitivity import of_cord
+
+        return of_cord(modes)
     if not isinstance(modes.system, Chain):
-        name = type(modes.system).__name__
-        raise ValueError(f"revchain.Modes.sensitivity: is for a Chain or a Rig, got a {name}; cut a cord: cord.chain(100)")
+        raise ValueError(
+            "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum "
+            "and ask again"
+        )
     return sensitivity.of_modes(modes)
 
 

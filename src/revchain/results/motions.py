@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .. import _core
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, boolean
+from ..systems.rig import Rig
 from .base import Field, Result
 from .sheet import Column, Sheet, speed_columns
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Flags = NDArray[np.bool_]
+Complex = NDArray[np.complex128]
 TURN = 2 * np.pi
 BENT = 0.3  # of the length of a chain: offsets beyond are not of small amplitude
 MOST_RESONANCES = 60  # marked in a plot: more would blacken it
@@ -187,7 +189,7 @@ SWING = (
 
 
 class Swing(Result):
-    """A hanging chain swinging in a plane after release, as the sum of its modes; returned by `swing`.
+    """A hanging chain, or rig, swinging in a plane after release, as the sum of its modes; returned by `swing`.
 
     Examples
     --------
@@ -199,11 +201,11 @@ class Swing(Result):
     """
 
     __slots__ = ()
-    system: Field[Chain] = Field("The chain of N links.", part=True)
+    system: Field[Chain | Rig] = Field("The chain of N links, or the rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
     offset: Field[Floats] = Field(
-        "Offsets of the pins, m, shape (T, N + 1), free end first, the support's 0 last: sums of the k modes kept.",
+        "Offsets of the pins, m, shape (T, N + 1), free end first, the support's last: sums of the k modes kept.",
         part=True,
     )
     velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
@@ -297,10 +299,134 @@ class Swing(Result):
         )
 
 
-def energy_words(energy: Floats) -> str:
+WHIRL_SWING = (
+    "offset",
+    "velocity",
+    "angular_speed",
+    "amplitude",
+    "energy",
+    "shape",
+    "energy_left_out",
+    "truncation_error",
+    "error_bound",
+)
+
+
+class WhirlSwing(Result):
+    """A rig with flywheels after release, as the sum of its whirls; returned by `swing`. Offsets are x + i y.
+
+    Examples
+    --------
+    A pendulum with a wheel: the plane of its swing turns.
+
+    >>> import numpy as np
+    >>> import revchain as rc
+    >>> wheel = rc.Flywheel(momentum=0.05)
+    >>> found = rc.swing(rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=wheel), [0.1, 0.0], None, [0.0, 20.0635])
+    >>> np.degrees(np.angle(found.offset[:, 0])).round(1)
+    array([ 0. , 28.7])
+    >>> found.angular_speed.round(4)
+    array([-3.1067,  3.1567])
+    """
+
+    __slots__ = ()
+    system: Field[Rig] = Field("The rig of N links.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
+    offset: Field[Complex] = Field(
+        "Offsets of the pins in both level directions, x + i y, m, shape (T, N + 1), free end first, the support's last: "
+        "sums of the k whirls kept.",
+        part=True,
+    )
+    velocity: Field[Complex] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
+    angular_speed: Field[Floats] = Field(
+        "Speed of each whirl, rad/s, negative backwards, shape (k,), slowest first: those of `modes`, where no link turns "
+        "about its own axis.",
+        part=True,
+    )
+    amplitude: Field[Complex] = Field(
+        "Shape (k,): offsets are the sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
+    )
+    energy: Field[Floats] = Field(
+        "Energy of each whirl, J (weight times length), shape (k,); no whirl gives any to another. Negative where momentum "
+        "keeps a standing link from falling.",
+        part=True,
+    )
+    shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.", part=True)
+    energy_left_out: Field[float] = Field(
+        "Upper bound of the energy that the start has beside the whirls kept; infinite where a link stands.", part=True
+    )
+    truncation_error: Field[Floats] = Field(
+        "Proved bound of what that may do to each offset at any time, shape (N + 1,).", part=True
+    )
+    error_bound: Field[Floats] = Field(
+        "Proved bound of the rounding error of every offset as a sum of the whirls kept, shape (T,); infinite where a link "
+        "stands.",
+        part=True,
+    )
+
+    def plot(self, ax: Axes | None = None, *, kind: str = "path", pins: Iterable[int] = (0,)) -> Axes:
+        """Draw the paths of pins as seen from above, or their offsets along x and y against time.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        kind : {"path", "time"}
+            Paths from above; or offsets against time, those along y dashed.
+        pins : iterable of int
+            Which pins, 0 the free end.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `kind` is neither, or for pins there are not.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=0.2))
+        >>> ax = rc.swing(rig, [0.1, 0.0], None, np.linspace(0, 20, 500)).plot()
+        >>> ax.get_xlabel()
+        'x (m)'
+        """
+        from ..plots.response import plot_whirl_swing
+
+        return plot_whirl_swing(self, ax, kind, pins)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        end = self.offset[:, 0]
+        columns = [
+            Column("time", self.time, "time (s)"),
+            Column("free_end_x", end.real, "free end: x (m)"),
+            Column("free_end_y", end.imag, "y (m)"),
+            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest pin (m)"),
+            Column("error_bound", self.error_bound, "error bound (m)"),
+            Column("offset", self.offset, axes=("pin",)),
+            Column("velocity", self.velocity, axes=("pin",)),
+        ]
+        names = ("gravity", "angular_speed", "amplitude", "energy", "energy_left_out", "truncation_error")
+        return Sheet(
+            "time",
+            energy_words(np.abs(self.energy), "whirl"),
+            columns,
+            {name: getattr(self, name) for name in names},
+            ["x + i y: the two level directions; error bound: of every offset as a sum of whirls, rounding"],
+            spread=True,
+        )
+
+
+def energy_words(energy: Floats, what: str = "mode") -> str:
     """How many modes a swing has, and which hold most of its energy."""
     share = energy / energy.sum() if energy.sum() > 0 else energy
     most = np.argsort(share)[::-1][:3]
-    words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
-    many = f"{energy.size} mode{'s' * (energy.size != 1)}"
+    words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)
+    many = f"{energy.size} {what}{'s' * (energy.size != 1)}"
     return f"{many}; of the energy {words}" if words else f"{many}, at rest"

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a steady shape changes with the speed and with the data of its links."""
+"""How a steady shape changes with the speed and with the data of its chain or rig."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..systems.numbers import Floats, refuse_beyond_memory
-from ..systems.rig import Rig, Support
+from ..systems.rig import Rig
 from .base import Field, Result
 from .sensitivity import DATA, datum_columns
 from .sheet import Column, Sheet
@@ -16,9 +19,13 @@ from .sheet import Column, Sheet
 if TYPE_CHECKING:
     from .shapes import SteadyShape
 
+PARTS = ("inclination", "offset", "tension")
+OF_LINKS = ("momentum", "spin", "axial_moment", "displaced_mass", "added_mass")
+OF_SUPPORT = ("stiffness", "support_mass")
 
-class ShapeDerivatives(Result):
-    """Derivatives of some numbers of a shape, one row for each; see `ShapeSensitivity`."""
+
+class DerivativesByLink(Result):
+    """What derivatives of numbers of a shape have in common, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
     angular_speed: Field[Floats] = Field("With respect to the speed, per rad/s, shape (M,).", part=True)
@@ -34,25 +41,66 @@ class ShapeDerivatives(Result):
     length_in_proportion: Field[Floats] = Field(
         "With respect to length, centroid and radius of gyration growing in proportion: a point mass's thread.", part=True
     )
-    support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
+
+    def _names(self) -> tuple[str, ...]:
+        return ("angular_speed", *DATA)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         rows = Column("index", np.arange(len(self.angular_speed)), "index")
-        columns = datum_columns(self, ("angular_speed", "support_radius", *DATA))
+        columns = datum_columns(self, self._names())
         return Sheet("index", "Derivatives by datum; those for the lowest link are shown", [rows, *columns])
+
+
+class ShapeDerivatives(DerivativesByLink):
+    """Derivatives of some numbers of a shape, one row for each; see `ShapeSensitivity`."""
+
+    __slots__ = ()
+    support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
+
+    def _names(self) -> tuple[str, ...]:
+        return ("angular_speed", "support_radius", *DATA)
+
+
+class RigShapeDerivatives(ShapeDerivatives):
+    """Derivatives of some numbers of a shape of a rig, one row for each; see `ShapeSensitivity`.
+
+    While a datum of a link changes, the fluid that it displaces keeps its place and size, and its flywheel its momentum.
+    Names with "mass" are weights, and numbers in their unit, where the chain was given by weight.
+    """
+
+    __slots__ = ()
+    stiffness: Field[Floats] = Field("With respect to that of the support, per N/m, (M,); 0 where it is firm.", part=True)
+    support_mass: Field[Floats] = Field("With respect to what moves with the support, (M,); 0 where it is firm.", part=True)
+    momentum: Field[Floats] = Field("With respect to the angular momentum that each link keeps, shape (M, N).", part=True)
+    spin: Field[Floats] = Field(
+        "With respect to the spin of each link's flywheel, per rad/s; 0 where flywheels were given by momentum.", part=True
+    )
+    axial_moment: Field[Floats] = Field(
+        "With respect to the moment of inertia about its axis of what turns with each link.", part=True
+    )
+    displaced_mass: Field[Floats] = Field("With respect to the mass of fluid that each link displaces.", part=True)
+    added_mass: Field[Floats] = Field(
+        "With respect to the still fluid that has to move with each link; 0 where the fluid turns.", part=True
+    )
+
+    def _names(self) -> tuple[str, ...]:
+        return (*super()._names(), *OF_SUPPORT, *OF_LINKS)
 
 
 class ShapeSensitivity(Result):
     """Derivatives of a steady shape with respect to the speed and to the data of N links.
 
-    While one datum changes, all others are held. At a fold of a branch they are infinite: there is no shape beyond.
+    While one datum changes, all others are held. At a fold of a branch they are infinite: there is no shape beyond. Of a
+    `Rig` there are also those by what it is rigged with: stiffness and mass of the support, momentum, spin and axial
+    moment of flywheels, fluid displaced and added. Of a chain held at both ends, `offset` and `tension` have a row for each of
+    the N + 1 pins, and each part is `HeldShapeDerivatives`, with those by what holds the ends.
 
     Notes
     -----
-    The moments about the pins stay 0: a linear equation for the change of the inclinations, with the second derivatives
-    of the effective energy as its matrix (implicit function theorem). Relative to the largest of their kind, derivatives
-    are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where that is more. Cost O(N^3), 20 ms for 200 links, and
-    memory for some ten N-by-N arrays.
+    The moments about the pins stay 0, and so does the force on a support that yields: a linear equation for the change of
+    the inclinations, with the second derivatives of the effective energy as its matrix (implicit function theorem).
+    Relative to the largest of their kind, derivatives are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where
+    that is more. Cost O(N^3), 20 ms for 200 links, and memory for some ten N-by-N arrays; of a rig twenty.
 
     Examples
     --------
@@ -70,7 +118,9 @@ class ShapeSensitivity(Result):
     """
 
     __slots__ = ()
-    inclination: Field[ShapeDerivatives] = Field("Of the inclination of each link, rad; M = N.", part=True)
+    inclination: Field[ShapeDerivatives] = Field(
+        "Of the inclination of each link, rad; M = N. Of a `Rig` this and the next two are `RigShapeDerivatives`.", part=True
+    )
     offset: Field[ShapeDerivatives] = Field(
         "Of the distance of each pin from the axis, m; row 0: the tip. M = N + 1.", part=True
     )
@@ -79,89 +129,250 @@ class ShapeSensitivity(Result):
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("link", np.arange(len(self.inclination.angular_speed)), "link")]
+        n = len(self.inclination.angular_speed)
+        columns = [Column("link", np.arange(n), "link")]
         for name, unit in (("inclination", "rad"), ("tension", "N")):
-            by_speed = getattr(self, name).angular_speed
+            by_speed = getattr(self, name).angular_speed[-n:]
             columns.append(Column(f"{name}_by_angular_speed", by_speed, f"{name} by speed ({unit} s/rad)"))
-        for name in DATA:
-            columns.append(Column(f"tip_by_{name}", getattr(self.offset, name)[0], f"tip radius by its {name}"))
+        of_links = (*DATA, *OF_LINKS) if isinstance(self.offset, RigShapeDerivatives) else DATA
+        held = not hasattr(self.offset, "support_radius")
+        pin, of_pin = (n // 2, f"offset of pin {n // 2}") if held else (0, "tip radius")
+        for name in of_links:
+            columns.append(Column(f"{'offset' if held else 'tip'}_by_{name}", getattr(self.offset, name)[pin], f"{of_pin} by its {name}"))
         return Sheet("link", "ShapeSensitivity: derivatives of a steady shape; .offset, .inclination, .tension", columns)
+
+
+@dataclass(frozen=True, slots=True)
+class _Balance:
+    """What balances in a shape: moments about the N pins and the force on the support,
+
+        (kappa + n H) sin d - turning cos d / lambda = 0,    E (y - b) - (sum of moves times out + carriage y) / lambda = 0,
+
+    or y = b where it is firm, y the offset of the uppermost pin. Bodies are the links' own and, after those, the fluid
+    that each displaces: `bears` and `moves` are weights that bear and that move, masses where those were given; bodies
+    are at out = y + reach sin d from the axis. kappa and turning are moments of what bears and of what moves.
+    """
+
+    link: NDArray[np.intp]
+    bears: Floats
+    moves: Floats
+    gyration: Floats
+    reach: Floats
+    momentum: Floats
+    axial: Floats
+    stiffness: float
+    carriage: float
+    height: float
+    speed: float
+    radius: float
+    top: float
+    sine: Floats
+    cosine: Floats
+
+    @property
+    def size(self) -> int:
+        return len(self.sine)
+
+    @property
+    def yields(self) -> bool:
+        return math.isfinite(self.stiffness)
+
+    @property
+    def out(self) -> Floats:
+        return self.top + self.reach @ self.sine
+
+    @property
+    def kappa(self) -> Floats:
+        return self.bears @ self.reach
+
+    @property
+    def own(self) -> Floats:
+        """What resists a link's turning about its bodies' centres of gravity."""
+        of_bodies = np.bincount(self.link, weights=self.moves * self.gyration**2, minlength=self.size)
+        return of_bodies - self.axial
+
+    @property
+    def turning(self) -> Floats:
+        return self.reach.T @ (self.moves * self.out) + self.own * self.sine
+
+    @property
+    def carried(self) -> NDArray[np.bool_]:
+        """Which bodies hang from the upper pin of which link, (N, bodies)."""
+        return self.link <= np.arange(self.size)[:, None]
+
+    def slope(self) -> Floats:
+        """Derivatives of all that balances by the inclinations and by the uppermost pin's offset, (N + 1, N + 1)."""
+        moved = self.reach.T @ (self.moves[:, None] * self.reach) + np.diag(self.own)
+        beside = self.cosine * (self.moves @ self.reach) / self.height
+        pull = (self.kappa + self.speed * self.momentum) * self.cosine + self.sine * self.turning / self.height
+        links = np.diag(pull) - np.outer(self.cosine, self.cosine) * moved / self.height
+        last = np.append(np.zeros(self.size), 1.0)
+        if self.yields:
+            last = np.append(-beside, self.stiffness - (self.moves.sum() + self.carriage) / self.height)
+        return np.vstack([np.column_stack([links, -beside]), last])
+
+
+@dataclass(frozen=True, slots=True)
+class _Change:
+    """What data change while nothing moves, a column for each: kappa and turning; the force on a support that yields; lambda times
+    the sideways pull on upper pins; what hangs there; the offsets of the pins."""
+
+    kappa: Any = 0.0
+    turning: Any = 0.0
+    force: Any = 0.0
+    sideways: Any = 0.0
+    hung: Any = 0.0
+    pins: Any = 0.0
+
+
+def _balance(shape: SteadyShape) -> _Balance:
+    rig = shape.system if isinstance(shape.system, Rig) else None
+    chain = rig.chain if rig is not None else shape.system
+    n = chain.size
+
+    def column(value: Any) -> Floats:
+        return np.broadcast_to(np.asarray(value, float), n)
+
+    weight = column(chain.mass if chain.by_mass else chain.weight)
+    centroid, gyration = column(chain.centroid), column(chain.radius_of_gyration)
+    pins = np.arange(n)
+    link, bears, moves = pins, weight, weight
+    momentum, axial, stiffness, carriage, radius = column(0.0), column(0.0), math.inf, 0.0, 0.0
+    if rig is not None:
+        given = {} if rig.displaced is None else rig.displaced._given
+        borne = column(given.get("mass", given.get("weight", 0.0)))
+        carried = -borne if rig.fluid == "turning" else column(given.get("added_mass", given.get("added_weight", 0.0)))
+        link = np.concatenate([link, link])
+        bears, moves = np.concatenate([weight, -borne]), np.concatenate([weight, carried])
+        centroid = np.concatenate([centroid, column(given.get("centroid", centroid))])
+        gyration = np.concatenate([gyration, column(given.get("radius_of_gyration", gyration))])
+        if rig.flywheels is not None:
+            momentum, axial = (column(x) for x in rig._turning(shape.gravity))
+        support = rig.support
+        stiffness, carriage, radius = support.stiffness / shape._per, support.carriage, support.radius
+    reach = np.where(link[:, None] < pins, column(chain.length), 0.0)
+    reach += np.where(link[:, None] == pins, centroid[:, None], 0.0)
+    return _Balance(
+        link=link,
+        bears=bears,
+        moves=moves,
+        gyration=gyration,
+        reach=reach,
+        momentum=momentum,
+        axial=axial,
+        stiffness=stiffness,
+        carriage=carriage,
+        height=shape.conical_height,
+        speed=shape.direction * shape.angular_speed,
+        radius=radius,
+        top=float(shape.offset[-1]),
+        sine=np.sin(shape.inclination),
+        cosine=np.cos(shape.inclination),
+    )
+
+
+def _by_weight(at: _Balance, bodies: slice, bears: float, moves: float) -> _Change:
+    """By the weights of bodies, one for each link, of which each bears and moves as its part."""
+    reach, out = at.reach[bodies], at.out[bodies]
+    above = np.tril(np.ones((at.size, at.size)))
+    return _Change(
+        kappa=bears * reach.T,
+        turning=moves * (reach.T * out + np.diag(at.gyration[bodies] ** 2 * at.sine)),
+        force=-moves * out / at.height,
+        sideways=moves * above * out,
+        hung=bears * above,
+    )
+
+
+def _changes(at: _Balance) -> dict[str, _Change]:
+    """By the data of each link that a chain has, and by its speed and the radius of its support."""
+    n, sine, solid = at.size, at.sine, slice(0, at.size)
+    above, lower = np.tril(np.ones((n, n))), at.link[:, None] < np.arange(n)
+    drawn, moves = at.moves[:, None] * lower * sine, at.moves[solid]
+    carried, turning = at.moves * at.out, at.turning
+    return {
+        "mass": _by_weight(at, solid, 1.0, 1.0),
+        "length": _Change(
+            kappa=np.diag(at.bears @ lower),
+            turning=np.diag(carried @ lower) + at.reach.T @ drawn,
+            force=-drawn.sum(axis=0) / at.height,
+            sideways=at.carried @ drawn,
+            pins=np.vstack([above.T * sine, np.zeros(n)]),
+        ),
+        "centroid": _Change(
+            kappa=np.diag(moves),
+            turning=np.diag(carried[solid]) + at.reach[solid].T * (moves * sine),
+            force=-moves * sine / at.height,
+            sideways=above * (moves * sine),
+        ),
+        "radius_of_gyration": _Change(turning=np.diag(2 * moves * at.gyration[solid] * sine)),
+        # 1/height falls: as if all that moves were lighter
+        "angular_speed": _Change(
+            kappa=np.copysign(1.0, at.speed) * at.momentum[:, None],
+            turning=(2 / abs(at.speed) * turning)[:, None],
+            force=-2 / abs(at.speed) / at.height * (carried.sum() + at.carriage * at.top),
+            sideways=(2 / abs(at.speed) * (at.carried @ carried))[:, None],
+        ),
+        "support_radius": _Change(kappa=np.zeros((n, 1)), force=-at.stiffness),
+    }
+
+
+def _rigged(at: _Balance, rig: Rig) -> dict[str, _Change]:
+    """By the data that a rig has beside."""
+    fluid, turns, none = slice(at.size, None), rig.fluid == "turning", np.zeros((at.size, 1))
+    return {
+        "momentum": _Change(kappa=at.speed * np.eye(at.size)),
+        "axial_moment": _Change(turning=-np.diag(at.sine)),
+        "displaced_mass": _by_weight(at, fluid, -1.0, -1.0 if turns else 0.0),
+        "added_mass": _by_weight(at, fluid, 0.0, 0.0 if turns else 1.0),
+        "stiffness": _Change(kappa=none, force=at.top - at.radius),
+        "support_mass": _Change(kappa=none, force=-at.top / at.height),
+    }
 
 
 def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
     """See `SteadyShape.sensitivity`."""
-    system = shape.system
-    if isinstance(system, Rig):
-        is_firm = system.support == Support(radius=system.support.radius)
-        if not is_firm or system.flywheels is not None or system.displaced is not None or system.inverted.any():
-            raise ValueError(
-                "revchain.SteadyShape.sensitivity: is for shapes of a Chain, or of a Rig with a firm support; "
-                "ask steady_shapes of the changed rig"
-            )
-    chain = system.chain if isinstance(system, Rig) else system
+    rig = shape.system if isinstance(shape.system, Rig) else None
+    chain = rig.chain if rig is not None else shape.system
     n = chain.size
-    refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 80 * n)
-    W, a, h, rho = (
-        np.broadcast_to(x, n).astype(float)
-        for x in (chain.mass if chain.by_mass else chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)
-    )
-    height, radius, per = shape.conical_height, float(shape.offset[-1]), shape._per
-    sine, cosine = np.sin(shape.inclination), np.cos(shape.inclination)
-    below = np.cumsum(W) - W
-    # Distances of the centroids from the axis: radius + C sin d. G: moments of what turns.
-    C = np.triu(np.broadcast_to(a, (n, n)), 1) + np.diag(h)
-    G = C.T @ (W[:, None] * C) + np.diag(W * rho**2)
-    kappa = W @ C
-    out = radius + C @ sine
-    turning = C.T @ (W * out) + W * rho**2 * sine
-    # The moments kappa sin d - cos d turning / height, and their derivatives by the inclinations
-    slope = np.diag(kappa * cosine + sine * turning / height) - np.outer(cosine, cosine) * G / height
+    refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, (80 if rig is None else 160) * n)
+    at = _balance(shape)
+    changes = _changes(at) | (_rigged(at, rig) if rig is not None else {})
+    sine, cosine = at.sine[:, None], at.cosine[:, None]
+    loads = []
+    for name, change in changes.items():
+        moments = sine * change.kappa - cosine * change.turning / at.height
+        last = change.force if at.yields else -float(name == "support_radius")
+        loads.append(np.vstack([moments, np.broadcast_to(last, (1, moments.shape[1]))]))
+    ends = np.cumsum([load.shape[1] for load in loads])[:-1]
+    moved = np.split(-np.linalg.solve(at.slope(), np.concatenate(loads, axis=1)), ends, axis=1)
 
-    carried = np.cumsum(W * out) - W * out  # of the links below
-    lower = np.triu(np.ones((n, n)), 1)  # [i, m]: link i hangs below link m
-    by_datum = {  # derivatives of kappa and of turning at constant inclinations: (N, N) arrays, a column for each link
-        "mass": (C.T, C.T * out + np.diag(rho**2 * sine)),
-        "length": (np.diag(below), np.diag(carried) + C.T @ (W[:, None] * lower * sine)),
-        "centroid": (np.diag(W), np.diag(W * out) + C.T * (W * sine)),
-        "radius_of_gyration": (np.zeros((n, n)), np.diag(2 * W * rho * sine)),
-    }
-    loads = [sine[:, None] * k - cosine[:, None] * t / height for k, t in by_datum.values()]
-    loads.append((cosine * turning / height**2)[:, None])  # by the height
-    loads.append((-cosine * kappa / height)[:, None])  # by the radius
-    moved = -np.linalg.solve(slope, np.concatenate(loads, axis=1))
-    *of_links, by_height, by_radius = np.split(moved, [n * k for k in range(1, 5)] + [4 * n + 1], axis=1)
+    reach = np.vstack([np.triu(np.broadcast_to(chain.length, (n, n))), np.zeros(n)])  # offsets of the pins: y + reach sin d
+    pull, hung = (at.carried @ (at.moves * at.out) / at.height)[:, None], (at.carried @ at.bears)[:, None]
+    tension = np.hypot(pull, hung)
+    found: list[dict[str, Floats]] = [{}, {}, {}]
+    for (name, change), each in zip(changes.items(), moved, strict=True):
+        swung, far = cosine * each[:n], each[n:]
+        rise = (at.carried @ (at.moves[:, None] * (at.reach @ swung + far)) + change.sideways) / at.height
+        found[0][name] = each[:n]
+        found[1][name] = reach @ swung + far + change.pins
+        found[2][name] = shape._per * (pull * rise + hung * change.hung) / tension
+    return ShapeSensitivity._made(None, **dict(zip(PARTS, (_named(shape, given) for given in found), strict=True)))
 
-    reach = np.triu(np.broadcast_to(a, (n, n)))  # offsets of the pins: radius + reach sin d
-    pull, weight = np.cumsum(W * out) / height, np.cumsum(W)
-    tension = np.hypot(pull, weight)
-    sums = np.tril(np.ones((n, n)))
 
-    def through(turned: Floats, off: Floats, far: Floats, heavier: Floats, direct: Floats) -> list[Floats]:
-        """Inclinations, offsets and tensions, from the change of the inclinations and what else changes."""
-        swung = cosine[:, None] * turned
-        offset = np.concatenate([off + reach @ swung, np.broadcast_to(far, (1, swung.shape[1]))])
-        rise = sums @ (W[:, None] * (C @ swung + far)) / height + direct
-        return [turned, offset, per * (pull[:, None] * rise + weight[:, None] * heavier) / tension[:, None]]
-
-    none = np.zeros((n, n))
-    own = np.diag(sine)
-    parts = {
-        "mass": through(of_links[0], none, np.zeros(n), sums, sums * out / height),
-        "length": through(of_links[1], lower * sine + own, np.zeros(n), none, sums @ (W[:, None] * lower * sine) / height),
-        "centroid": through(of_links[2], none, np.zeros(n), none, sums * (W * sine) / height),
-        "radius_of_gyration": through(of_links[3], none, np.zeros(n), none, none),
-    }
-    nil = np.zeros((n, 1))
-    steeper = through(by_height, nil, np.zeros(1), nil, -(pull / height)[:, None])
-    speed = [-2 * height / shape.angular_speed * x[:, 0] for x in steeper]
-    wider = [x[:, 0] for x in through(by_radius, nil + 1, np.ones(1), nil, nil)]
-    results = []
-    for which in range(3):
-        given = {name: values[which] for name, values in parts.items()}
-        share = (given["length"] * a + given["centroid"] * h + given["radius_of_gyration"] * rho) / a
-        results.append(
-            ShapeDerivatives._made(
-                None, **given, length_in_proportion=share, angular_speed=speed[which], support_radius=wider[which]
-            )
-        )
-    return ShapeSensitivity._made(None, inclination=results[0], offset=results[1], tension=results[2])
+def _named(shape: SteadyShape, given: dict[str, Floats]) -> ShapeDerivatives:
+    """The derivatives, with those that follow from others, by data in their own units."""
+    rig = shape.system if isinstance(shape.system, Rig) else None
+    chain = rig.chain if rig is not None else shape.system
+    turned = given["centroid"] * chain.centroid + given["radius_of_gyration"] * chain.radius_of_gyration
+    given["length_in_proportion"] = given["length"] + turned / chain.length
+    for name in ("angular_speed", "support_radius", *OF_SUPPORT):
+        if name in given:
+            given[name] = given[name][:, 0]
+    if rig is None:
+        return ShapeDerivatives._made(None, **given)
+    inertia = 0.0 if rig.flywheels is None else rig.flywheels._inertia
+    given["spin"] = given["momentum"] * np.broadcast_to(inertia, chain.size) / shape.gravity
+    for name in ("stiffness", "momentum"):
+        given[name] = given[name] / shape._per
+    return RigShapeDerivatives._made(None, **given)

@@ -83,7 +83,9 @@ class Stability(Result):
         "has a flywheel.)",
         part=True,
     )
-    growth_rate: Field[float] = Field("The largest real part, over the turning speed.", part=True)
+    growth_rate: Field[float] = Field(
+        "The largest real part, over the turning speed; NaN where it is not known, in a fluid that turns.", part=True
+    )
     margin: Field[float] = Field("What rounding may explain of the growth rate where exponents meet.", part=True)
     negative_directions: Field[int] = Field(
         "Of the energy in the turning frame, at constant angular momentum if free.", part=True
@@ -227,8 +229,7 @@ class SteadyShape(Shape):
         part=True,
     )
     sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`. A "
-        "ValueError for a `Rig` with more than a support carried round.",
+        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`.",
         shape_sensitivity,
     )
     angular_momentum: Field[float] = Field(
@@ -257,13 +258,15 @@ class SteadyShape(Shape):
         Raises
         ------
         ValueError
-            If `frame` is neither; for a `Rig`, if its fluid turns and bears (how such a fluid moves around a disturbed link
-            is not modelled), if a motion moves no mass, or if a flywheel acts on a support that yields and has no mass.
+            If `frame` is neither; for a `Rig`, if a motion moves no mass, or if a flywheel acts on a support that yields and
+            has no mass.
 
         Notes
         -----
         Links of a `Rig` in the free frame keep the angular momentum about their own axes, wheels and all, on free bearings
-        or driven: ball joints pass no torque along a link. Still fluid resists with its added mass alone.
+        or driven: ball joints pass no torque along a link. Still fluid resists with its added mass alone. How a fluid that
+        turns moves around a disturbed link is not modelled: there are no exponents. A shape whose energy is least, at
+        constant speed and but for a rotation, is a minimum, and stable in any such fluid; any other is undecided.
 
         Examples
         --------

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any
 
@@ -70,8 +71,9 @@ def _modes(table: AskModes, system: System | None, numbers: Numbers) -> Given:
         )
         if given[name][0] >= given[name][1]:
             numbers.refuse(name, f"its low end must lie below its high end, got {written([low, high])}")
-    if isinstance(system, Chain) or (isinstance(system, Held) and system.size):
-        _check_numbers(table, system.mode_count, numbers)
+    most = system.mode_count if isinstance(system, Chain | Held) else None
+    if most is not None:
+        _check_numbers(table, most, numbers)
     if table.rtol is not UNSET:
         given["rtol"] = numbers.value("rtol", table.rtol, "rtol", "not negative")
     given |= {name: getattr(table, name) for name in ("certify",) if getattr(table, name)}
@@ -159,8 +161,11 @@ def _swing(table: AskSwing, system: System | None, numbers: Numbers) -> Given:
         if start is UNSET:
             continue
         given[name] = _spread(name, start, "any", numbers)
-        if isinstance(system, Chain | Rig) and len(start) != system.size:
-            each = f"must have a number for each of the {system.size} pins that move"
+        moving = system.size if isinstance(system, Chain | Rig) else 0
+        if isinstance(system, Rig) and math.isfinite(system.support.stiffness):
+            moving += 1
+        if isinstance(system, Chain | Rig) and len(start) != moving:
+            each = f"must have a number for each of the {moving} pins that move"
             numbers.refuse(name, f"{each}, free end first, got {len(start)}")
     given["time"] = _spread("time", table.time, "any", numbers)
     return given if table.count is UNSET else given | {"count": table.count}

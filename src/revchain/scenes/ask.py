@@ -65,9 +65,9 @@ class AskResponse(Table, frozen=True):
 
 
 class AskSwing(Table, frozen=True):
-    """Small oscillations of a hanging chain after release, in a plane (`revchain.swing`)."""
+    """Small oscillations of a hanging chain or rig after release (`revchain.swing`)."""
 
-    offset: Annotated[Listed, says("Of each pin at the start (m), free end first, the support left out.")]
+    offset: Annotated[Listed, says("Of each pin at the start (m), free end first, the support left out unless it yields.")]
     velocity: Annotated[Listed | UnsetType, says("Likewise (m/s); at rest if left out.")] = UNSET
     time: Annotated[OneOrMore | Spread, says("s: one, a list, or {from, to, steps}.")] = Spread(last=10.0, steps=201)
     count: Annotated[Count | UnsetType, says("Only so many of the slowest modes; all if left out.")] = UNSET

@@ -31,7 +31,7 @@ def rig_of(
     """
     repeats = [link.repeat for _, link in links]
     firsts = np.cumsum([0, *repeats])[:-1]
-    held = None if support is UNSET else _support(support, numbers.of("support"))
+    held = None if support is UNSET else support_numbers(support, numbers.of("support"))
     wheels, fluids = [], []
     for first, (index, link) in zip(firsts, links, strict=True):
         place = numbers.of(f"links[{index}]")
@@ -65,12 +65,13 @@ def rig_of(
         raise of_file(error, numbers.source, "links" if links else "support", links) from None
 
 
-def _support(table: Support, numbers: Numbers) -> dict[str, float]:
+def support_numbers(table: Support, numbers: Numbers, radii: str = "not negative") -> dict[str, float]:
+    """The arguments of a `Support`."""
     stiffness, radius = math.inf, 0.0
     if table.stiffness is not UNSET:
         stiffness = numbers.value("stiffness", table.stiffness, "stiffness", "positive")
     if table.radius is not UNSET:
-        radius = numbers.value("radius", table.radius, "length", "not negative")
+        radius = numbers.value("radius", table.radius, "length", radii)
     carriage = numbers.weight_if_given(table)
     if carriage > 0 and table.stiffness is UNSET:
         numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")

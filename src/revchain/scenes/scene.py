@@ -18,12 +18,13 @@ from ..systems.cord import Cord as CordSystem
 from ..systems.held import Held as HeldSystem
 from ..systems.numbers import STANDARD_GRAVITY, text
 from ..systems.rig import Rig
+from ..systems.rig import Support as EndSupport
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
 from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
 from .error import Problem, SceneError
-from .rig import is_rigged, rig_of
+from .rig import is_rigged, rig_of, support_numbers
 from .tables import (
     BESIDE,
     SYSTEMS,
@@ -382,14 +383,21 @@ def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> H
         return None
     name = "span" if table.tension is UNSET else "tension"
     value = numbers.value(name, getattr(table, name), name, "positive")
+    given: dict[str, Any] = {name: value, "weightless": table.weightless}
+    for end in ("lower", "upper"):
+        held_by = getattr(table, end)
+        if held_by is not UNSET:
+            given[end] = EndSupport(**support_numbers(held_by, numbers.of(end), "any"))
     numbers.done()
     if system is None or math.isnan(value):
         return None
     try:
-        return HeldSystem(system, **{name: value}, weightless=table.weightless)
+        return HeldSystem(system, **given)
     except ValueError as error:
-        key, reason = f"held.{name}", without_place(error).removeprefix(f"{name} ")
-        raise SceneError(numbers.source, key, reason) from None
+        reason = without_place(error)
+        ends = [end for end in ("lower", "upper") if reason.startswith(end)]
+        key = ends[0] if ends else name
+        raise SceneError(numbers.source, f"held.{key}", reason.removeprefix(f"{key} ")) from None
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:

@@ -137,9 +137,17 @@ class Cord(Whole, frozen=True, kw_only=True):
     ] = 0.0
 
 
-class Held(Table, frozen=True):
-    """The lower end is held on the axis, too: the span of a chain that bows out, or the tension of a straight one."""
+class End(Support, frozen=True):
+    """What an end is held by; on the other side of the axis if its radius is negative."""
 
-    span: Annotated[MaybePositive, says("From end to end, less than the length.")] = UNSET
+    radius: Annotated[MaybeAnySign, says("Of the circle in which it is carried round; 0 if left out.")] = UNSET
+
+
+class Held(Table, frozen=True):
+    """The lower end is held, too: the span of a chain that bows out, or the tension of a straight one."""
+
+    span: Annotated[MaybePositive, says("From end to end along the axis, less than the length.")] = UNSET
     tension: Annotated[MaybePositive, says("Instead: at the upper end of a straight chain (N).")] = UNSET
     weightless: Annotated[bool, says("Whether gravity plays no part.")] = False
+    lower: Annotated[End | UnsetType, says("What holds the lower end, if not a firm point on the axis.")] = UNSET
+    upper: Annotated[End | UnsetType, says("What holds the upper end, if not a firm point on the axis.")] = UNSET

@@ -44,6 +44,8 @@ class Datum:
         it; None where there is none.
     link : int
         The link that it is of, from 0 for the lowest; 0 where it is of none.
+    one_way : bool
+        Whether every speed is known to change one way with it, so that there is at most one value for each.
     """
 
     path: str
@@ -54,6 +56,7 @@ class Datum:
     ceiling: float = math.inf
     rate: tuple[str, Floats | float] | None = None
     link: int = 0
+    one_way: bool = False
 
     @property
     def quantity(self) -> str:
@@ -137,7 +140,8 @@ def _paths(system: Any, heavy: str) -> list[str]:
     if isinstance(system, Chain):
         return ["length", *own]
     if isinstance(system, Held):
-        return ["length", heavy, *own, "tension"]
+        ends = "tension" if system.span is None else "span"
+        return ["length", heavy, *(own if isinstance(system.system, Chain) else ()), ends]
     paths = ["length", heavy, *own, "support.stiffness", f"support.{heavy}", "flywheels[k].momentum"]
     wheels = () if system.flywheels is None else system.flywheels._given
     fluid = () if system.displaced is None else system.displaced._given
@@ -251,13 +255,24 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
 
 
 def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float) -> Datum:
-    chain = held.system
-    assert isinstance(chain, Chain) and held.tension is not None
+    def made(system: Chain | Cord, tension: float | None = held.tension) -> Held:
+        return held._between_its_ends(system, held.span, tension)
+
+    if path == "span":
+        assert held.span is not None
+        apart = held.span
+        return Datum(path, apart, lambda x: held._between_its_ends(held.system, x, None), apart, ceiling=held.length)
     if path == "tension":
-        least = held._force(gravity) * chain._compiled.total_weight
-        return Datum(path, held.tension, lambda x: Held(chain, tension=x), held.tension, floor=least)
-    own = _of_chain(place, chain, path, link)
-    return replace(own, change=lambda x: Held(own.change(x), tension=held.tension), rate=None)
+        assert held.tension is not None
+        least = 0.0 if held.weightless else held._force(gravity) * held._total
+        return Datum(path, held.tension, lambda x: made(held.system, x), held.tension, floor=least, one_way=True)
+    own = _of_cord(place, held.system, path) if isinstance(held.system, Cord) else _of_chain(place, held.system, path, link)
+    # More mass anywhere slackens what is below, and has more inertia: all speeds fall.
+    heavy = path.rpartition(".")[2] in ("mass", "weight")
+    floor = held.span if path == "length" and held.span is not None else own.floor
+    return replace(
+        own, change=lambda x: made(own.change(x)), rate=None, one_way=heavy and held.span is None, floor=floor
+    )
 
 
 def _of_cord(place: str, cord: Cord, path: str) -> Datum:

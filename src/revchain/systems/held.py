@@ -3,17 +3,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+import numpy as np
+
 from .. import _core
-from .chain import Chain
+from .chain import Chain, like
 from .cord import Cord
-from .numbers import boolean, one_positive, shown
-from .system import System, from_data
+from .numbers import STANDARD_GRAVITY, boolean, one_positive, shown
+from .rig import Support
+from .system import System, from_data, plain
 
 
 class Held(System):
-    """A chain or a cord whose two ends are held on the axis: troposkien blade, skipping rope, string of weights.
+    """A chain or a cord whose two ends are held: troposkien blade, skipping rope, string of weights.
 
     Parameters
     ----------
@@ -26,19 +30,24 @@ class Held(System):
         weights), positive.
     weightless : bool
         Without gravity. A system given by weight is then taken to have those numbers as masses.
+    lower, upper : Support, optional
+        What holds an end of a chain, if not a firm point on the axis: `stiffness` of a spring that lets it move across the
+        axis, the `mass` that moves with it, the `radius` of the circle in which it is carried round. Both radii lie in
+        one plane with the axis; one below 0 is on the other side of it. Under a tension both ends must be on the axis.
 
     Raises
     ------
     ValueError
         Unless exactly one of `span` and `tension` is given, for numbers out of their range, a span that is not less
-        than the length, a cord that is not uniform.
+        than the length, firm ends farther apart than it, a radius with a tension, `lower` or `upper` of a cord, a cord that
+        is not uniform.
     TypeError
-        If `system` is neither a `Chain` nor a `Cord`.
+        If `system` is neither a `Chain` nor a `Cord`, `lower` or `upper` no `Support`.
 
     Notes
     -----
     A span is the question of `steady_shapes`: the chain is bent at every speed. Under a tension that exceeds its weight
-    it can also hang straight, with the speeds of `modes`.
+    it can also hang straight, with the speeds of `modes`; without gravity under any tension.
 
     Examples
     --------
@@ -49,13 +58,22 @@ class Held(System):
     >>> shape = rc.steady_shapes(blade, angular_speed=12.0)[0]
     >>> round(float(shape.offset.max()), 4)
     2.7383
+
+    The same blade on arms of 0.5 m and 1 m, which could bow inwards, too:
+
+    >>> arms = {"lower": rc.Support(radius=0.5), "upper": rc.Support(radius=1.0)}
+    >>> shapes = rc.steady_shapes(rc.Held(blade.system, span=8.0, **arms), angular_speed=12.0, budget=0)
+    >>> [round(float(shape.offset[20]), 4) for shape in shapes]
+    [3.4513, -1.9888]
     """
 
-    __slots__ = ("span", "system", "tension", "weightless")
+    __slots__ = ("lower", "span", "system", "tension", "upper", "weightless")
     system: Chain | Cord
     span: float | None
     tension: float | None
     weightless: bool
+    lower: Support
+    upper: Support
 
     def __init__(
         self,
@@ -64,6 +82,8 @@ class Held(System):
         span: float | None = None,
         tension: float | None = None,
         weightless: bool = False,
+        lower: Support | None = None,
+        upper: Support | None = None,
     ) -> None:
         place = "revchain.Held"
         if not isinstance(system, Chain | Cord):
@@ -76,10 +96,33 @@ class Held(System):
         _set(self, "weightless", boolean(place, "weightless", weightless))
         if self.span is not None and not self.span < self.length:
             raise ValueError(f"{place}: span must be less than the length {self.length:.6g}, got {self.span:g}")
+        for name, end in (("lower", lower), ("upper", upper)):
+            _set(self, name, Support() if end is None else _checked(f"{place}: {name}", end, self))
+        apart = math.hypot(self.span or 0.0, self.upper.radius - self.lower.radius)
+        if self.is_firm and not apart < self.length:
+            raise ValueError(
+                f"{place}: the ends must be nearer to each other than the length {self.length:.6g}, got {apart:g}: bring "
+                "their radii or the span closer"
+            )
         if isinstance(system, Cord) and (system.density != 0.0 or system._compiled.tip_weight):
             raise ValueError(
                 f"{place}: a held cord must be uniform and without a tip; for another cut it into links: cord.chain(100)"
             )
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether both ends are firm points on the axis."""
+        return self.lower == Support() == self.upper
+
+    @property
+    def is_on_axis(self) -> bool:
+        """Whether the ends, or the places of rest of their springs, are on the axis, so that shapes have mirror images."""
+        return self.lower.radius == self.upper.radius == 0.0
+
+    @property
+    def is_firm(self) -> bool:
+        """Whether neither end is on a spring."""
+        return math.isinf(self.lower.stiffness) and math.isinf(self.upper.stiffness)
 
     @property
     def length(self) -> float:
@@ -92,14 +135,27 @@ class Held(System):
         return self.system.size if isinstance(self.system, Chain) else 0
 
     @property
-    def mode_count(self) -> int:
-        """Number of modes of the straight chain: N - 1 of N links, less one for each free pin without mass."""
-        return max(self.system.mode_count - 1, 0) if isinstance(self.system, Chain) else 0
+    def mode_count(self) -> int | None:
+        """Number of modes of the straight chain: N - 1 of N links, one more for each end on a spring, less one for each
+        pin that moves without mass; None of a cord."""
+        if not isinstance(self.system, Chain):
+            return None
+        if self.is_firm or self.tension is None:
+            return max(self.system.mode_count - 1, 0)
+        force = 2.0 * self.system._compiled.total_weight  # any tension has as many
+        ends = self._ends(STANDARD_GRAVITY)
+        taut = _core.Held(self.system._compiled, None, force, False, *ends)
+        return int(_core.count_held_modes(taut, np.asarray(1e-100 * self.length), STANDARD_GRAVITY))
 
     @property
     def by_mass(self) -> bool:  # type: ignore[override]
         """Whether masses were given, not weights."""
         return self.system.by_mass
+
+    @property
+    def _total(self) -> float:
+        """All that weighs, as it was given."""
+        return self.system._compiled.weight if isinstance(self.system, Cord) else self.system._compiled.total_weight
 
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
@@ -108,44 +164,89 @@ class Held(System):
         """The tension for the compiled system."""
         return None if self.tension is None else self.tension / self._force(gravity)
 
-    def _under(self, gravity: float) -> _core.Held:
-        assert isinstance(self.system, Chain)
-        return _core.Held(self.system._compiled, self.span, self._pull(gravity), self.weightless)
+    def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
+        if isinstance(self.system, Cord):
+            return _core.HeldCord(self.system._compiled, self.span, self._pull(gravity), self.weightless)
+        return _core.Held(self.system._compiled, self.span, self._pull(gravity), self.weightless, *self._ends(gravity))
+
+    def _between_its_ends(self, system: Chain | Cord, span: float | None, tension: float | None) -> Held:
+        """Another chain or cord, or at another span or tension, between the same ends."""
+        ends = {} if isinstance(system, Cord) else {"lower": self.lower, "upper": self.upper}
+        return Held(system, span=span, tension=tension, weightless=self.weightless, **ends)
+
+    def _ends(self, gravity: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Stiffness, weight and radius of what holds the ends, for the compiled system."""
+        force = self._force(gravity)
+        lower, upper = ((end.stiffness / force, end.carriage, end.radius) for end in (self.lower, self.upper))
+        return lower, upper
 
     def _words(self) -> list[str]:
         how = f"{self.span:.6g} m apart" if self.span is not None else f"under a tension of {self.tension:.6g} N"
-        words = self.system._link_words() if isinstance(self.system, Chain) else self.system._words()[1:]
-        return [f"both ends held on the axis, {how}{', without gravity' if self.weightless else ''}", *words]
+        if not isinstance(self.system, Chain):
+            words = self.system._words()[1:]
+        elif self.is_plain:
+            words = self.system._link_words()
+        else:
+            upper, lower = (end._words(self.system._unit) for end in (self.upper, self.lower))
+            words = [f"upper end: {upper}", *self.system._link_words(), f"lower end: {lower}"]
+        where = " on the axis" if self.is_plain else ""
+        return [f"both ends held{where}, {how}{', without gravity' if self.weightless else ''}", *words]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Held):
             return NotImplemented
-        return self._state() == other._state()
+        return self._parts() == other._parts()
 
     def __hash__(self) -> int:
-        return hash(self._state())
+        return hash(self._parts())
 
     def __repr__(self) -> str:
         system = repr(self.system)
         how = f"span {self.span:.6g}" if self.span is not None else f"tension {self.tension:.6g}"
-        return f"Held {system[0].lower()}{system[1:]}: {how}{', weightless' if self.weightless else ''}"
+        how += ", weightless" if self.weightless else ""
+        ends = (f", {name} {end}" for name, end in (("lower", self.lower), ("upper", self.upper)) if end != Support())
+        return f"Held {system[0].lower()}{system[1:]}: {how}{''.join(ends)}"
+
+    def _parts(self) -> tuple[Any, ...]:
+        return self.system, self.span, self.tension, self.weightless, self.lower, self.upper
 
     def _state(self) -> tuple[Any, ...]:
-        return self.system, self.span, self.tension, self.weightless
+        *rest, lower, upper = self._parts()
+        return *rest, dict(lower._given), dict(upper._given)
 
     @classmethod
     def _from_state(cls, state: Any) -> Held:
-        system, span, tension, weightless = state
-        return cls(system, span=span, tension=tension, weightless=weightless)
+        system, span, tension, weightless, *ends = state
+        lower, upper = (Support(**given) for given in ends) if ends else (None, None)
+        return cls(system, span=span, tension=tension, weightless=weightless, lower=lower, upper=upper)
 
     def _data(self) -> dict[str, Any]:
-        by = {"span": self.span} if self.span is not None else {"tension": self.tension}
+        by: dict[str, Any] = {"span": self.span} if self.span is not None else {"tension": self.tension}
+        for name, end in (("lower", self.lower), ("upper", self.upper)):
+            if end != Support():
+                by[name] = {key: plain(value) for key, value in end._given.items()}
         return {"of": self.system.to_dict(), **by, "weightless": self.weightless}
 
     @classmethod
     def _from_data(cls, data: dict[str, Any]) -> Held:
-        of = from_data(data["of"])
-        return cls(of, **{name: value for name, value in data.items() if name != "of"})  # type: ignore[arg-type]
+        given = {name: Support(**value) if name in ("lower", "upper") else value for name, value in data.items()}
+        return cls(from_data(given.pop("of")), **given)  # type: ignore[arg-type]
+
+
+def _checked(place: str, end: Support, held: Held) -> Support:
+    if not isinstance(end, Support):
+        raise TypeError(f"{place} must be a revchain.Support, got {shown(end)}")
+    if end == Support():
+        return end
+    if not isinstance(held.system, Chain):
+        raise ValueError(
+            f"{place} end of a cord is a firm point on the axis; cut it into links: Held(cord.chain(100), ...), got {end}"
+        )
+    if held.tension is not None and end.radius:
+        raise ValueError(f"{place} end must be on the axis under a tension; give the span, got radius {end.radius:g}")
+    if end.carriage:
+        like(place, held.system, end._given.get("mass"), end._given.get("weight"))
+    return end
 
 
 _set = object.__setattr__

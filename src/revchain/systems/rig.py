@@ -80,6 +80,7 @@ class Support(_Fitting):
         Of what moves sideways with a support that yields, kg or N, as the chain was given.
     radius : float
         Radius of the circle in which the support (the place of rest of its spring) is carried round, m; 0 on the axis.
+        At an end of a `Held` it may be negative: on the other side of the axis.
 
     Raises
     ------
@@ -106,7 +107,9 @@ class Support(_Fitting):
         for name, value in given.items():
             if name == "stiffness" and not value > 0:
                 raise ValueError(f"{place}: stiffness must be positive, got {value:g}")
-            if name != "stiffness" and not 0 <= value < math.inf:
+            if name == "radius" and not math.isfinite(value):
+                raise ValueError(f"{place}: radius must be finite, got {value:g}")
+            if name in ("mass", "weight") and not 0 <= value < math.inf:
                 raise ValueError(f"{place}: {name} must be finite and not negative, got {value:g}")
         left_out = {"stiffness": math.inf}
         _set(self, "_given", {name: value for name, value in given.items() if value != left_out.get(name, 0.0)})
@@ -125,6 +128,11 @@ class Support(_Fitting):
     def carriage(self) -> float:
         """Mass or weight of what moves with it."""
         return float(self._given.get("mass", self._given.get("weight", 0.0)))
+
+    def _words(self, unit: str) -> str:
+        held = "firm" if math.isinf(self.stiffness) else f"on a spring of {self.stiffness:.6g} N/m"
+        held += f" with {self.carriage:.6g} {unit}" if self.carriage else ""
+        return held + (f", carried round at {self.radius:.6g} m" if self.radius else "")
 
 
 class Flywheel(_Fitting):
@@ -375,6 +383,8 @@ class Rig(System):
                 raise TypeError(f"{place}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
             if fitting is not None and ("mass" in fitting._given or "weight" in fitting._given):
                 like(f"{place}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
+        if support is not None and support.radius < 0:
+            raise ValueError(f"{place}: support radius must not be negative, got {support.radius:g}")
         if displaced is not None and not any(value.any() for name, value in displaced._given.items() if name in _HEAVY):
             displaced = None
         if fluid == "turning" and displaced is not None:
@@ -453,11 +463,7 @@ class Rig(System):
         )
 
     def _words(self) -> list[str]:
-        support, unit = self.support, self.chain._unit
-        held = "firm" if math.isinf(support.stiffness) else f"on a spring of {support.stiffness:.6g} N/m"
-        held += f" with {support.carriage:.6g} {unit}" if support.carriage else ""
-        held += f", carried round at {support.radius:.6g} m" if support.radius else ""
-        return [f"support: {held}", *self.chain._link_words(), *self._extras()]
+        return [f"support: {self.support._words(self.chain._unit)}", *self.chain._link_words(), *self._extras()]
 
     def _extras(self) -> list[str]:
         """What links have beside themselves."""

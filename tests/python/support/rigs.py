@@ -297,7 +297,8 @@ def small_motions(rig, shape, frame="free"):
             e, f = placed(a, rate)
             total = mp.mpf(0)
             for m, (w, _, h, rho, p, c, fluid, hf, rf, added) in enumerate(rows):
-                for moves, bears, depth, turn in ((w, w, h, rho), (added, -fluid, hf, rf)):
+                lent = -fluid if rig.fluid == "turning" else added
+                for moves, bears, depth, turn in ((w, w, h, rho), (lent, -fluid, hf, rf)):
                     speed = square(in_space(along(m, depth, e), along(m, depth, f)))
                     total += moves / (2 * g) * (speed + turn**2 * square(in_space(e[m], f[m])))
                     total -= bears * along(m, depth, e)[2]

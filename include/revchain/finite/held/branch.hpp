@@ -5,26 +5,31 @@
 
 namespace revchain {
 
-/// Why a branch ends: at the greatest speed again, where a link is slack or turns over, or after 3000 steps.
-enum class HeldBranchEnd { speed, slack, budget };
+/// Why a branch ends: at the greatest speed again; where a link is slack or turns over; where a chain between ends off
+/// the axis hangs as at rest; where a cord hangs folded along the axis; or after 3000 steps.
+enum class HeldBranchEnd { speed, slack, rest, folded, budget };
 inline std::string_view to_string(HeldBranchEnd end) {
-    constexpr std::array<std::string_view, 3> names{"speed", "slack", "budget"};
+    constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
 
-/// Shapes of a chain held at a span, point by point along the branch that begins with the nearly straight chain without
-/// gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
-struct HeldBranch {
-    int half_waves = 1;             ///< with which it begins
-    std::vector<HeldShape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
-    std::vector<Index> folds;       ///< of the shapes: where the speed is least, or greatest, on either side
+/// Shapes of a chain or cord held at a span, point by point along the branch that begins with the nearly straight one
+/// without gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
+template <class Shape>
+struct HeldBranchOf {
+    int mode = 1;               ///< its number, see `branches`
+    int half_waves = 1;         ///< with which it begins
+    std::vector<Shape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
+    std::vector<Index> folds;   ///< of the shapes: where the speed is least, or greatest, on either side
     HeldBranchEnd end = HeldBranchEnd::budget;
 };
+using HeldBranch = HeldBranchOf<HeldShape>;
 
 namespace finite {
 
 /// Newton's method on the force along and the height, that across and the span kept.
-inline std::optional<HeldState> at_across(HeldChain& held, double across, HeldState state) {
+template <class System>
+std::optional<HeldState> at_across(System& held, double across, HeldState state) {
     state.forces.across = across;
     for (int round = 0; round < 20; ++round) {
         const HeldEnd<double> end = held(state.forces, true);
@@ -33,7 +38,7 @@ inline std::optional<HeldState> at_across(HeldChain& held, double across, HeldSt
         const double gap = end.rise - state.span, determinant = y[1] * z[2] - y[2] * z[1];
         const double along = (z[2] * end.offset - y[2] * gap) / determinant,
                      height = (y[1] * gap - z[1] * end.offset) / determinant;
-        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) - across;
+        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) + std::abs(across);
         if (!(size < whole)) return {};
         state.forces.along -= along, state.forces.height -= height;
         if (size < 1e-14 * whole) return state;
@@ -42,8 +47,9 @@ inline std::optional<HeldState> at_across(HeldChain& held, double across, HeldSt
 }
 
 /// Where the height turns between two states of a branch, by halving the force across.
-inline std::optional<HeldState> fold_between(HeldChain& held, const HeldState& from, const HeldState& middle,
-                                             const HeldState& to) {
+template <class System>
+std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& middle,
+                                      const HeldState& to) {
     const auto turning = [&](const HeldState& x) {
         const HeldEnd<double> end = held(x.forces, true);
         return end.offset_change[0] * end.rise_change[1] - end.offset_change[1] * end.rise_change[0];
@@ -61,20 +67,15 @@ inline std::optional<HeldState> fold_between(HeldChain& held, const HeldState& f
     return best;
 }
 
-/// The branch of so many half waves at a span, for heights from `least` on; nothing where there is none.
-inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double span, double least, int half_waves,
-                                             double max_step) {
-    using S = Wide<double>;
-    HeldChain held(chain);
-    const int exponent = held.links().units.length_exponent;
-    const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
-    const auto first = held.at_height(half_waves, S(apart), height);
-    if (!first) return {};
-    std::vector<HeldState> states{*first};
-    std::vector<std::vector<Direction<double>>> ways{held.kept()};
-    HeldBranch branch;
-    branch.half_waves = half_waves, branch.end = HeldBranchEnd::slack;
-    held.curve().along_heights(*first, max_step, [&](const HeldState& state) {
+/// The branch that begins with a state, for heights from its own on. `describe(state, is_fold)` returns a shape.
+template <class System, class Describe>
+auto branch_from(System& held, const HeldState& first, double max_step, const Describe& describe) {
+    const double height = first.forces.height;
+    std::vector<HeldState> states{first};
+    std::vector<std::decay_t<decltype(held.kept())>> ways(1, held.kept());
+    HeldBranchOf<std::decay_t<decltype(describe(first, false))>> branch;
+    branch.end = HeldBranchEnd::slack;
+    held.curve().along_heights(first, max_step, [&](const HeldState& state) {
         if (state.forces.height < height) {
             const auto there = held.kept();
             HeldState last = state;
@@ -93,49 +94,75 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        return true;
+        if (state.forces.height < HeldCurve<System>::at_rest * static_cast<double>(held.length())) return true;
+        branch.end = HeldBranchEnd::rest;
+        return false;
     });
-    if (states.size() >= static_cast<std::size_t>(HeldCurve<HeldChain>::max_steps)) branch.end = HeldBranchEnd::budget;
-    const auto add = [&](const HeldState& state, bool is_fold) {
-        if (!is_fold)
-            if (auto shape = held.finished(state, S(apart), S(state.forces.height), false))
-                return branch.shapes.push_back(*shape);
-        const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
-        std::vector<Direction<S>> ways_there;
-        for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
-        branch.shapes.push_back(described(held.links(), forces, S(apart), ways_there));
-    };
+    if (states.size() >= static_cast<std::size_t>(HeldCurve<System>::max_steps)) branch.end = HeldBranchEnd::budget;
     for (std::size_t i = 0; i < states.size(); ++i) {
         held.keep(ways[i]);
-        add(states[i], false);
+        branch.shapes.push_back(describe(states[i], false));
         if (i == 0 || i + 1 >= states.size()) continue;
         const auto height_of = [&](std::size_t k) { return states[k].forces.height; };
         if (!((height_of(i) - height_of(i - 1)) * (height_of(i + 1) - height_of(i)) < 0)) continue;
         if (const auto fold = fold_between(held, states[i - 1], states[i], states[i + 1])) {
             branch.folds.push_back(static_cast<Index>(branch.shapes.size()) - 1);
-            branch.shapes.pop_back();
-            add(*fold, true);
+            branch.shapes.back() = describe(*fold, true);
         }
     }
     return branch;
 }
 
-/// The shapes on the branch of so many half waves at a span whose tension at the upper end is `tension`, the fastest
-/// first.
-inline std::vector<HeldShape> held_shapes_of_tension(const Chain<double>& chain, double span, double tension,
-                                                     int half_waves) {
+/// Where a branch begins: with how many half waves on the axis, and to which side. If there are no mirror images there
+/// are two of each number, first that whose lowest link leads outwards.
+struct HeldStart {
+    int half_waves;
+    bool outwards = true;
+
+    static HeldStart of_mode(int mode, bool mirrored) {
+        return mirrored ? HeldStart{mode} : HeldStart{(mode + 1) / 2, mode % 2 == 1};
+    }
+};
+
+/// The branch of a mode at a span, for heights from `least` on; nothing where there is none.
+inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
+                                             double least, int mode, double max_step) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
+    const int exponent = held.links().units.length_exponent;
+    const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
+    held.springs_at(S(height));
+    const auto first = held.at_height(start.half_waves, S(apart), height, start.outwards);
+    held.springs_at({});
+    if (!first) return {};
+    HeldBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
+        if (!is_fold)
+            if (auto shape = held.finished(state, S(apart), S(state.forces.height), false)) return *shape;
+        const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
+        std::vector<Direction<S>> ways_there;
+        for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
+        return described(held.links(), held.ends(forces.height), forces, S(apart), ways_there);
+    });
+    branch.mode = mode;
+    branch.half_waves = branch.shapes.empty() ? start.half_waves : branch.shapes.front().half_waves;
+    return branch;
+}
+
+/// The fastest shape on the branch of a mode at a span, between firm ends, whose tension at the upper end is `tension`.
+inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
+                                                      double span, double tension, int mode) {
+    using S = Wide<double>;
+    HeldChain held(chain, supports);
+    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;
     const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
-    std::vector<HeldShape> shapes;
-    const auto first = held.at_height(half_waves, S(apart), 0);
-    if (!first) return shapes;
-    const auto off = [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; };
-    held.curve().where(*first, off, [&](const HeldState& found) {
-        if (auto shape = held.finished(found, S(apart), S(found.forces.height), true)) shapes.push_back(*shape);
-    });
-    return shapes;
+    const auto first = held.at_height(start.half_waves, S(apart), 0, start.outwards);
+    if (!first) return {};
+    const auto found = held.curve().first_where(
+        *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });
+    if (!found) return {};
+    return held.finished(*found, S(apart), S(found->forces.height), true);
 }
 
 }  // namespace finite

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/held/sweep.hpp"
+#include "revchain/finite/held/bounds.hpp"
 
 namespace revchain::finite {
 
-/// What all chains that begin in a cell have in common. Offsets are over the sine of the lowest link's angle, so that a
-/// chain along the axis is none of them.
+/// What all chains that begin in a cell have in common. If shapes have mirror images, offsets are over the sine of the
+/// lowest link's angle, so that a chain along the axis is none of them.
 struct HeldReach {
     bool none = false;           ///< no chain of the cell meets the upper end in so many half waves
     bool known = false;          ///< the rest is
@@ -16,41 +16,22 @@ struct HeldReach {
 };
 
 /// Sweeps cells of a chain from the lower end up, as `held_sweep` does a state.
-class HeldCells {
+class HeldCells : public HeldBounds {
    public:
-    using Span = Interval<double>;
-    using Way = Direction<Span>;
-
-    HeldCells(const EnclosedLinks<double>& links, const Span& height, const HeldGoal& goal, int max_half_waves)
-        : links_(links), height_(height), goal_(goal), most_(max_half_waves), rest_(links.size() + 1, Span(0.0)) {
-        for (std::size_t m = links.size(); m-- > 0;) {
-            rest_[m] = rest_[m + 1] + links[m].length, weight_ = weight_ + links[m].moment + links[m].rest;
-            turning_ = std::max(turning_, turning_of(links[m]).size());
-        }
-    }
-
-    /// Bounds of the pull along the lowest link. No other pull differs from it by more than weights and centrifugal
-    /// forces; and with so great a pull that every link leads in nearly one direction the chain spans too much.
-    Span pulls() const {
-        const Span &length = rest_[0], &goal = goal_.value;
-        const Span chord = goal_.is_span ? sqrt(square(length) - square(goal)) : length;
-        const Span change = weight_ * (chord / Span(2.0) + height_) + Span(2 * turning_);  // no pin is farther away
-        const double most = goal_.is_span ? (change * length / chord).high : (goal + change).high;
-        return {std::min(0.0, turning_of(links_[0]).low), most};
-    }
-    const Span& length() const { return rest_[0]; }
+    using HeldBounds::HeldBounds;
 
     /// Where a link may be slack, and so point anywhere, it is looked at in arcs, `arcs` times the chain at the most.
     HeldReach operator()(const HeldCell& cell, long arcs) const {
-        Start box(cell, links_[0]),
-            centre(HeldCell{{Span(cell.at[0].middle()), Span(cell.at[1].middle())}, cell.up}, links_[0]);
+        Start box(cell, *this),
+            centre(HeldCell{{Span(cell.at[0].middle()), Span(cell.at[1].middle())}, cell.up}, *this);
         HeldReach result;
         if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0) return none(result.looked);
         const std::array<Span, 2> off{cell.at[0] - Span(cell.at[0].middle()), cell.at[1] - Span(cell.at[1].middle())};
         Slopes slopes;
         slopes.begin(box, links_[0]);
-        int waves = 1, sign = 1;
-        Way last{-box.sine, box.cosine};
+        int waves = 1, sign = 0;
+        if (lower_.yields()) sign = begin_side(box);
+        Direction<Span> last{-box.sine, box.cosine};
         if (misses(box, 0, waves, sign)) return none(result.looked);
         for (std::size_t m = 1; m < links_.size(); ++m) {
             const Link<Span>& link = links_[m];
@@ -58,14 +39,15 @@ class HeldCells {
             const Hung at = hung(link, centre, load), everywhere = hung(link, box, load);
             result.looked += 2;
             if (!everywhere.known || !at.known) {
-                result.none = everywhere.past(box.offset, link) == -sign && waves == most_ && m + 1 < links_.size();
+                result.none = mirrored_ && sign != 0 && everywhere.past(box.offset, link) == -sign && waves == most_ &&
+                              m + 1 < links_.size();
                 long work = arcs * static_cast<long>(links_.size());
                 if (!result.none && arcs > 0)
                     result.none = !may_meet(m, box, last, waves, sign, work),
                     result.looked += arcs * static_cast<long>(links_.size()) - work;
                 return result;
             }
-            last = {box.sine * everywhere.sine, everywhere.cosine};
+            last = {box.unit * everywhere.sine, everywhere.cosine};
             slopes.pass(link, box, everywhere);
             centre.pass(link, at), box.pass(link, everywhere);
             for (Start::Part part : {&Start::offset, &Start::across, &Start::rise}) {
@@ -75,27 +57,21 @@ class HeldCells {
             if (misses(box, m, waves, sign)) return none(result.looked);
         }
         result.known = true;
-        result.side = centre.offset, result.gap = gap(centre);
+        result.side = side(centre), result.gap = gap(centre);
         result.side_change = slopes.of(&Start::offset), result.gap_change = slopes.of(&Start::rise);
+        for (std::size_t i = 0; i < 2 && upper_.yields(); ++i)
+            result.side_change[i] =
+                result.side_change[i] -
+                upper_.compliance * (slopes.of(&Start::across)[i] + upper_.carriage * result.side_change[i]);
         if (!goal_.is_span) {
-            const Span across = box.sine * box.across, along = top(box), force = sqrt(square(across) + square(along));
-            const std::array<Span, 2> sine{Span(0.0), box.sine_change}, push{box.cosine, box.push_change};
+            const Span across = box.unit * box.across, along = top(box), force = sqrt(square(across) + square(along));
+            const std::array<Span, 2> unit{Span(0.0), box.unit_change}, push{box.cosine, box.push_change};
             for (std::size_t i = 0; i < 2; ++i)
                 result.gap_change[i] =
-                    (across * (box.sine * slopes.of(&Start::across)[i] + box.across * sine[i]) + along * push[i]) /
+                    (across * (box.unit * slopes.of(&Start::across)[i] + box.across * unit[i]) + along * push[i]) /
                     force;
         }
         return result;
-    }
-
-    /// Forces at the lower end of a chain that begins with a pull along its lowest link at a tangent.
-    HeldForces<double> forces(double pull, double tangent, bool up) const {
-        const auto number = [](const Span& x) { return x.middle(); };
-        const double sine = 2 * tangent / (1 + tangent * tangent),
-                     cosine = (up ? 1 : -1) * (1 - tangent * tangent) / (1 + tangent * tangent);
-        return {-pull * sine,
-                (pull - number(turning_of(links_[0]))) * cosine - number(height_) * number(links_[0].pull),
-                number(height_)};
     }
 
    private:
@@ -120,18 +96,22 @@ class HeldCells {
         }
     };
 
-    /// A chain as far as it has been swept: offset and force across over the sine of the lowest link; and what it began
-    /// with.
+    /// A chain as far as it has been swept, and what it began with. The sine is positive where the lowest link leads
+    /// outwards. Offset and force across are over a unit: that sine if shapes have mirror images, else 1.
     struct Start {
         using Part = Span Start::*;
         Span pull, sine, cosine, sine_change, cosine_change, push, push_change;
+        Span unit{1.0}, unit_change{0.0};
         Span offset, across, rise;
+        std::array<Span, 2> offset_change{Span(0.0), Span(0.0)}, across_change{Span(-1.0), Span(0.0)};
 
-        Start(const HeldCell& cell, const Link<Span>& lowest) : pull(cell.at[0]) {
+        Start(const HeldCell& cell, const HeldCells& chain) : pull(cell.at[0]) {
+            const Link<Span>& lowest = chain.links_[0];
             const auto low = direction(cell.at[1].low), high = direction(cell.at[1].high);
             sine = hull(low[0], high[0]), cosine = hull(low[1], high[1]);
-            sine.low = std::max(sine.low, 0.0);
+            if (chain.mirrored_) sine.low = std::max(sine.low, 0.0);
             if (cell.at[1].contains(1.0)) sine.high = std::max(sine.high, 1.0);
+            if (cell.at[1].contains(-1.0)) sine.low = std::min(sine.low, -1.0);
             if (cell.at[1].contains(0.0)) cosine.high = std::max(cosine.high, 1.0);
             const Span twice = hull(Span(hull(low[2], high[2])), cell.at[1].contains(0.0) ? Span(2.0) : low[2]);
             sine_change = cosine * twice, cosine_change = -(sine * twice);
@@ -139,7 +119,23 @@ class HeldCells {
             const Span turning = turning_of(lowest);
             push = (pull - turning) * cosine, push_change = (pull - turning) * cosine_change;
             offset = lowest.length, rise = lowest.length * cosine;
-            across = lowest.rest * lowest.length - pull;
+            if (chain.mirrored_) {
+                unit = sine, unit_change = sine_change;
+                if (chain.lower_.yields()) {
+                    offset = offset + chain.gives_ * pull, offset_change[0] = chain.gives_;
+                    across_change[0] = lowest.rest * offset_change[0] - Span(1.0);
+                }
+                across = lowest.rest * offset - pull;
+                return;
+            }
+            Span arm = offset;
+            if (chain.lower_.yields()) {
+                arm = arm + chain.gives_ * pull, offset_change[0] = chain.gives_ * sine;
+            }
+            offset = chain.foot_ + arm * sine, offset_change[1] = arm * sine_change;
+            across = lowest.rest * offset - pull * sine;
+            across_change = {lowest.rest * offset_change[0] - sine,
+                             lowest.rest * offset_change[1] - pull * sine_change};
         }
         void pass(const Link<Span>& link, const Hung& hung) {
             offset = offset - link.length * hung.sine;
@@ -156,10 +152,10 @@ class HeldCells {
         void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
             const Span& s = hung.sine;
             const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
-            const Span with_sine = -(chain.sine * hung.across * square(s) * (hung.pull - turning_of(link))) /
+            const Span with_unit = -(chain.unit * hung.across * square(s) * (hung.pull - turning_of(link))) /
                                    (hung.growth * hung.pull),
                        with_push = -(hung.cosine * s) / hung.growth;
-            const std::array<Span, 2> sine{Span(0.0), chain.sine_change}, push{chain.cosine, chain.push_change};
+            const std::array<Span, 2> unit{Span(0.0), chain.unit_change}, push{chain.cosine, chain.push_change};
             const std::array<Span, 4> J{Span(1.0) - turn * link.moment, -turn,
                                         link.moment + link.rest * (Span(1.0) - turn * link.moment),
                                         Span(1.0) - link.rest * turn};
@@ -178,11 +174,11 @@ class HeldCells {
             const auto first = times(basis_[0], basis_[2]), second = times(basis_[1], basis_[3]);
             const auto one = solved(first[0], first[1]), other = solved(second[0], second[1]);
             for (std::size_t i = 0; i < 2; ++i) {
-                const Span direct = -(link.length * (with_sine * sine[i] + with_push * push[i]));
+                const Span direct = -(link.length * (with_unit * unit[i] + with_push * push[i]));
                 const Span loaded = across_[i] + link.moment * offset_[i];
-                const Span moved = chain.sine * loaded + hung.across * sine[i];
-                rise_[i] = rise_[i] - link.length * (chain.sine * s / hung.growth) *
-                                          (hung.cosine * moved - chain.sine * s * push[i]);
+                const Span moved = chain.unit * loaded + hung.across * unit[i];
+                rise_[i] = rise_[i] - link.length * (chain.unit * s / hung.growth) *
+                                          (hung.cosine * moved - chain.unit * s * push[i]);
                 const auto kept = times(middle_[i][0], middle_[i][1]);
                 const Span offset = kept[0] + direct, across = kept[1] + link.rest * direct;
                 middle_[i] = {offset.middle(), across.middle()};
@@ -200,45 +196,69 @@ class HeldCells {
         const std::array<Span, 2>& of(Start::Part part) const {
             return part == &Start::offset ? offset_ : part == &Start::across ? across_ : rise_;
         }
-        /// Of the lowest link: its rise with the tangent.
-        void begin(const Start& chain, const Link<Span>& lowest) { rise_[1] = lowest.length * chain.cosine_change; }
+        /// Of the lowest link.
+        void begin(const Start& chain, const Link<Span>& lowest) {
+            rise_[1] = lowest.length * chain.cosine_change;
+            offset_ = chain.offset_change, across_ = chain.across_change;
+            for (std::size_t i = 0; i < 2; ++i) {
+                middle_[i] = {offset_[i].middle(), across_[i].middle()};
+                if (offset_[i].width() > 0 || across_[i].width() > 0)
+                    off_[i] = {offset_[i] - Span(middle_[i][0]), across_[i] - Span(middle_[i][1])};
+            }
+        }
 
        private:
         std::array<double, 4> basis_{1, 0, 0, 1};
-        std::array<std::array<double, 2>, 2> middle_{{{0, -1}, {0, 0}}};
+        std::array<std::array<double, 2>, 2> middle_{};
         std::array<std::array<Span, 2>, 2> off_{};
-        std::array<Span, 2> offset_{}, across_{Span(-1.0), Span(0.0)}, rise_{};
+        std::array<Span, 2> offset_{}, across_{}, rise_{};
     };
 
     Span top(const Start& chain) const { return chain.push + height_ * (weight_ - links_[0].pull); }
     /// By how much a chain that was swept exceeds the goal.
     Span gap(const Start& chain) const {
         if (goal_.is_span) return chain.rise - goal_.value;
-        return sqrt(square(chain.sine * chain.across) + square(top(chain))) - goal_.value;
+        return sqrt(square(chain.unit * chain.across) + square(top(chain))) - goal_.value;
     }
 
+    /// How far the upper end of a chain that was swept is from where it is held, over the unit.
+    Span side(const Start& chain) const {
+        return mirrored_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
+    }
+    /// Offset over the unit of the line between the ends' places of rest, at the height that the chain has reached.
+    Span line(const Start& chain) const { return mirrored_ ? Span(0.0) : lower_.radius + slope_ * chain.rise; }
+    /// On which side the lower end is, if it is on one for certain.
+    int begin_side(const Start& chain) const {
+        return (gives_ * chain.pull * (mirrored_ ? Span(1.0) : chain.sine) + foot_ - lower_.radius).sign();
+    }
     /// Whether a chain swept to link m cannot meet the upper end in so many half waves; counts these.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
-        const Span y = chain.sine * chain.offset, z = goal_.is_span ? gap(chain) : Span(0.0);
+        const bool last = m + 1 == links_.size();
+        const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0), z = goal_.is_span ? gap(chain) : Span(0.0);
         if ((square(y) + square(z)).low > square(rest_[m + 1]).high) return true;
         if (!goal_.is_span && (chain.rise + rest_[m + 1]).high < 0) return true;  // the upper end is above the lower
-        if (m + 1 == links_.size()) return !chain.offset.may_vanish() || !gap(chain).may_vanish();
-        if (chain.offset.sign() == -sign) sign = -sign, ++waves;
-        if (waves == most_) {  // it must not cross the axis again
-            if (sign > 0) chain.offset.low = std::max(chain.offset.low, 0.0);
-            if (sign < 0) chain.offset.high = std::min(chain.offset.high, 0.0);
+        if (last && (!side(chain).may_vanish() || !gap(chain).may_vanish())) return true;
+        if (last && upper_.firm) return false;
+        const Span aside = mirrored_ ? chain.offset : chain.offset - line(chain);
+        const int here = aside.sign();
+        if (sign == 0) sign = here;
+        if (here == -sign && here != 0) sign = here, ++waves;
+        if (waves == most_ && sign != 0) {  // it must not cross the line again
+            const Span at = line(chain);
+            if (sign > 0) chain.offset.low = std::max(chain.offset.low, at.low);
+            if (sign < 0) chain.offset.high = std::min(chain.offset.high, at.high);
         }
         return waves > most_;
     }
 
     /// The same from link m on, in intervals alone; a link that may point anywhere is looked at in arcs.
-    bool may_meet(std::size_t m, Start chain, Way last, int waves, int sign, long& work) const {
+    bool may_meet(std::size_t m, Start chain, Direction<Span> last, int waves, int sign, long& work) const {
         for (; m < links_.size(); ++m) {
             if (--work < 0) return true;
             const Link<Span>& link = links_[m];
             const Hung at = hung(link, chain, height_ * (link.pull - links_[0].pull));
             if (at.known) {
-                last = {chain.sine * at.sine, at.cosine};
+                last = {chain.unit * at.sine, at.cosine};
                 chain.pass(link, at);
                 if (misses(chain, m, waves, sign)) return false;
                 continue;
@@ -251,19 +271,19 @@ class HeldCells {
     }
 
     /// The same of link m within an arc: of a quarter of the circle, by the tangent of half the angle.
-    bool in_arc(std::size_t m, const Start& chain, const Way& last, const Hung& at, int waves, int sign, long& work,
-                int quarter, double from, double to) const {
+    bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at, int waves, int sign,
+                long& work, int quarter, double from, double to) const {
         if (--work < 0) return true;
         const Link<Span>& link = links_[m];
         auto [sine, cosine] = arc(quarter, from, to);
-        const Span R = chain.sine * at.across, turning = turning_of(link);
+        const Span R = chain.unit * at.across, turning = turning_of(link);
         if (!(at.along * sine + turning * sine * cosine - R * cosine).may_vanish()) return false;
         if (!((at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine).high > 0)) return false;
         if (at.across.sign() * sine.sign() < 0 && turning.low >= 0) return false;
         if (is_zero(turning) && is_zero(turning_of(links_[m - 1]))) {
             // the pull is that along the link below and what is added at the pin between them
             const Span weight = height_ * (link.pull - links_[m - 1].pull),
-                       out = chain.sine * chain.offset * (links_[m - 1].rest + link.moment);
+                       out = chain.unit * chain.offset * (links_[m - 1].rest + link.moment);
             const int aside = (sine * last.cosine - cosine * last.sine).sign(),
                       added = (sine * weight - cosine * out).sign();
             if (aside * added > 0) return false;
@@ -274,22 +294,22 @@ class HeldCells {
                    in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
         };
         if (to - from > 0.07) return in_halves();
-        // Newton's method about the middle of the arc
-        const auto [s, c] = arc(quarter, (from + to) / 2, (from + to) / 2);
-        const Span left = at.along * s + turning * s * c - R * c;
+        // Newton's method about the middle, with slopes between it and where the link may be
         for (int round = 0; round < 3; ++round) {
-            const Span growth = at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine;
+            const Span at_s(sine.middle()), at_c(cosine.middle()), size = sqrt(square(at_s) + square(at_c));
+            const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s), near_c = hull(cosine, c);
+            const Span growth = at.along * near_c + turning * (square(near_c) - square(near_s)) + R * near_s;
             if (!growth.positive()) break;
-            const Span turn = -(left / growth), before = sine;
-            sine = common(sine, s + cosine * turn), cosine = common(cosine, c - before * turn);
+            const Span turn = (R * c - at.along * s - turning * s * c) / growth;
+            sine = common(sine, s + near_c * turn), cosine = common(cosine, c - near_s * turn);
             if (!(sine.low <= sine.high && cosine.low <= cosine.high)) return false;
         }
         Start next = chain;
         next.rise = chain.rise + link.length * cosine;
         const Span pulled = sqrt(square(at.along + turning * cosine) + square(R));
-        if (chain.sine.positive() || pulled.positive()) {
-            Span across = pulled.positive() ? at.across / pulled : sine / chain.sine;
-            if (chain.sine.positive()) across = common(across, sine / chain.sine);
+        if (chain.unit.positive() || pulled.positive()) {
+            Span across = pulled.positive() ? at.across / pulled : sine / chain.unit;
+            if (chain.unit.positive()) across = common(across, sine / chain.unit);
             if (!(across.low <= across.high)) return false;
             next.offset = chain.offset - link.length * across;
             next.across = at.across + link.rest * next.offset;
@@ -301,9 +321,9 @@ class HeldCells {
             const Span offset = side > 0 ? chain.offset : -chain.offset, across = drawn > 0 ? at.across : -at.across;
             const Span most(pulled.high), share = away ? Span(1.0) : Span(1.0) - offset * most / (link.length * across);
             if (!share.positive()) return true;
-            const Span moved = link.length * (drawn > 0 ? sine : -sine), was = chain.sine * offset;
-            next.sine = away ? moved + was : moved - was;
-            next.sine.low = std::max(next.sine.low, 0.0);
+            const Span moved = link.length * (drawn > 0 ? sine : -sine), was = chain.unit * offset;
+            next.unit = away ? moved + was : moved - was;
+            next.unit.low = std::max(next.unit.low, 0.0);
             next.offset = Span(drawn > 0 ? -1.0 : 1.0);
             const Span added = Span(0.0, (most / (link.length * share)).high);
             next.across = link.rest * next.offset + (drawn > 0 ? added : -added);
@@ -333,7 +353,7 @@ class HeldCells {
 
     static Hung hung(const Link<Span>& link, const Start& chain, const Span& load) {
         Hung result;
-        const Span r = chain.across + link.moment * chain.offset, R = chain.sine * r, V = chain.push + load;
+        const Span r = chain.across + link.moment * chain.offset, R = chain.unit * r, V = chain.push + load;
         result.across = r, result.along = V;
         const Span sum = square(R) + square(V);
         result.most = sqrt(sum);
@@ -374,14 +394,6 @@ class HeldCells {
         result.known = true;
         return result;
     }
-
-    const EnclosedLinks<double>& links_;
-    Span height_;
-    HeldGoal goal_;
-    int most_;
-    Span weight_{0.0};
-    double turning_ = 0;      // largest length times cross
-    std::vector<Span> rest_;  // length from a pin to the upper end
 };
 
 }  // namespace revchain::finite

@@ -6,6 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/cord_series.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/system/cord.hpp"
 
 namespace revchain {
@@ -27,13 +28,14 @@ struct HeldCordShape {
     int half_waves = 1;
     double span = 0, length = 0, weight = 0, conical_height = 0;
     double residual = 0;  ///< of T - lambda z w + w y^2/2 at the upper end, over the largest tension; of the gap there
-    double error_bound = 0;  ///< of every inclination, rad, and of every offset over the length: an estimate
-    double condition = 0;    ///< largest change of an inclination for a relative change 1 of span or height
+    double error_bound = 0;        ///< of every inclination, rad, and of every offset over the length: an estimate
+    double condition = 0;          ///< largest change of an inclination for a relative change 1 of span or height
+    double moment_of_inertia = 0;  ///< about the axis, weight times length squared
 
     /// The place at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
     HeldCordPlace operator()(double arc) const;
 
-    std::vector<finite::CordPlace> steps;  ///< what places are computed from, lengths over the cord's
+    std::vector<finite::HeldCordState> steps;  ///< what places are computed from, lengths over the cord's
 };
 
 /// Shapes of a cord held at both ends, see `HeldShapes`.
@@ -59,6 +61,10 @@ class HeldCord {
     static void keep(Nothing) {}
 
     static double length() { return 1; }
+    /// Lambda times the tension at the upper end.
+    double top_pull(const HeldForces<double>& forces) const {
+        return std::hypot((*this)(forces, false).across, forces.along + forces.height);
+    }
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
     /// The state with `half_waves` half waves, see `HeldCurve::from_straight`.
@@ -70,7 +76,7 @@ class HeldCord {
     }
 };
 
-inline HeldCordPlace place_of(const HeldCordShape& shape, const CordPlace& x) {
+inline HeldCordPlace place_of(const HeldCordShape& shape, const HeldCordState& x) {
     return {x.arc * shape.length, x.offset * shape.length, x.rise * shape.length, std::atan2(-x.across, x.along),
             std::hypot(x.across, x.along) * shape.length * shape.weight};
 }
@@ -81,9 +87,9 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     shape.span = span, shape.length = length, shape.weight = weight;
     const double lambda = state.forces.height;
     shape.conical_height = lambda * length;
-    std::vector<std::pair<CordPlace, CordChange>> samples;
-    double largest_tension = 0, steepest = 0;
-    CordPlace last;
+    std::vector<std::pair<HeldCordState, CordChange>> samples;
+    double largest_tension = 0, steepest = 0, inertia = 0;
+    HeldCordState last;
     const HeldEnd<double> end = cord_end(state.forces, [&](const CordSeries& series, double duration) {
         shape.steps.push_back(series.place(0));
         for (int i = 0; i < per_step; ++i) {
@@ -91,7 +97,13 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
             samples.emplace_back(series.place(t), series.change(t, lambda));
         }
         last = series.place(duration);
+        static const auto rule = revchain::detail::gauss_rule(24);
+        for (const auto& [t, part] : rule) {
+            const HeldCordState x = series.place(duration * t);
+            inertia += part * duration * std::hypot(x.across, x.along) * x.offset * x.offset;
+        }
     });
+    shape.moment_of_inertia = inertia * length * length * weight;
     samples.emplace_back(last, CordChange(samples.back().second));
     const auto count = static_cast<Index>(samples.size());
     for (Vector<double>* v :
@@ -99,7 +111,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
         v->resize(count);
     double sign = 0;
     for (Index i = 0; i < count; ++i) {
-        const CordPlace& x = samples[static_cast<std::size_t>(i)].first;
+        const HeldCordState& x = samples[static_cast<std::size_t>(i)].first;
         const HeldCordPlace p = place_of(shape, x);
         shape.arc_length[i] = p.arc_length, shape.offset[i] = p.offset, shape.height[i] = p.height;
         shape.inclination[i] = p.inclination, shape.height_times_tension[i] = p.height_times_tension;
@@ -125,12 +137,12 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
         const auto forces = end.forces_to_move(y, z);
         double most = 0;
         for (const auto& sample : samples) {
-            const CordPlace& x = sample.first;
+            const HeldCordState& x = sample.first;
             const CordChange& change = sample.second;
-            const auto changed = [&](double CordPlace::*part) {
+            const auto changed = [&](double HeldCordState::*part) {
                 return change[0].*part * forces[0] + change[1].*part * forces[1] + change[2].*part * direct;
             };
-            const double turn = changed(&CordPlace::across) * x.along - changed(&CordPlace::along) * x.across;
+            const double turn = changed(&HeldCordState::across) * x.along - changed(&HeldCordState::along) * x.across;
             most = std::max(most, std::abs(turn) / (x.across * x.across + x.along * x.along));
         }
         return most;
@@ -176,7 +188,7 @@ inline HeldCordPlace HeldCordShape::operator()(double arc) const {
         detail::throw_invalid("HeldCordShape", "arc length must lie between 0 and the length", arc);
     const double scaled = arc / length;
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), scaled,
-                                        [](double x, const finite::CordPlace& step) { return x < step.arc; });
+                                        [](double x, const finite::HeldCordState& step) { return x < step.arc; });
     const finite::CordSeries series(*(after - 1), conical_height / length);
     const double duration = 1.05 * series.reach();
     HeldCordPlace place = finite::place_of(*this, series.place(series.time_at(scaled, duration)));

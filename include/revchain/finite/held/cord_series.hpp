@@ -9,34 +9,34 @@ namespace revchain::finite {
 /// A place of a uniform cord held at both ends, lengths over the cord's: arc from the lower end, offset y, height z,
 /// and lambda times the force that pulls upwards, over the weight: u across the axis (the way offsets are counted), V
 /// along it.
-struct CordPlace {
+struct HeldCordState {
     double arc = 0, offset = 0, rise = 0, across = 0, along = 0;
 };
 /// How a place at a fixed arc changes with the force at the lower end, as `HeldForces` counts it, and the height.
-using CordChange = std::array<CordPlace, 3>;
+using CordChange = std::array<HeldCordState, 3>;
 
 /// The power series of a cord about one of its places, in the time of `PathSeries`: with ds = T dt its equations are
 ///     y' = u,   z' = V,   u' = -T y,   V' = lambda T,   T = C + lambda z - y^2/2,
 /// lambda 0 without gravity. One series for each of the three changes.
 class CordSeries {
    public:
-    CordSeries(const CordPlace& place, double height, const CordChange* change = nullptr) {
+    CordSeries(const HeldCordState& place, double height, const CordChange* change = nullptr) {
         const PathState state{place.arc, place.offset, place.across, place.rise};
         for (std::size_t i = 0; i < (change == nullptr ? 1 : 3); ++i) {
-            const CordPlace d = change == nullptr ? CordPlace{} : (*change)[i];
+            const HeldCordState d = change == nullptr ? HeldCordState{} : (*change)[i];
             const PathChange varied{d.arc, d.offset, d.across, d.rise};
             series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, change == nullptr ? nullptr : &varied,
                              d.along);
         }
     }
 
-    CordPlace place(double t) const {
+    HeldCordState place(double t) const {
         const PathState x = series_[0].state(t);
         return {x.arc, x.offset, x.height, x.pull, PathSeries::at(series_[0].below, t)};
     }
     /// The change at a fixed arc, not time.
     CordChange change(double t, double height) const {
-        const CordPlace x = place(t);
+        const HeldCordState x = place(t);
         const double pull = std::hypot(x.across, x.along);
         CordChange result;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ class CordSeries {
 template <class Visit>
 HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
     constexpr int max_steps = 20'000;
-    CordPlace place{0, 0, 0, -forces.across, forces.along};
+    HeldCordState place{0, 0, 0, -forces.across, forces.along};
     CordChange change{};
     change[0].across = -1, change[1].along = 1;
     for (int step = 0; step < max_steps; ++step) {

@@ -14,17 +14,22 @@ struct HeldState {
     double span;
 };
 
-/// A curve of states whose upper end is on the axis, by its arc: with one of span and conical height kept, the three
-/// others of (forces, span) move along a curve in space, whose tangent is the product of two gradients. `Shooter` sends
-/// forces to the upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it
-/// that the state is one to start from. A fold of the curve is passed like any other point.
+/// What moves along a curve of states besides the two forces; the others are kept.
+enum class Third { span, height, part };
+
+/// A curve of states whose upper end is where it is held, by its arc: the two forces and one other number move along a
+/// curve in space, whose tangent is the product of two gradients. `Shooter` sends forces to the upper end:
+/// `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it that the state is one to
+/// start from. A fold of the curve is passed like any other point.
 template <class Shooter>
 class HeldCurve {
    public:
-    /// Sizes that weigh steps: total length and weight.
-    HeldCurve(Shooter& shooter, double length, double weight) : shooter_(&shooter), length_(length), weight_(weight) {}
+    /// Sizes that weigh steps, total length and weight; and whether shapes have mirror images, both ends on the axis.
+    HeldCurve(Shooter& shooter, double length, double weight, bool mirrored = true)
+        : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
 
     static constexpr int max_steps = 3000;
+    static constexpr double at_rest = 1e4;  ///< conical heights, over the length, at which a chain hangs as at rest
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
@@ -34,8 +39,9 @@ class HeldCurve {
             const HeldEnd<double> end = (*shooter_)(state.forces, false);
             if (!end.known) return {};
             const auto [across, along] = end.forces_to_move(-end.offset, state.span - end.rise);
-            const double size = std::abs(across) / std::abs(state.forces.across) +
-                                std::abs(along) / (std::abs(state.forces.along) + std::abs(state.forces.across));
+            const double whole = std::abs(state.forces.along) + std::abs(state.forces.across);
+            const double size =
+                std::abs(across) / (has_image(state) ? std::abs(state.forces.across) : whole) + std::abs(along) / whole;
             if (!(size < 1)) return {};
             state.forces.across += across, state.forces.along += along;
             if (size < 1e-13 || (size < 1e-7 && size > 0.25 * last)) {
@@ -48,15 +54,23 @@ class HeldCurve {
     }
 
     /// The state at a span and a height: from the nearly straight system without gravity the ends are drawn together,
-    /// then gravity grows. `slack` is the length less the span; `nearly_straight(slack)` returns the forces of a small
-    /// slack. Nothing where the curve does not lead there.
+    /// then brought to where they are held, if that is not firmly on the axis, then gravity grows. `slack` is the
+    /// length less the span; `nearly_straight(slack)` returns the forces of a small slack. Nothing where the curve does
+    /// not lead there.
     template <class NearlyStraight>
     std::optional<HeldState> from_straight(double slack, double span, double height,
                                            const NearlyStraight& nearly_straight) {
         const double first = std::min(slack, 1e-3 * length_);
         auto state = corrected({nearly_straight(first), length_ - first});
-        if (state && slack > first) state = follow<true>(*state, span);
-        if (state && height > 0) state = follow<false>(*state, height);
+        if (state && slack > first) state = follow<Third::span>(*state, span);
+        if constexpr (requires { shooter_->vary_part(true); }) {
+            if (state && state->forces.part < 1) {
+                shooter_->vary_part(true);
+                state = follow<Third::part>(*state, 1);
+                shooter_->vary_part(false);
+            }
+        }
+        if (state && height > 0) state = follow<Third::height>(*state, height);
         return state;
     }
     /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the
@@ -67,7 +81,7 @@ class HeldCurve {
         for (const bool up : {true, false}) {
             shooter_->keep(kept);
             Tense last = tense(from, wanted), before = last;
-            step_along<true>(from, up, [&](const HeldState& state) {
+            step_along<Third::span>(from, up, [&](const HeldState& state) {
                 const Tense here = tense(state, wanted);
                 const auto there = shooter_->kept();
                 if (here.off * last.off < 0) {
@@ -90,19 +104,19 @@ class HeldCurve {
     /// Sees the states of constant span from one on, first to greater heights, until `visit` returns false.
     template <class Visit>
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
-        step_along<false>(from, true, visit, max_step);
+        step_along<Third::height>(from, true, visit, max_step);
     }
-    /// Sees those of them at which `off`, a number of a state, is 0.
-    template <class Off, class Visit>
-    void where(const HeldState& from, const Off& off, Visit&& visit) {
+    /// The first of them at which `off`, a number of a state, is 0.
+    template <class Off>
+    std::optional<HeldState> first_where(const HeldState& from, const Off& off) {
         HeldState before = from;
         double was = off(from);
+        std::optional<HeldState> met;
         along_heights(from, 0.05, [&](const HeldState& state) {
             const auto there = shooter_->kept();
             const double here = off(state);
             if (here * was < 0) {
                 HeldState low = before, high = state;
-                std::optional<HeldState> met;
                 for (int round = 0; round < 60; ++round) {
                     HeldState guess = mixed(low, high, 0.5);
                     guess.forces.height = low.forces.height + (high.forces.height - low.forces.height) / 2;
@@ -110,12 +124,13 @@ class HeldCurve {
                     if (!met) break;
                     (off(*met) * was > 0 ? low : high) = *met;
                 }
-                if (met) visit(*met);
+                if (met) return false;
                 shooter_->keep(there);
             }
             before = state, was = here;
-            return state.forces.height > 0;
+            return state.forces.height > 0 && state.forces.height < at_rest * length_;
         });
+        return met;
     }
 
    private:
@@ -172,27 +187,42 @@ class HeldCurve {
     static double dot(const Triple& x, const Triple& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
     /// What one step of each of the three is worth.
-    template <bool spans>
+    template <Third third>
     Triple scales(const HeldState& x) const {
-        const double across = std::abs(x.forces.across), along = std::abs(x.forces.along);
-        const double pull = along + 0.05 * (across + weight_ * x.forces.height);
-        if constexpr (spans) {
+        const double along = std::abs(x.forces.along), hung = weight_ * x.forces.height,
+                     across = std::abs(x.forces.across) + (has_image(x) ? 0.0 : 0.1 * (along + hung));
+        const double pull = along + 0.05 * (across + hung);
+        if constexpr (third == Third::span) {
             const double least = x.forces.height == 0 ? along : pull;
             return {across, least, std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
-        } else {
+        } else if constexpr (third == Third::height) {
             return {across, pull, x.forces.height + 0.3 * (across + along) / weight_};
+        } else {
+            return {across, pull, 0.3};
         }
     }
-    template <bool spans>
+    template <Third third, class State>
+    static auto& number(State& x) {
+        if constexpr (third == Third::span)
+            return x.span;
+        else if constexpr (third == Third::height)
+            return x.forces.height;
+        else
+            return x.forces.part;
+    }
+    /// Whether the state with the forces across turned round is one too; the force across is 0 in neither.
+    bool has_image(const HeldState& x) const { return mirrored_ || x.forces.part == 0; }
+    template <Third third>
     static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
         HeldState x = from;
         x.forces.across += scale[0] * by[0], x.forces.along += scale[1] * by[1];
-        (spans ? x.span : x.forces.height) += scale[2] * by[2];
+        number<third>(x) += scale[2] * by[2];
         return x;
     }
     /// Gradients of the end's offset and of its rise less the span, in scaled changes.
-    template <bool spans>
+    template <Third third>
     std::array<Triple, 2> gradients(const HeldEnd<double>& end, const Triple& scale) const {
+        constexpr bool spans = third == Third::span;
         const auto& y = end.offset_change;
         const auto& z = end.rise_change;
         return {Triple{y[0] * scale[0], y[1] * scale[1], spans ? 0.0 : y[2] * scale[2]},
@@ -201,15 +231,15 @@ class HeldCurve {
     static Triple unit(const Triple& x) { return x / std::sqrt(dot(x, x)); }
     static Triple normalised(const Triple& x, const Triple& y) { return unit(cross(unit(x), unit(y))); }
 
-    template <bool spans, class Visit>
+    template <Third third, class Visit>
     void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
         double step = std::min(0.05, max_step);
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
-        Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
+        Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
         for (int count = 0; count < max_steps && step > 1e-9; ++count) {
             revchain::detail::look();
-            const auto [over_y, over_z] = gradients<spans>(end, scale);
+            const auto [over_y, over_z] = gradients<third>(end, scale);
             Triple tangent = normalised(over_y, over_z);
             if (!(dot(tangent, tangent) > 0.5)) return;
             if (dot(tangent, last) < 0) tangent = -tangent;
@@ -217,13 +247,13 @@ class HeldCurve {
             HeldEnd<double> there;
             int rounds = 0;
             for (; step > 1e-9; step *= 0.4)
-                if (correct<spans>(state, scale, tangent, step, next, there, rounds)) break;
+                if (correct<third>(state, scale, tangent, step, next, there, rounds)) break;
             if (!(step > 1e-9)) return;
             (*shooter_)(next.forces, true);
             if (!visit(next)) return;
             // the same tangent in the scales of the new place
             const Triple before = scale;
-            state = next, end = there, scale = scales<spans>(state);
+            state = next, end = there, scale = scales<third>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);
             step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
             step = std::min(step, max_step);
@@ -231,17 +261,18 @@ class HeldCurve {
     }
 
     /// Back to the curve in the plane across the tangent.
-    template <bool spans>
+    template <Third third>
     bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
                  HeldEnd<double>& end, int& rounds) {
         Triple at = tangent * step;
         double last = 1;
         for (rounds = 0; rounds < 8; ++rounds) {
-            x = moved<spans>(from, scale, at);
-            if (x.forces.across * from.forces.across <= 0 || x.forces.height < 0 || x.span >= length_) return false;
+            x = moved<third>(from, scale, at);
+            if (has_image(from) && x.forces.across * from.forces.across <= 0) return false;
+            if (x.forces.height < 0 || x.forces.part < 0 || x.span >= length_) return false;
             end = (*shooter_)(x.forces, false);
             if (!end.known) return false;
-            const auto [over_y, over_z] = gradients<spans>(end, scale);
+            const auto [over_y, over_z] = gradients<third>(end, scale);
             // three equations: both ends' gaps and the plane
             const double y = end.offset, z = end.rise - x.span, p = dot(tangent, at) - step;
             const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
@@ -251,7 +282,7 @@ class HeldCurve {
             if (!(size < 2 * step + 1e-9) || (rounds > 0 && size > 0.9 * last && size > 1e-9)) return false;
             at += change;
             if (size < 1e-8) {
-                x = moved<spans>(from, scale, at);
+                x = moved<third>(from, scale, at);
                 end = (*shooter_)(x.forces, false);
                 return end.known;
             }
@@ -260,23 +291,22 @@ class HeldCurve {
         return false;
     }
 
-    /// On to another span at constant height or, unless it `spans`, to another height at constant span; nothing where
-    /// the curve does not lead there.
-    template <bool spans>
+    /// On to another value of the third number; nothing where the curve does not lead there.
+    template <Third third>
     std::optional<HeldState> follow(const HeldState& from, double wanted) {
-        const auto off = [&](const HeldState& x) { return (spans ? x.span : x.forces.height) - wanted; };
+        const auto off = [&](const HeldState& x) { return number<third>(x) - wanted; };
         const double start = off(from);
         if (start == 0) return corrected(from);
         std::optional<HeldState> result;
         HeldState before = from;
-        step_along<spans>(from, start < 0, [&](const HeldState& x) {
+        step_along<third>(from, start < 0, [&](const HeldState& x) {
             const double here = off(x);
             if (here * start > 0) {
                 before = x;
                 return true;
             }
             HeldState guess = mixed(before, x, off(before) / (off(before) - here));
-            (spans ? guess.span : guess.forces.height) = wanted;
+            number<third>(guess) = wanted;
             result = corrected(guess);
             return false;
         });
@@ -285,6 +315,7 @@ class HeldCurve {
 
     Shooter* shooter_;
     double length_, weight_;
+    bool mirrored_;
 };
 
 /// Sees the states of so many half waves at a height whose tension at the upper end, times the height, is `wanted`: on
@@ -296,11 +327,13 @@ void each_under(System& held, int half_waves, double height, double wanted, cons
             return held.curve().under(*state, wanted, visit);
 }
 
+/// Error bounds beyond which a shape is none: it hangs folded along the axis.
+inline constexpr double folded = 1e-3;
+
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
 /// shape or none.
 template <class Shapes, class Find>
 Shapes each_half_wave(int most, const Find& find) {
-    constexpr double folded = 1e-3;  // error bounds beyond which a shape is none: it hangs folded along the axis
     Shapes result;
     for (int k = 1; k <= most; ++k) {
         const std::size_t before = result.shapes.size();

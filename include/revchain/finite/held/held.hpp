@@ -25,9 +25,11 @@ class HeldChain {
    public:
     using S = Wide<double>;
 
-    explicit HeldChain(const Chain<double>& chain) : wide_(links_of(chain)), links_(rounded<double>(wide_.links)) {
+    explicit HeldChain(const Chain<double>& chain, const HeldSupports& supports = {})
+        : wide_(links_of(chain)), links_(rounded<double>(wide_.links)), supports_(supports) {
         for (const Link<S>& link : wide_.links)
             length_ = length_ + link.length, weight_ = weight_ + link.moment + link.rest;
+        if (supports.height) supports_.height = ldexp(*supports.height, -wide_.units.length_exponent);
         straighten();
     }
     HeldChain(const HeldChain&) = delete;
@@ -36,22 +38,38 @@ class HeldChain {
     const Links<S>& links() const { return wide_; }
     const S& length() const { return length_; }
 
-    /// The end's place for forces, each link from where it was in the state kept last.
+    /// The end's place for forces, each link from where it was in the state kept last. Changes are with the part of how
+    /// the ends are held instead of with the height if that has been said.
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool keep) {
         trial_ = kept_;
-        const HeldEnd<double> end = held_sweep(links_, forces, trial_);
+        const HeldEnd<double> end = supports_.plain()
+                                        ? held_sweep(links_, plain_, forces, trial_)
+                                        : held_sweep(links_, ends<double>(forces.height, forces.part), forces, trial_);
         if (end.known && keep) kept_ = trial_;
         return end;
     }
+    void vary_part(bool part) { by_part_ = part; }
+    /// From now on springs are taken at this height, in units of the chain; at that of each state, if at none.
+    void springs_at(const std::optional<S>& height) { supports_.height = height; }
+
+    /// How the ends are held at a height, or that part of it.
+    template <class T>
+    HeldEnds<T> ends(const T& height, double part = 1) const {
+        return held_ends(supports_, wide_.units, height, part, by_part_);
+    }
+    bool mirrored() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
 
     /// Directions in the state kept last.
     const std::vector<Direction<double>>& kept() const { return kept_; }
     void keep(std::vector<Direction<double>> directions) { kept_ = std::move(directions); }
 
-    HeldCurve<HeldChain> curve() { return {*this, static_cast<double>(length_), static_cast<double>(weight_)}; }
+    HeldCurve<HeldChain> curve() {
+        return {*this, static_cast<double>(length_), static_cast<double>(weight_), mirrored()};
+    }
 
-    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`.
-    std::optional<HeldState> at_height(int half_waves, const S& span, double height) {
+    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`; if there are no mirror images, from the
+    /// chain whose lowest link leads outwards, or from the other.
+    std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
         if (half_waves >= static_cast<Index>(links_.size())) return {};
         const double along = taut_number([&](double x) { return taut_count(links_, 0.0, x); }, half_waves - 1,
                                          static_cast<double>(weight_ * length_));
@@ -61,39 +79,45 @@ class HeldChain {
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
         straighten();
-        return curve().from_straight(static_cast<double>(length_ - span), static_cast<double>(span), height,
-                                     [&](double slack) {
-                                         return HeldForces<double>{-std::sqrt(slack / short_of), along, 0};
-                                     });
+        const double across = outwards ? -1 : 1, part = supports_.plain() ? 1 : 0;
+        return curve().from_straight(
+            static_cast<double>(length_ - span), static_cast<double>(span), height, [&](double slack) {
+                return HeldForces<double>{across * std::sqrt(slack / short_of), along, 0, part};
+            });
     }
 
     /// Newton's method in double-double at span and height, from a state in double; the shape there.
     std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height, bool prove) const {
+        const HeldEnds<S> held = ends(height);
         HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
         std::vector<Direction<S>> direction;
         for (const Direction<double>& d : kept_) {  // of unit length, to double-double
             const S sine(d.sine), cosine(d.cosine), size = sqrt(sine * sine + cosine * cosine);
             direction.push_back({sine / size, cosine / size});
         }
+        if (mirrored() && kept_.front().sine > 0) {  // of two mirror images that whose lowest link leads outwards
+            forces.across = -forces.across;
+            for (Direction<S>& d : direction) d.sine = -d.sine;
+        }
         double last = std::numeric_limits<double>::infinity();
         for (int round = 0; round < 30; ++round) {
-            const HeldEnd<S> end = held_sweep(wide_.links, forces, direction);
+            const HeldEnd<S> end = held_sweep(wide_.links, held, forces, direction);
             if (!end.known) return {};
             const auto [across, along] = end.forces_to_move(-end.offset, span - end.rise);
             forces.across = forces.across + across, forces.along = forces.along + along;
-            const double size = std::abs(static_cast<double>(across / forces.across)) +
-                                std::abs(static_cast<double>(along / forces.across));
+            const double size =
+                (std::abs(static_cast<double>(across)) + std::abs(static_cast<double>(along))) / pull_of(forces);
             if (!(size < 1)) return {};
             if (size < 1e-29 || (size < 1e-18 && size > 0.25 * last)) break;
             if (round == 29) return {};
             last = size;
         }
-        HeldShape shape = described(wide_, forces, span, direction);
+        HeldShape shape = described(wide_, held, forces, span, direction);
         if (prove) {
             std::vector<Direction<Far>> found;
             for (const Direction<S>& d : direction) found.push_back({Far(d.sine), Far(d.cosine)});
-            const double error = held_error(enclosed<Far>(wide_.links), enclosed<Far>(height), enclosed<Far>(span),
-                                            {Far(forces.across), Far(forces.along)}, found);
+            const double error = held_error(enclosed<Far>(wide_.links), enclosed<Far>(held), enclosed<Far>(height),
+                                            enclosed<Far>(span), {Far(forces.across), Far(forces.along)}, found);
             shape.proved = error < 1e-3;
             // and an inclination rounded once
             if (shape.proved) shape.error_bound = error + 1.001 * 0x1p-53 * shape.inclination.cwiseAbs().maxCoeff();
@@ -117,7 +141,7 @@ class HeldChain {
             drawn.push_back(way);
             return growth;
         };
-        if (held_sweep<2>(links_, forces, settle).known) kept_ = drawn;
+        if (held_sweep<2>(links_, ends(forces.height), forces, settle).known) kept_ = drawn;
     }
 
     /// Newton's method on the two forces: a state whose tension at the upper end, times the height, is `wanted`.
@@ -131,7 +155,7 @@ class HeldChain {
                          c = end.across_change[0] * end.across / force,
                          d = (end.across_change[1] * end.across + along) / force, determinant = a * d - b * c;
             const double across = (d * y - b * over) / determinant, down = (a * over - c * y) / determinant;
-            if (!(std::abs(across) + std::abs(down) < 0.5 * std::abs(forces.across))) return {};
+            if (!(std::abs(across) + std::abs(down) < 0.5 * pull_of(forces))) return {};
             forces.across -= across, forces.along -= down;
             if (std::abs(across) + std::abs(down) < 1e-15 * force) return HeldState{forces, end.rise};
         }
@@ -140,9 +164,18 @@ class HeldChain {
 
    private:
     void straighten() { kept_.assign(links_.size(), {0.0, 1.0}); }
+    /// What steps of Newton's method are compared with. Mirror images are apart by the force across.
+    template <class T>
+    double pull_of(const HeldForces<T>& forces) const {
+        const double across = std::abs(static_cast<double>(forces.across));
+        return mirrored() ? across : across + std::abs(static_cast<double>(forces.along));
+    }
 
     Links<S> wide_;
     std::vector<Link<double>> links_;
+    HeldSupports supports_;
+    HeldEnds<double> plain_{};
+    bool by_part_ = false;
     S length_{0}, weight_{0};
     std::vector<Direction<double>> kept_, trial_;
 };
@@ -153,8 +186,12 @@ inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& c
     for (const HeldCell& cell : cells) {
         const double low = 2 * std::atan(cell.at[1].low), high = 2 * std::atan(cell.at[1].high), by = 1e-15;
         constexpr double pi = std::numbers::pi;
-        result.push_back(cell.up ? InclinationRange{-high - by, -low + by}
-                                 : InclinationRange{low - by - pi, high + by - pi});
+        if (cell.up) {
+            result.push_back({-high - by, -low + by});
+            continue;
+        }
+        if (high >= 0) result.push_back({std::max(low, 0.0) - by - pi, high + by - pi});
+        if (low < 0) result.push_back({low - by + pi, std::min(high, 0.0) + by + pi});
     }
     std::sort(result.begin(), result.end(), [](const auto& x, const auto& y) { return x.low < y.low; });
     std::vector<InclinationRange> apart;
@@ -173,12 +210,35 @@ struct HeldListOptions {
     long budget;
 };
 
+inline bool by_half_waves(const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; }
+
+/// Whether a shape is among others.
+inline bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
+    return std::any_of(shapes.begin(), shapes.end(), [&](const HeldShape& other) {
+        return (other.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-8;
+    });
+}
+
+/// Puts in order what curves have led to that begin with the ends on the axis: several may lead to one shape, and to
+/// other half waves than they began with.
+inline void keep_different(HeldShapes& list, int max_half_waves) {
+    std::vector<HeldShape> kept;
+    for (const HeldShape& shape : list.shapes)
+        if (shape.half_waves <= max_half_waves && !has(kept, shape)) kept.push_back(shape);
+    list.shapes = std::move(kept), list.missing.clear();
+    std::stable_sort(list.shapes.begin(), list.shapes.end(), by_half_waves);
+    for (int k = 1; k <= max_half_waves; ++k)
+        if (std::none_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; }))
+            list.missing.push_back(k);
+}
+
 /// Adds to the shapes found by their branches all others, and says where there may be more.
 inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& height, const HeldGoal& goal,
                      const HeldListOptions& options) {
     using S = Wide<double>;
     const EnclosedLinks<double> links = enclosed<double>(held.links().links);
-    const HeldCells cells(links, enclosed<double>(height), goal, options.max_half_waves);
+    const HeldCells cells(links, enclosed<double>(held.ends(height)), enclosed<double>(height), goal,
+                          options.max_half_waves);
     HeldRoots found = HeldSearch(cells, options.budget)();
     for (const HeldRoot& root : found.roots) {
         const HeldForces<double> forces = cells.forces(root.pull, root.tangent, root.cell.up);
@@ -191,16 +251,12 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
             if (state->span < 0) continue;  // the upper end is the lower one
             shape = held.finished(*state, S(state->span), height, options.prove);
         }
-        const auto same = [&](const HeldShape& other) {
-            return (other.inclination - shape->inclination).cwiseAbs().maxCoeff() < 1e-8;
-        };
         if (!shape)
             found.undecided.push_back(root.cell);
-        else if (std::none_of(list.shapes.begin(), list.shapes.end(), same))
+        else if (!has(list.shapes, *shape))
             list.shapes.push_back(*shape);
     }
-    std::stable_sort(list.shapes.begin(), list.shapes.end(),
-                     [](const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; });
+    std::stable_sort(list.shapes.begin(), list.shapes.end(), by_half_waves);
     std::erase_if(list.missing, [&](int k) {
         return std::any_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; });
     });
@@ -209,26 +265,31 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
 }
 
 /// Shapes of up to `max_half_waves` half waves at a span and a height; height 0: without gravity.
-inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height,
-                              const HeldListOptions& options) {
-    HeldChain held(chain);
+inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span,
+                              const Wide<double>& height, const HeldListOptions& options) {
+    HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent);
     const Wide<double> lambda = ldexp(height, -exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
-        if (const auto state = held.at_height(k, Wide<double>(apart), static_cast<double>(lambda)))
-            add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
+        for (const bool outwards : {true, false}) {
+            if (!outwards && held.mirrored()) break;
+            if (const auto state = held.at_height(k, Wide<double>(apart), static_cast<double>(lambda), outwards))
+                add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
+        }
     });
+    if (!supports.plain()) keep_different(list, options.max_half_waves);
     if (options.prove) complete(list, held, lambda, {Interval<double>(apart), true}, options);
     return list;
 }
 
 /// Shapes of up to `max_half_waves` half waves whose tension at the upper end, times the height, is
 /// `height_times_tension`.
-inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
-                                            double conical_height, const HeldListOptions& options) {
+inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
+                                            double height_times_tension, double conical_height,
+                                            const HeldListOptions& options) {
     using S = Wide<double>;
-    HeldChain held(chain);
+    HeldChain held(chain, supports);
     const ChainUnits units = held.links().units;
     const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
                  lambda = std::ldexp(conical_height, -units.length_exponent);

@@ -40,8 +40,8 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
 
 /// Encloses the upper end for forces at the lower end up to `radius` from those of a state, `found` the directions
 /// there; and the sine of the largest turn of a link away from them.
-inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const Span& height,
-                                                    const std::array<Far, 2>& forces,
+inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
+                                                    const Span& height, const std::array<Far, 2>& forces,
                                                     const std::array<double, 2>& radius,
                                                     const std::vector<Direction<Far>>& found) {
     const auto about = [&](std::size_t i) {
@@ -56,21 +56,22 @@ inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& li
         turned = std::max(turned, turn);
         return growth;
     };
-    const auto end = held_sweep<2>(links, {about(0), about(1), height}, settle_near);
+    const auto end = held_sweep<2>(links, ends, {about(0), about(1), height, Span(Far(1))}, settle_near);
     return {end, turned};
 }
 
 }  // namespace detail
 
-/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its upper end on
-/// the axis, `span` up, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
+/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its ends held as
+/// given, `span` apart, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
 /// (doi:10.1007/ BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for
 /// each half wave.
-inline double held_error(const EnclosedLinks<Far>& links, const Interval<Far>& height, const Interval<Far>& span,
-                         const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
+inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interval<Far>>& ends,
+                         const Interval<Far>& height, const Interval<Far>& span, const std::array<Far, 2>& forces,
+                         const std::vector<Direction<Far>>& found) {
     using detail::Span;
     constexpr double unproved = std::numeric_limits<double>::infinity();
-    const auto centre = detail::held_box(links, height, forces, {0, 0}, found).first;
+    const auto centre = detail::held_box(links, ends, height, forces, {0, 0}, found).first;
     if (!centre.known) return unproved;
     const auto slope = [](const Span& x) { return static_cast<double>(x.middle()); };
     const double a = slope(centre.offset_change[0]), b = slope(centre.offset_change[1]),
@@ -84,7 +85,7 @@ inline double held_error(const EnclosedLinks<Far>& links, const Interval<Far>& h
         step[i] = detail::largest(inverse[2 * i] * centre.offset + inverse[2 * i + 1] * missed);
     radius = {2 * step[0] + 1e-290, 2 * step[1] + 1e-290};
     for (int round = 0; round < 4; ++round) {
-        const auto [end, turned] = detail::held_box(links, height, forces, radius, found);
+        const auto [end, turned] = detail::held_box(links, ends, height, forces, radius, found);
         if (!end.known) return unproved;
         bool inside = true;
         std::array<double, 2> image;

@@ -34,7 +34,7 @@ class HeldSearch {
         const Span pulls = chain_.pulls();
         scale_ = pulls.high;
         std::deque<HeldCell> open;  // large cells first, so that what is left undecided is small
-        for (const bool up : {false, true}) open.push_back({{pulls, Span(0.0, 1.0)}, up});
+        for (const bool up : {false, true}) open.push_back({{pulls, Span(chain_.mirrored() ? 0.0 : -1.0, 1.0)}, up});
         while (!open.empty()) {
             const HeldCell cell = open.front();
             open.pop_front();
@@ -122,7 +122,7 @@ class HeldSearch {
             const double by = 0.1 * x.width() + 1e-14 * x.size() + 1e-300;
             x = {x.low - by, x.high + by};
         }
-        about.at[1].low = std::max(about.at[1].low, 0.0);
+        if (chain_.mirrored()) about.at[1].low = std::max(about.at[1].low, 0.0);
         HeldReach reach = sweep(about);
         if (!reach.known) return false;
         auto next = image(about, reach);

@@ -4,15 +4,35 @@
 #include <array>
 
 #include "revchain/finite/balance/link_equation.hpp"
+#include "revchain/finite/balance/support_end.hpp"
 
 namespace revchain::finite {
 
-/// Lambda times the force at the lower end of a chain held at both ends, across the axis and along it, and the conical
-/// height lambda = g/n^2 itself, 0 without gravity.
+/// Lambda times the force that holds the lower end of a chain held at both ends, across the axis and along it; the
+/// conical height lambda = g/n^2 itself, 0 without gravity; and the part that there is of how the ends are held: with 0
+/// they are firm points on the axis.
 template <class S>
 struct HeldForces {
     S across, along, height;
+    S part = S(1);
 };
+
+/// How the two ends of a chain are held, lower and upper, and how that and the height change with the third number.
+template <class S>
+struct HeldEnds {
+    Held<S> lower = firm(), upper = firm();
+    std::array<S, 2> radius_change{}, compliance_change{};
+    S height_change = S(1);
+
+    static Held<S> firm(const S& radius = S(0)) { return {radius, S(0), S(0), S(0), radius == S(0), true}; }
+    bool mirrored() const { return lower.symmetric && upper.symmetric; }
+    bool yields() const { return lower.yields() || upper.yields(); }
+};
+
+template <class T, class S>
+HeldEnds<Interval<T>> enclosed(const HeldEnds<S>& ends) {
+    return {enclosed<T>(ends.lower), enclosed<T>(ends.upper)};
+}
 
 /// How a number changes with the first K of the three.
 template <class S, std::size_t K = 3>
@@ -24,7 +44,8 @@ struct Direction {
     S sine, cosine;
 };
 
-/// Where the upper end comes to, and lambda times the force across the axis there.
+/// Where the upper end comes to: how far it is from where it is held, as `Held::miss` counts it, and how high; and
+/// lambda times the force across the axis there.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
@@ -84,20 +105,29 @@ struct SeesNothing {
 
 }  // namespace detail
 
-/// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a force at the lower end,
+/// From the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
 ///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
 ///     y = y_below - length s,         H = R + rest y,
-/// H = `across` and tau = `along` at the lower end. Changes with the first K of the forces are exact derivatives.
+/// tau = `along`. The lower end is at y = b - F/(lambda E) on its spring, F = `across`, and H = F + W y there, W its
+/// carriage; a firm one at b with H = F. Changes with the first K of the numbers are exact derivatives.
 /// `settle(m, R, V, way)` gives link m its direction under its load and returns the derivative of its moment with the
 /// inclination; the sweep ends where that is not positive. `each(m, y, R, H, growth, change of the inclination)` sees
 /// every link, y of the lower pin and H of the upper.
 template <std::size_t K, class S, class Settle, class Each = detail::SeesNothing>
-HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces, const Settle& settle,
-                         const Each& each = {}) {
-    S y(0), z(0), H = forces.across;
+HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
+                         const Settle& settle, const Each& each = {}) {
+    const Held<S>&lower = ends.lower, &upper = ends.upper;
+    S y = lower.radius, z(0), H = forces.across;
     HeldChange<S, K> y_change, z_change, H_change;
     y_change.fill(S(0)), z_change.fill(S(0)), H_change.fill(S(0));
     H_change[0] = S(1);
+    if constexpr (K > 2) y_change[2] = ends.radius_change[0];
+    if (lower.yields()) {
+        y = y - lower.compliance * forces.across, H = H + lower.carriage * y;
+        y_change[0] = -lower.compliance;
+        if constexpr (K > 2) y_change[2] = y_change[2] - ends.compliance_change[0] * forces.across;
+        for (std::size_t i = 0; i < K; ++i) H_change[i] = H_change[i] + lower.carriage * y_change[i];
+    }
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<S>& link = links[m];
         const S R = H + link.moment * y, V = forces.height * link.pull + forces.along;
@@ -110,7 +140,7 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>&
             R_change[i] = H_change[i] + link.moment * y_change[i];
             S moment = c * R_change[i];
             if (i == 1) moment = moment - s;
-            if (i == 2) moment = moment - s * link.pull;
+            if (i == 2) moment = moment - s * link.pull * ends.height_change;
             turned[i] = moment / growth;
         }
         const S below = y;
@@ -122,26 +152,35 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>&
         }
         each(m, below, R, H, growth, turned);
     }
-    return {y, z, H, y_change, z_change, H_change, true};
+    HeldEnd<S, K> end{upper.miss(y, H), z, H, y_change, z_change, H_change, true};
+    if constexpr (K > 2) end.offset_change[2] = end.offset_change[2] - ends.radius_change[1];
+    if (upper.yields()) {
+        for (std::size_t i = 0; i < K; ++i)
+            end.offset_change[i] =
+                end.offset_change[i] - upper.compliance * (H_change[i] + upper.carriage * y_change[i]);
+        if constexpr (K > 2)
+            end.offset_change[2] = end.offset_change[2] - ends.compliance_change[1] * (H + upper.carriage * y);
+    }
+    return end;
 }
 
 /// The sweep in numbers. A link points where it is pulled, above the horizontal or below: every link is in tension.
 /// `direction` holds where to look, and what was found. Cost O(N): 0.1 microseconds a link in double.
 template <class S, class Each = detail::SeesNothing>
-HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
+HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
                       std::vector<Direction<S>>& direction, const Each& each = {}) {
     const auto settle = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
         const S growth = detail::settle(links[m], R, V, direction[m]);
         way = direction[m];
         return growth;
     };
-    return held_sweep<3>(links, forces, settle, each);
+    return held_sweep<3>(links, ends, forces, settle, each);
 }
 
 /// The lowest link of a chain held at both ends, in intervals: lambda times the pull along it, and the tangent of half
-/// its angle to the upward vertical, or to the downward one unless `up`. It leads away from the axis.
+/// its angle to the upward vertical, or to the downward one unless `up`; positive where it leads outwards.
 struct HeldCell {
-    std::array<Interval<double>, 2> at;  ///< pull, tangent from 0 to 1
+    std::array<Interval<double>, 2> at;  ///< pull, tangent from 0 to 1, or from -1 unless shapes have mirror images
     bool up = true;
 };
 

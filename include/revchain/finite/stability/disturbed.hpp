@@ -24,13 +24,16 @@ struct PulledLinks {
     std::vector<double> momentum, axial;  // lambda n times that along the axis, and the moment of inertia about it
     double stiffness = std::numeric_limits<double>::infinity();  // lambda times that of the support
     double carriage = 0;
-    bool held = false;         // the lower end, too, on the axis
+    double lower_stiffness = std::numeric_limits<double>::infinity();  // of the lower end, if that is held
+    double lower_carriage = 0;
+    bool held = false;         // the lower end, too
     bool turns_freely = true;  // no torque about the axis
     ChainUnits units;
 
     explicit PulledLinks(const ChainUnits& of) : units(of) {}
 
     bool yields() const { return !std::isinf(stiffness); }
+    bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
     /// Adds a link; one that meets the last in a pin without mass or load stays in line with it, and is one with it.
     void add(const Link<double>& link, double delta, double pulled, double y, double turning = 0, double about = 0) {
@@ -56,7 +59,7 @@ struct PulledLinks {
 /// P lambda times the pull along each link, X q and Z q the pins' motions across and along the axis,
 /// A = X'MX + Z'MZ, B = X'M - diag(p/a) D/2, D y the differences of y over a link, p lambda n times the angular
 /// momentum that a link keeps about its own axis. A support that yields moves by the last q and the last y: to both
-/// stiffnesses it adds lambda E, to M its carriage.
+/// stiffnesses it adds lambda E, to M its carriage. So does a lower end on a spring, by the motion of the lowest pin.
 /// Damping adds rates of dissipation: F q', H y' at the pins, drag in proportion to length and velocity in space.
 struct Disturbed {
     Matrix<double> inertia, coupling, mass;  // A, B, M
@@ -102,6 +105,10 @@ struct Disturbed {
             mass(n, n) += shape.carriage, in_plane(n, n) = shape.stiffness;
             out_of_plane(n, n) += shape.stiffness - shape.carriage;
         }
+        if (shape.lower_yields()) {
+            mass(0, 0) += shape.lower_carriage, out_of_plane(0, 0) += shape.lower_stiffness - shape.lower_carriage;
+            in_plane += shape.lower_stiffness * across.row(0).transpose() * across.row(0);
+        }
         ends.resize(pins, 2);
         ends << across.row(0).transpose(), along.row(0).transpose();
         const Matrix<double> swept = mass * across, centrifugal = across.transpose() * swept;
@@ -123,9 +130,11 @@ struct Disturbed {
         for (Matrix<double>* each : {&mass, &out_of_plane, &swivelling, &drag_across}) within(*each, Y, Y);
     }
 
-    /// Leaves angles that keep both ends where they are, and offsets of the free pins.
-    void hold_lower_end() {
+    /// Leaves angles that keep the lower end where it is, and offsets of the free pins; on a spring it moves across the
+    /// axis.
+    void hold_lower_end(bool yields) {
         const Index pins = offset.size() - 1;
+        if (yields) return keep(beside(ends.col(1)), Matrix<double>::Identity(pins + 1, pins + 1));
         keep(beside(ends), Matrix<double>::Identity(pins + 1, pins + 1).rightCols(pins));
         offset = offset.tail(pins).eval();
     }

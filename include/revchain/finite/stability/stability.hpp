@@ -110,6 +110,11 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     const auto moment = [&](double x) { return std::ldexp(length(x), -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
     result.links = rounded<double>(chain.links), result.held = true;
+    const auto& [lower, upper] = shape.ends;
+    result.turns_freely = lower.radius == 0 && upper.radius == 0;
+    const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
+    result.stiffness = weight(upper.stiffness), result.carriage = weight(upper.carriage_weight);
+    result.lower_stiffness = weight(lower.stiffness), result.lower_carriage = weight(lower.carriage_weight);
     result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
     double H = moment(-shape.lower_pull[0]);
     const double height = length(shape.conical_height), tau = moment(shape.lower_pull[1]);
@@ -121,6 +126,7 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
         result.inclination.push_back(shape.inclination[m]), result.offset.push_back(length(shape.offset[m]));
         result.pull.push_back(V * c + (R - link.cross * link.length * s) * s);
     }
+    if (result.yields()) result.offset.push_back(length(shape.offset[shape.inclination.size()]));
     return result;
 }
 
@@ -146,26 +152,19 @@ inline void require_mass(const Disturbed& d, Index first) {
             revchain::detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + first);
 }
 
+inline void require_inertia(const Disturbed& d) {
+    for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
+        if (Eigen::LLT<Matrix<double>>(*inertia).info() != Eigen::Success)
+            revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move",
+                                            d.mass.rows());
+}
+
 }  // namespace finite
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
     finite::require_shape_of(chain, shape);
     const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
     return finite::judged(frame, finite::Disturbed(links), links.units);
-}
-
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    finite::Disturbed d(links);
-    d.hold_lower_end();
-    finite::require_mass(d, 1);
-    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
-        Stability still;
-        still.frame = frame, still.verdict = Verdict::minimum;
-        return still;
-    }
-    return finite::judged(frame, d, links.units);
 }
 
 namespace finite {
@@ -195,6 +194,38 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
     return result;
 }
 
+inline bool displaces_turning_fluid(const Rig& rig) {
+    for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
+        if (rig.displaced(m).weight > 0) return true;
+    return false;
+}
+
+/// The verdict where the kinetic energy is not known, but for that it is positive and that 0 is rest in the turning
+/// frame: a shape whose potential energy there is least, but for a rotation, is stable; of any other nothing is known.
+REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
+    const bool free = frame == StabilityFrame::free;
+    Matrix<double> in_plane = d.in_plane, across(0, 0);
+    if (!free) {
+        in_plane -= d.turned;
+    } else if (d.turns_freely) {
+        const Matrix<double> others = beside(d.offset);
+        across = others.transpose() * d.out_of_plane * others;
+    } else {
+        across = d.out_of_plane;
+    }
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    Stability result;
+    result.frame = frame;
+    result.negative_directions = inside.negative + outside.negative;
+    if (std::min(inside.least, outside.least) > 1e-14 * static_cast<double>(d.ends.rows()) * stiffness)
+        result.verdict = Verdict::minimum;
+    else
+        result.growth_rate = std::numeric_limits<double>::quiet_NaN();
+    return result;
+}
+
 /// Leaves out the upper end of a support that yields, where that carries no mass: its spring balances the pull on it.
 inline void balance_upper_end(Disturbed& d) {
     const Index pins = d.mass.rows() - 1;
@@ -210,6 +241,22 @@ inline void balance_upper_end(Disturbed& d) {
 
 }  // namespace finite
 
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+    finite::require_shape_of(chain, shape);
+    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
+    finite::Disturbed d(links);
+    if (links.yields()) finite::balance_upper_end(d);
+    d.hold_lower_end(links.lower_yields());
+    finite::require_mass(d, links.lower_yields() ? 0 : 1);
+    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
+        Stability still;
+        still.frame = frame, still.verdict = Verdict::minimum;
+        return still;
+    }
+    finite::require_inertia(d);
+    return finite::judged(frame, d, links.units);
+}
+
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
@@ -220,23 +267,15 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     const double end = shape.offset[rig.size()];
     if (support.is_firm() && !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
         detail::throw_invalid(place, "the shape is not of this rig; its upper end is at", end);
-    for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
-        if (rig.displaced(m).weight > 0)
-            detail::throw_invalid(place,
-                                  "how a fluid that turns moves around a disturbed link is not modelled: take "
-                                  "Fluid::still, or no fluid; weight displaced by links[" +
-                                      std::to_string(m) + "]",
-                                  rig.displaced(m).weight);
     const Wide<double> height(shape.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
     const finite::RiggedLinks given = finite::rigged_links(rig, height, options.direction > 0 ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
     finite::Disturbed d(links);
+    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, d);
     if (links.yields()) finite::balance_upper_end(d);
     finite::require_mass(d, 0);
-    for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
-        if (Eigen::LLT<Matrix<double>>(*inertia).info() != Eigen::Success)
-            detail::throw_invalid(place, "every motion must move some mass; pins that move", d.mass.rows());
+    finite::require_inertia(d);
     return finite::judged(options.frame, d, links.units);
 }
 

@@ -186,10 +186,29 @@ TEST_CASE("stability of rigs: refusals", "[finite][rig][stability]") {
     const Rig arm(chain, {.support = revchain::carried_round(0.2)}), plain(chain, {});
     refuses(plain, shape_of(arm), "not of this rig; its upper end is at");
     refuses(Rig(Chain<double>::uniform_rods(3, 1.0, 1.0), {}), shape_of(plain), "its links number");
-    const Rig turning(chain, {.fluid = revchain::Fluid::turning, .displaced = {{0.2, 1.0}, {}}});
-    refuses(turning, shape_of(turning), "links[0]");
     const Rig wheel(chain, {.support = revchain::horizontal_spring(50.0), .flywheels = {{}, {0.1, 0.0}}});
     refuses(wheel, shape_of(wheel), "give it a carriage weight");
     CHECK_THROWS_WITH(revchain::stability(arm, shape_of(arm), {.direction = 0}), ContainsSubstring("direction"));
     CHECK_THROWS_WITH(revchain::stability(arm, shape_of(arm), {.gravity = -1}), ContainsSubstring("gravity"));
+}
+
+TEST_CASE("stability of rigs: in a fluid that turns, by the energy alone", "[finite][rig][stability]") {
+    // what fluid of the same place displaces leaves a chain of the net weights, as far as the potential goes
+    const Chain<double> chain({plummet(1.0, 1.0), plummet(2.0, 0.7)}), net({plummet(0.6, 1.0), plummet(1.8, 0.7)});
+    const Rig turning(chain, {.fluid = revchain::Fluid::turning, .displaced = {{0.4, 1.0}, {0.2, 0.7}}});
+    const auto found = revchain::steady_shapes(turning, {.conical_height = 0.15, .hanging_only = false});
+    CHECK(found.shapes.size() > 2);
+    Index minima = 0;
+    for (const auto frame : {StabilityFrame::free, StabilityFrame::driven})
+        for (const SteadyShape& shape : found.shapes) {
+            const auto got = revchain::stability(turning, shape, {.frame = frame});
+            CHECK(got.exponents.empty());
+            CHECK((got.verdict == Verdict::minimum) == (got.negative_directions == 0));
+            CHECK((got.verdict == Verdict::undecided) == std::isnan(got.growth_rate));
+            const auto alike = revchain::stability(net, shape, frame);  // at constant momentum where it is free
+            CHECK(got.negative_directions >= alike.negative_directions);
+            if (frame == StabilityFrame::driven) CHECK(got.negative_directions == alike.negative_directions);
+            minima += got.verdict == Verdict::minimum;
+        }
+    CHECK(minima >= 2);
 }

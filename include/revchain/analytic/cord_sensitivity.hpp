@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "revchain/analytic/cord.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+/// d lambda / d(tension) of a cord held at both ends, from the slopes of a mode: - lambda integral of y'^2 over
+/// integral of T y'^2, T the tension, from a to b in lengths of cord. Moving an end b moves lambda by lambda b y_b'^2
+/// over that integral (Hadamard), and lambda is homogeneous in a and b, so that it is b^2 y_b'^2 - a^2 y_a'^2. Where
+/// the pull is great that is a small difference, and Gauss's rule serves.
+inline double by_tension(const CordModes& modes, Index j, double lower) {
+    const double length = modes.cord.length(), upper = lower + length, height = modes.conical_height[j];
+    double ratio = 0;  // of the two integrals
+    if (lower < length) {
+        const double a = modes.slope(j, 0), b = modes.slope(j, length);
+        ratio = (lower * a * a - upper * b * b) / ((upper * b - lower * a) * (upper * b + lower * a));
+    } else {
+        const auto rule = gauss_rule(16);
+        const Index panels = modes.first + j + 4;
+        Vector<double> arc(panels * static_cast<Index>(rule.size()));
+        for (Index i = 0; i < arc.size(); ++i) {
+            const auto nodes = static_cast<Index>(rule.size());
+            const double part = static_cast<double>(i / nodes) + rule[static_cast<std::size_t>(i % nodes)].first;
+            arc[i] = length * part / static_cast<double>(panels);
+        }
+        const Vector<double> slope = modes.slope(j, arc);
+        double free = 0, pulled = 0;
+        for (Index i = 0; i < arc.size(); ++i) {
+            const double part = rule[static_cast<std::size_t>(i) % rule.size()].second * slope[i] * slope[i];
+            free += part, pulled += part * (lower + arc[i]);
+        }
+        ratio = free / pulled;
+    }
+    return -height * ratio / modes.cord.line_weight();
+}
+
+}  // namespace detail
+
+inline CordSensitivity sensitivity(const CordModes& modes) {
+    const Cord& cord = modes.cord;
+    CordSensitivity result;
+    result.first = modes.first, result.length = modes.conical_height / cord.length();
+    for (Vector<double>* v : {&result.weight, &result.tip_weight, &result.exponent, &result.tension})
+        v->setZero(modes.size());
+    if (modes.held) {
+        const double tension = *modes.held->tension;
+        const double lower = static_cast<double>(detail::StraightCord(modes).taut->high);
+        for (Index j = 0; j < modes.size(); ++j)
+            result.tension[j] =
+                modes.held->weightless ? -modes.conical_height[j] / tension : detail::by_tension(modes, j, lower);
+        result.weight = -tension / cord.weight() * result.tension;  // heights depend on the ratio alone
+        return result;
+    }
+    const auto nodes = detail::nodes_of(cord, {}, nullptr, modes.first + modes.size());
+    const Vector<double> at = Eigen::Map<const Vector<double>>(nodes.arc.data(), static_cast<Index>(nodes.arc.size()));
+    for (Index j = 0; j < modes.size(); ++j) {
+        const Vector<double> offset = modes.offset(j, at), slope = modes.slope(j, at);
+        const double height = modes.conical_height[j];
+        double whole = 0, tip = 0, exponent = 0;
+        for (Index i = 0; i < at.size(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double share = nodes.weight[k] * slope[i], form = -share * (2 * offset[i] + height * slope[i]);
+            const double part = at[i] / cord.length();
+            whole += share * slope[i] * nodes.below[k], tip += form;
+            if (cord.exponent()) exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
+        }
+        result.tip_weight[j] = tip / whole, result.exponent[j] = exponent * cord.weight() / whole;
+    }
+    result.weight = -cord.tip_weight() / cord.weight() * result.tip_weight;
+    if (!cord.exponent()) result.exponent.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return result;
+}
+
+}  // namespace revchain

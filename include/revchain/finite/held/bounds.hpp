@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "revchain/finite/held/sweep.hpp"
+
+namespace revchain::finite {
+
+/// A chain held at both ends, its ends and what it has to meet, in intervals; and bounds of all its shapes.
+class HeldBounds {
+   public:
+    using Span = Interval<double>;
+
+    HeldBounds(const EnclosedLinks<double>& links, const HeldEnds<Span>& ends, const Span& height, const HeldGoal& goal,
+               int max_half_waves)
+        : links_(links),
+          lower_(ends.lower),
+          upper_(ends.upper),
+          height_(height),
+          goal_(goal),
+          most_(max_half_waves),
+          mirrored_(ends.mirrored()),
+          rest_(links.size() + 1, Span(0.0)) {
+        for (std::size_t m = links.size(); m-- > 0;) {
+            rest_[m] = rest_[m + 1] + links[m].length, weight_ = weight_ + links[m].moment + links[m].rest;
+            swung_ = swung_ + Span(links[m].moment.size()) + Span(links[m].rest.size());
+            turning_ = std::max(turning_, turning_of(links[m]).size());
+        }
+        foot_ = lower_.radius;
+        if (lower_.yields()) {
+            const Span left = Span(1.0) - lower_.compliance * (lower_.carriage + links[0].moment);
+            foot_ = lower_.radius / left, gives_ = lower_.compliance / left;
+        }
+        if (!mirrored_) slope_ = (upper_.radius - lower_.radius) / goal.value;
+    }
+
+    bool mirrored() const { return mirrored_; }
+    /// Bounds of the pull along the lowest link. No other pull differs from it by more than weights and centrifugal
+    /// forces. With so great a pull that every link leads in nearly one direction the chain spans too much, or a spring
+    /// gives way farther than an end can move.
+    Span pulls() const {
+        const Span &length = rest_[0], &goal = goal_.value;
+        const Span chord = goal_.is_span ? sqrt(square(length) - square(goal)) : length;
+        const Span farthest = reach(chord), change = weight_ * height_ + swung_ * farthest + Span(2 * turning_);
+        Span most = goal + change;
+        if (goal_.is_span && lower_.firm && upper_.firm) {
+            const Span apart = square(goal) + square(upper_.radius - lower_.radius);
+            most = change * length / sqrt(square(length) - apart);
+        } else if (goal_.is_span) {
+            // every link is within an angle of the lowest, some are nearer the axis than span/length has it, some not
+            const auto drawn = [&](const Held<Span>& end) {
+                return end.stiffness * (farthest + Span(end.radius.size())) + end.carriage * farthest;
+            };
+            const Span own = drawn(lower_) + Span(links_[0].moment.size()) * farthest, other = drawn(upper_) + change;
+            const Span load = lower_.firm ? other : upper_.firm || own.high < other.high ? own : other;
+            most = Span(std::max(change.high, load.high)) / sqrt((Span(1.0) - goal / length) / Span(2.0));
+        }
+        return {std::min(0.0, turning_of(links_[0]).low), most.high};
+    }
+    const Span& length() const { return rest_[0]; }
+
+    /// Forces at the lower end of a chain that begins with a pull along its lowest link at a tangent.
+    HeldForces<double> forces(double pull, double tangent, bool up) const {
+        const auto number = [](const Span& x) { return x.middle(); };
+        const double sine = 2 * tangent / (1 + tangent * tangent),
+                     cosine = (up ? 1 : -1) * (1 - tangent * tangent) / (1 + tangent * tangent);
+        const double load = -pull * sine,
+                     foot = lower_.yields() ? number(foot_) - number(gives_) * load : number(lower_.radius);
+        return {lower_.yields() ? load - (number(lower_.carriage) + number(links_[0].moment)) * foot
+                                : load - number(links_[0].moment) * foot,
+                (pull - number(turning_of(links_[0]))) * cosine - number(height_) * number(links_[0].pull),
+                number(height_)};
+    }
+
+   protected:
+    /// Bound of the offset of every pin, `chord` that of how far two of them are apart across the axis.
+    Span reach(const Span& chord) const {
+        const Span foot(lower_.radius.size()), head(upper_.radius.size());
+        if (lower_.firm && upper_.firm) {
+            if (mirrored_) return chord / Span(2.0);
+            return Span(std::max(foot.high, head.high)) + rest_[0] / Span(2.0);
+        }
+        if (lower_.firm) return foot + chord;
+        if (upper_.firm) return head + chord;
+        // the springs together balance all centrifugal forces
+        const Span left = lower_.stiffness + upper_.stiffness - lower_.carriage - upper_.carriage - weight_;
+        if (left.may_vanish()) return Span(std::numeric_limits<double>::infinity());
+        const Span other((upper_.carriage - upper_.stiffness).size());
+        return (lower_.stiffness * foot + upper_.stiffness * head + (swung_ + other) * chord) /
+                   Span(left.positive() ? left.low : -left.high) +
+               chord;
+    }
+
+    const EnclosedLinks<double>& links_;
+    Held<Span> lower_, upper_;
+    Span height_;
+    HeldGoal goal_;
+    int most_;
+    bool mirrored_;
+    Span foot_{0.0}, gives_{0.0};    // of the lower end: its offset without load, and how that falls with one
+    Span slope_{0.0};                // of the line between the ends' places of rest
+    Span weight_{0.0}, swung_{0.0};  // of all links; and with no part of them negative
+    double turning_ = 0;             // largest length times cross
+    std::vector<Span> rest_;         // length from a pin to the upper end
+};
+
+}  // namespace revchain::finite

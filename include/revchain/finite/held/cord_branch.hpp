@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/held/branch.hpp"
+#include "revchain/finite/held/cord.hpp"
+
+namespace revchain {
+
+using HeldCordBranch = HeldBranchOf<HeldCordShape>;
+
+namespace finite {
+
+/// The branch of so many half waves of a cord at a span, for heights from `least` on; nothing where there is none.
+inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
+                                                 double max_step) {
+    HeldCord held;
+    const double length = cord.length();
+    const auto first = held.at_height(half_waves, span / length, least / length);
+    if (!first) return {};
+    HeldCordBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool) {
+        return described(state, span, length, cord.weight());
+    });
+    branch.mode = branch.half_waves = half_waves;
+    if (branch.end == HeldBranchEnd::slack) branch.end = HeldBranchEnd::folded;
+    while (branch.shapes.size() > 1 && !(branch.shapes.back().error_bound < folded)) branch.shapes.pop_back();
+    return branch;
+}
+
+/// The shape of so many half waves at a span and a height; nothing where the branch does not reach it.
+inline std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, double height, int half_waves) {
+    const double length = cord.length();
+    const auto state = HeldCord().at_height(half_waves, span / length, height / length);
+    if (!state) return {};
+    HeldCordShape shape = described(*state, span, length, cord.weight());
+    if (!(shape.error_bound < folded)) return {};
+    return shape;
+}
+
+/// The fastest shape on the branch of so many half waves at a span whose tension at the upper end is `tension`.
+inline std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
+                                                          int half_waves) {
+    HeldCord held;
+    const double length = cord.length(), wanted = tension / cord.weight();
+    const auto first = held.at_height(half_waves, span / length, 0);
+    if (!first) return {};
+    const auto found = held.curve().first_where(
+        *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });
+    if (!found) return {};
+    return described(*found, span, length, cord.weight());
+}
+
+}  // namespace finite
+}  // namespace revchain

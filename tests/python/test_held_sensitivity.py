@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Derivatives of shapes held at both ends, against differences of fourth order between shapes."""
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+MASS = np.array([1.0, 2.0, 1.5, 1.2, 0.7])
+LENGTH = np.array([0.5, 0.4, 0.6, 0.3, 0.5])
+BODIES = {"centroid": 0.4 * LENGTH, "radius_of_gyration": 0.25 * LENGTH}
+SPRINGS = {"lower": {"radius": 0.05, "stiffness": 2000.0, "mass": 0.3}, "upper": {"radius": 0.2, "stiffness": 5000.0, "mass": 0.1}}
+ENDS = {
+    "span": {"span": 1.7},
+    "tension": {"tension": 110.0},
+    "arms": {"span": 1.7, "lower": {"radius": 0.1}, "upper": {"radius": 0.3}},
+    "springs": {"span": 1.7, **SPRINGS},
+    "weightless": {"span": 1.7, "weightless": True},
+    "weightless, springs": {"span": 1.7, "weightless": True, **SPRINGS},
+    "weightless, tension": {"tension": 84.5, "weightless": True},
+}
+
+
+def shape_of(data, speed=7.0):
+    ends = {name: value for name, value in data.items() if name not in ("chain", "speed")}
+    for name in ("lower", "upper"):
+        if name in ends:
+            ends[name] = rc.Support(**ends[name])
+    held = rc.Held(rc.Chain(**data["chain"]), **ends)
+    return rc.steady_shapes(held, angular_speed=data["speed"], budget=0)[0]
+
+
+def changed(data, path, step):
+    """The data with one number more by a step."""
+    head, *tail = path
+    inner = data[head]
+    if not tail:
+        return {**data, head: inner + step}
+    if isinstance(inner, dict):
+        return {**data, head: changed(inner, tail, step)}
+    column = np.array(inner, float)
+    column[tail[0]] += step
+    return {**data, head: column}
+
+
+def slope(data, path, step):
+    """Of inclinations, offsets and tensions, by differences of fourth order."""
+    found = []
+    for k in (-2, -1, 1, 2):
+        shape = shape_of(changed(data, path, k * step))
+        found.append([shape.inclination, shape.offset, shape.tension])
+    return [(8 * (c - b) - (d - a)) / (12 * step) for a, b, c, d in zip(*found, strict=True)]
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_differences(name):
+    chain = {"mass": MASS, "length": LENGTH, **BODIES}
+    data = {"chain": chain, "speed": 7.0, **ENDS[name]}
+    sensitivity = shape_of(data).sensitivity
+    paths = {("angular_speed", None): ("speed",), (next(k for k in ("span", "tension") if k in data), None): (next(k for k in ("span", "tension") if k in data),)}
+    for datum in ("mass", "length", "centroid", "radius_of_gyration"):
+        paths |= {(datum, k): ("chain", datum, k) for k in range(5)}
+    for end in ("lower", "upper"):
+        for datum in data.get(end, {}):
+            paths[f"{end}_{datum}", None] = (end, datum)
+    for (datum, link), path in paths.items():
+        value = data
+        for step in path:
+            value = value[step]
+        expected = slope(data, path, (5e-5 if "tension" in data else 2e-3) * float(value))  # near the largest tension shapes change fast
+        for part, exact in zip(("inclination", "offset", "tension"), expected, strict=True):
+            given = getattr(getattr(sensitivity, part), datum)
+            if link is not None:
+                given = given[:, link]
+            largest = max(np.abs(exact).max(), np.abs(getattr(getattr(sensitivity, part), datum)).max())
+            assert np.abs(given - exact).max() <= 1e-7 * largest + 1e-10, (datum, link, part)
+
+
+def test_the_length_in_proportion_and_what_was_not_given():
+    data = {"chain": {"mass": MASS, "length": LENGTH, **BODIES}, "speed": 7.0, "span": 1.7}
+    sensitivity = shape_of(data).sensitivity
+    step = 1e-4
+    pair = []
+    for sign in (-1, 1):
+        longer = {key: np.where(np.arange(5) == 2, value * (1 + sign * step), value) for key, value in {"length": LENGTH, **BODIES}.items()}
+        pair.append(shape_of({**data, "chain": {"mass": MASS, **longer}}).offset)
+    found = (pair[1] - pair[0]) / (2 * step * LENGTH[2])
+    np.testing.assert_allclose(sensitivity.offset.length_in_proportion[:, 2], found, atol=1e-6)
+    assert np.isnan(sensitivity.offset.tension).all() and np.isfinite(sensitivity.offset.span).all()
+    assert (sensitivity.tension.lower_stiffness == 0).all()
