@@ -276,8 +276,8 @@ def test_readme_has_the_table_of_questions():
             assert ("yes" in cell) != (kind in refusals), (question, kind, cell)
 
 
-def test_scene_of_the_readme(python, tmp_path):
-    [text] = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
+def test_scene_of_the_first_page_of_scenes(python, tmp_path):
+    [text] = re.findall(r"```toml\n(.*?)```", (ROOT / "docs/howto/scene.md").read_text("utf-8"), re.DOTALL)
     (tmp_path / "crane.toml").write_text(text, "utf-8")
     done = python("-m", "revchain", "run", "crane.toml")
     assert done.returncode == 0, done.stderr

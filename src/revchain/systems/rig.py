@@ -165,7 +165,7 @@ class Flywheel(_Fitting):
     -----
     With momentum H and axial moment of inertia C a link carries the angular momentum ``H + C n cos(inclination)`` along
     its axis, `n` the speed. The wheel's mass, and its inertia across its axis, belong to the link's own numbers.
-    Greenhill (1908) section 6 (11)-(12).
+    Greenhill (1908) section 8.
 
     Examples
     --------
