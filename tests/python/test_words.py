@@ -18,7 +18,7 @@ GONE = (
 
 
 def pages(repository):
-    return [repository / "README.md", *sorted((repository / "docs").glob("*.md"))]
+    return [repository / "README.md", *sorted((repository / "docs").glob("*.md")), *sorted((repository / "docs").glob("[!r]*/*.md"))]
 
 
 @pytest.mark.parametrize("term", TERMS)
