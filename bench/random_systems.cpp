@@ -16,7 +16,7 @@
 #include "revchain/steady_shapes.hpp"
 #include "support/chains.hpp"
 #include "support/quad_motion.hpp"
-#include "support/quad_rig.hpp"
+#include "support/rig_equations.hpp"
 
 namespace {
 

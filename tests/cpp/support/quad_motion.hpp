@@ -3,7 +3,7 @@
 // Lagrange's function in quadruple precision.
 #pragma once
 
-#include "support/quad_rig.hpp"
+#include "support/rig_equations.hpp"
 
 namespace support {
 
@@ -94,7 +94,9 @@ class QuadMotion {
             const Quad kept = data_.momentum[m] + data_.axial[m] / gravity_ * speed_ * cosq(rest_[m]);
             if (kept == 0) continue;
             const auto& [x, y, z] = e[m];
-            sum -= kept * z * ((x * f[m][1] - y * f[m][0]) / (x * x + y * y) + speed_);
+            // z times the rate of the azimuth, but for a constant times that rate: then nothing is singular upright
+            const Quad turned = x * f[m][1] - y * f[m][0];
+            sum -= kept * ((cosq(rest_[m]) > 0 ? turned / (1 - z) : -turned / (1 + z)) + z * speed_);
         }
         if (data_.yields) {
             const auto& [x, y, z] = e[links];
