@@ -126,6 +126,8 @@ def results():
     held = rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5), angular_speed=9.0, max_half_waves=3)
     yield "SteadyShapes, held", held
     yield "HeldShape", held[0]
+    yield "ShapeSensitivity, held", held[0].sensitivity
+    yield "HeldShapeDerivatives", held[0].sensitivity.tension
     arms = {"lower": rc.Support(stiffness=90.0, weight=0.2, radius=0.1), "upper": rc.Support(radius=-0.2)}
     yield "SteadyShapes, on arms", rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5, **arms), angular_speed=9.0)
     yield "HeldShape, weightless", rc.steady_shapes(rc.Held(named, span=0.5, weightless=True), angular_speed=9.0)[0]

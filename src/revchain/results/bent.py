@@ -79,7 +79,7 @@ class _Bent(Shape):
             Column("height", self.height, "height (m)"),
             Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
         ]
-        names = [name for name in self._fields if name not in ("system", "period") and not name.startswith("_")]
+        names = [name for name in self._fields if name not in ("system", "period", "sensitivity") and not name.startswith("_")]
         facts = {name: getattr(self, name) for name in names}
         facts = {name: value for name, value in facts.items() if np.ndim(value) == 0}
         heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)}{at_speed(self.angular_speed)}"
@@ -109,6 +109,12 @@ class _Bent(Shape):
         return []
 
 
+def _no_sensitivity(shape: Any) -> ShapeSensitivity:
+    raise ValueError(
+        f"revchain.{type(shape).__name__}.sensitivity: is for shapes of links; cut the cord into links: cord.chain(100), got a cord"
+    )
+
+
 class CordShape(_Bent):
     """One steady shape of a cord hung from one end; arrays are dense where the cord turns sharply.
 
@@ -132,6 +138,7 @@ class CordShape(_Bent):
         lambda s: s._found().error_bound,
         part=True,
     )
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
     _note: ClassVar[str] = "arc lengths from the free end, heights above the support; error: estimated"
 
     def at(self, arc_length: ArrayLike) -> Place:
@@ -386,6 +393,7 @@ class HeldCordShape(_HeldShape):
         """
         driven = is_driven("revchain.HeldCordShape.stability", frame)
         return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return what there is at distances along the cord.
