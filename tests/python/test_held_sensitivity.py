@@ -6,10 +6,11 @@ import pytest
 
 import revchain as rc
 
+PARTS = ("inclination", "offset", "tension")
 MASS = np.array([1.0, 2.0, 1.5, 1.2, 0.7])
 LENGTH = np.array([0.5, 0.4, 0.6, 0.3, 0.5])
 BODIES = {"centroid": 0.4 * LENGTH, "radius_of_gyration": 0.25 * LENGTH}
-SPRINGS = {"lower": {"radius": 0.05, "stiffness": 2000.0, "mass": 0.3}, "upper": {"radius": 0.2, "stiffness": 5000.0, "mass": 0.1}}
+SPRINGS = {"lower": {"radius": 0.05, "stiffness": 2000.0, "mass": 3.0}, "upper": {"radius": 0.2, "stiffness": 5000.0, "mass": 5.0}}
 ENDS = {
     "span": {"span": 1.7},
     "tension": {"tension": 110.0},
@@ -67,13 +68,14 @@ def test_differences(name):
         value = data
         for step in path:
             value = value[step]
-        expected = slope(data, path, (5e-5 if "tension" in data else 2e-3) * float(value))  # near the largest tension shapes change fast
-        for part, exact in zip(("inclination", "offset", "tension"), expected, strict=True):
-            given = getattr(getattr(sensitivity, part), datum)
-            if link is not None:
-                given = given[:, link]
-            largest = max(np.abs(exact).max(), np.abs(getattr(getattr(sensitivity, part), datum)).max())
-            assert np.abs(given - exact).max() <= 1e-7 * largest + 1e-10, (datum, link, part)
+        best = dict.fromkeys(PARTS, np.inf)  # of several steps: near the largest tension shapes change fast
+        for step in (3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5):
+            for part, exact in zip(PARTS, slope(data, path, step * float(value)), strict=True):
+                every = getattr(getattr(sensitivity, part), datum)
+                given = every if link is None else every[:, link]
+                largest = max(np.abs(exact).max(), np.abs(every).max(), 1e-2)
+                best[part] = min(best[part], np.abs(given - exact).max() / largest)
+        assert max(best.values()) < 1e-10, (datum, link, best)
 
 
 def test_the_length_in_proportion_and_what_was_not_given():
