@@ -370,3 +370,5 @@ inline Explanation explain(const Cord&, const ModesOptions<double>&) {
 }
 
 }  // namespace revchain
+
+#include "revchain/analytic/cord_sensitivity.hpp"

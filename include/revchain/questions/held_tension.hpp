@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/held.hpp"
+#include <type_traits>
 
-namespace revchain::detail {
+#include "revchain/chain.hpp"
+#include "revchain/system/cord.hpp"
+
+namespace revchain {
+
+template <class System>
+class Held;
+
+namespace detail {
 
 /// The tension at the lower end of a straight chain or cord, in the unit of the weights. Without gravity it is that of
 /// the upper end, and weights are masses times `gravity`.
@@ -33,4 +41,5 @@ Wide<double> lower_tension(std::string_view place, const Held<System>& held, dou
     return lower;
 }
 
-}  // namespace revchain::detail
+}  // namespace detail
+}  // namespace revchain
