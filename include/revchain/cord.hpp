@@ -214,4 +214,5 @@ Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 }  // namespace revchain
 
 #include "revchain/analytic/cord.hpp"
+#include "revchain/analytic/cord_sensitivity.hpp"
 #include "revchain/finite/stability/cord.hpp"

@@ -370,5 +370,3 @@ inline Explanation explain(const Cord&, const ModesOptions<double>&) {
 }
 
 }  // namespace revchain
-
-#include "revchain/analytic/cord_sensitivity.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "revchain/analytic/cord.hpp"
+#include "revchain/cord.hpp"
+#include "revchain/numeric/gauss_rule.hpp"
+#include "revchain/questions/held_tension.hpp"
 
 namespace revchain {
 
@@ -47,7 +49,8 @@ inline CordSensitivity sensitivity(const CordModes& modes) {
         v->setZero(modes.size());
     if (modes.held) {
         const double tension = *modes.held->tension;
-        const double lower = static_cast<double>(detail::StraightCord(modes).taut->high);
+        const Wide<double> below = detail::lower_tension("sensitivity", Held<Cord>(cord, *modes.held), 1.0);
+        const double lower = static_cast<double>(below / Wide<double>(cord.weight()) * Wide<double>(cord.length()));
         for (Index j = 0; j < modes.size(); ++j)
             result.tension[j] =
                 modes.held->weightless ? -modes.conical_height[j] / tension : detail::by_tension(modes, j, lower);

@@ -12,8 +12,9 @@
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/signed_twisted.hpp"
-#include "revchain/questions/swing.hpp"
+#include "revchain/questions/superposed.hpp"
 #include "revchain/rig_modes.hpp"
+#include "revchain/swing.hpp"
 
 namespace revchain {
 
@@ -272,7 +273,8 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
                                              wide(e.turning), wide((e.lower + e.cross) + (e.cross + e.upper))});
     assembled.pencil.entry_error = elements->entry_error;
     const Index count = detail::checked_count(place, options.time, options.gravity, options.count, all);
-    return detail::superposed(detail::OscillatingChain(std::move(assembled)), options, from, speed, count, all, found);
+    return detail::superposed<Swing>(detail::OscillatingChain(std::move(assembled)), options, from, speed, count, all,
+                                     found);
 }
 
 REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "revchain/linear/mode_shape.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
+#include "revchain/numeric/double_double.hpp"
+#include "revchain/numeric/progress.hpp"
+#include "revchain/pencil/twisted.hpp"
+#include "revchain/system/converted.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+/// K and M of a chain in double-double, never assembled but for `settled`.
+class OscillatingChain {
+   public:
+    using S = DoubleDouble;
+    using Offsets = Vector<S>;
+
+    explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(assemble(converted<S>(chain))) {
+        if (!pencil().units.empty())
+            throw_invalid("swing", "weights must not be more than 1e123 apart", chain.total_weight());
+    }
+    explicit OscillatingChain(AssembledChain<S> assembled) : assembled_(std::move(assembled)) {}
+    const pencil::ElementPencil<S>& pencil() const { return assembled_.pencil; }
+    const ChainUnits& units() const { return assembled_.units; }
+    Index size() const { return pencil().size(); }
+
+    /// x^T M y and x^T K y, in the units of the chain.
+    S inertia(const Offsets& x, const Offsets& y) const {
+        S sum(0);
+        each([&](const auto& e, Index m) {
+            sum += x[m] * (e.lower * y[m] + e.cross * y[m + 1]) + x[m + 1] * (e.cross * y[m] + e.upper * y[m + 1]);
+        });
+        return sum;
+    }
+    S stiffness(const Offsets& x, const Offsets& y) const {
+        S sum(0);
+        each([&](const auto& e, Index m) { sum += e.stiffness * (x[m] - x[m + 1]) * (y[m] - y[m + 1]); });
+        return sum;
+    }
+    /// Bound on the norm of (height K - M) y in the inverse of K, over the height: forces summed from the free end up
+    /// are what the links carry, sum of force^2 / k. What rounding does to them is added.
+    double residual(const S& height, const Offsets& y) const {
+        const double unit = 0x1p-100;
+        S inertial(0), pin(0);
+        double size = 0, squares = 0, count = 16;
+        each([&](const auto& e, Index m) {
+            const S lower = e.lower * y[m] + e.cross * y[m + 1], upper = e.cross * y[m] + e.upper * y[m + 1];
+            const S spring = height * e.stiffness * (y[m] - y[m + 1]);
+            inertial += pin + lower;
+            pin = upper;
+            const double k = static_cast<double>(e.stiffness), h = static_cast<double>(height);
+            const double l = std::abs(static_cast<double>(y[m])), u = std::abs(static_cast<double>(y[m + 1]));
+            const double x = std::abs(static_cast<double>(e.cross)) + 2 * static_cast<double>(e.turning);
+            size += static_cast<double>(e.lower) * l + x * (u + l) + static_cast<double>(e.upper) * u;
+            const double entry = static_cast<double>(pencil().entry_error);
+            const double force = std::abs(static_cast<double>(spring - inertial)) +
+                                 (entry + unit * (count += 4)) * (size + h * k * (l + u));
+            squares += force * force / k;
+        });
+        return std::sqrt(squares) / static_cast<double>(height) * (1 + 1e-10);
+    }
+    /// (K's flexibility at each pin) |y_m|^2 <= flexibility_m y^T K y.
+    Vector<double> flexibility() const {
+        Vector<double> result(size() + 1);
+        result[size()] = 0;
+        for (Index m = size(); m-- > 0;)
+            result[m] = result[m + 1] + (1 + 1e-14) / static_cast<double>(element(m).stiffness);
+        return result;
+    }
+    /// The offsets in which a chain with these is in equilibrium as far as it has no inertia: those of least y^T K y
+    /// with the same M y. By (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the
+    /// size of the last correction, many times the one left out.
+    Offsets settled(const Offsets& given, const S& h, double& change) const {
+        Offsets result = given;
+        const std::size_t n = static_cast<std::size_t>(size());
+        std::vector<S> diagonal(n, S(0)), off(n, S(0));
+        each([&](const auto& e, Index at) {
+            const auto m = static_cast<std::size_t>(at);
+            diagonal[m] += h * e.stiffness + e.lower;
+            off[m] = e.cross - h * e.stiffness;
+            if (m + 1 < n) diagonal[m + 1] += h * e.stiffness + e.upper;
+        });
+        for (std::size_t m = 1; m < n; ++m) diagonal[m] -= off[m - 1] * (off[m - 1] / diagonal[m - 1]);
+        Offsets at = Offsets::Zero(size() + 1);
+        for (int i = 0; i < 4; ++i) {
+            const Offsets missing = given - at;
+            std::vector<S> right(n, S(0));
+            each([&](const auto& e, Index m) {
+                right[static_cast<std::size_t>(m)] += e.lower * missing[m] + e.cross * missing[m + 1];
+                if (m + 1 < size())
+                    right[static_cast<std::size_t>(m) + 1] += e.cross * missing[m] + e.upper * missing[m + 1];
+            });
+            for (std::size_t m = 1; m < n; ++m) right[m] -= off[m - 1] * (right[m - 1] / diagonal[m - 1]);
+            Offsets step = Offsets::Zero(size() + 1);
+            for (std::size_t m = n; m-- > 0;)
+                step[static_cast<Index>(m)] = (right[m] - off[m] * step[static_cast<Index>(m) + 1]) / diagonal[m];
+            at += step;
+            change = std::sqrt(std::max(0.0, static_cast<double>(stiffness(step, step))));
+        }
+        return at;
+    }
+
+   private:
+    const pencil::Element<S>& element(Index m) const { return pencil().elements[static_cast<std::size_t>(m)]; }
+    template <class F>
+    void each(const F& f) const {
+        for (Index m = 0; m < size(); ++m) f(element(m), m);
+    }
+    AssembledChain<S> assembled_;
+};
+
+/// Cosine and sine of a large angle, reduced in double-double.
+struct Turned {
+    double cosine, sine;
+};
+inline Turned turned(const DoubleDouble& angle) {
+    const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
+    const DoubleDouble rest = angle - turn * DoubleDouble(std::nearbyint((angle / turn).high()));
+    const double c = std::cos(rest.high()), s = std::sin(rest.high());
+    return {c - s * rest.low(), s + c * rest.low()};
+}
+
+/// What each mode kept has of a start.
+struct Superposition {
+    std::vector<DoubleDouble> frequency;
+    double largest = 0;              ///< sum of |amplitude shape|, at the pin where it is largest
+    std::vector<double> amplitude;   ///< of each mode, at most
+    std::vector<double> unbalanced;  ///< amplitude times `residual`
+};
+
+/// Offsets and velocities at each time.
+template <class Result>
+void superpose(Result& result, const Superposition& modes, const std::vector<double>& time, double reach,
+               Progress* progress) {
+    const Index pins = result.shape.cols(), count = result.shape.rows();
+    std::vector<CompensatedSum<double>> y(static_cast<std::size_t>(pins)), v(y);
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        for (auto* sums : {&y, &v}) std::fill(sums->begin(), sums->end(), CompensatedSum<double>{});
+        double bound = 10 * 0x1p-53 * modes.largest;
+        for (Index k = 0; k < count; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            const DoubleDouble angle = modes.frequency[at] * DoubleDouble(time[i]);
+            const double size = std::abs(angle.high());
+            const Turned turn = turned(angle);
+            const double c = result.cosine[k], s = result.sine[k], n = modes.frequency[at].high();
+            const double now = c * turn.cosine + s * turn.sine, rate = n * (s * turn.cosine - c * turn.sine);
+            bound += modes.amplitude[at] * size * 0x1p-96 + reach * modes.unbalanced[at] * (8.0 / 3 + 2 * size);
+            const double* shape = result.shape.row(k).data();
+            for (std::size_t m = 0; m < y.size(); ++m) y[m].add(now * shape[m]), v[m].add(rate * shape[m]);
+        }
+        for (std::size_t m = 0; m < y.size(); ++m) {
+            result.offset(static_cast<Index>(i), static_cast<Index>(m)) = y[m].value();
+            result.velocity(static_cast<Index>(i), static_cast<Index>(m)) = v[m].value();
+        }
+        result.error_bound[static_cast<Index>(i)] = bound * (1 + 1e-10);
+        advance(progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(time.size()));
+    }
+}
+
+/// A start as it was given, with the support's 0 where that was left out and does not yield.
+template <class Number>
+Vector<Number> checked_start(std::string_view place, Index links, bool yields, std::string_view name,
+                             const Vector<Number>& given) {
+    if (given.size() == 0) return Vector<Number>::Zero(links + 1);
+    if (given.size() != links && given.size() != links + 1)
+        throw_invalid(place,
+                      std::string(name) + " must have a number for each of the " + std::to_string(links + 1) +
+                          " pins, the support's last or left out",
+                      given.size());
+    for (const Number& x : given)
+        if (!std::isfinite(std::abs(x))) throw_invalid(place, std::string(name) + " must be finite", std::abs(x));
+    Vector<Number> result = Vector<Number>::Zero(links + 1);
+    result.head(given.size()) = given;
+    if (!yields && result[links] != Number(0))
+        throw_invalid(place, std::string(name) + " of the support must be 0", std::abs(result[links]));
+    return result;
+}
+
+/// How many of `all` modes are asked for. Throws InvalidArgument for times and gravity that cannot be, too.
+inline Index checked_count(std::string_view place, const std::vector<double>& time, double gravity,
+                           const std::optional<Index>& asked, Index all) {
+    require_positive(place, "gravity", gravity);
+    for (const double t : time)
+        if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);
+    const Index count = asked.value_or(all);
+    if (count < 0 || count > all) throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
+    return count;
+}
+
+/// The sum of `count` of `all` modes. The links and, if that yields, the support are the elements of `system`;
+/// `found(first, count)` has their heights and shapes.
+template <class Result, class Options, class Found>
+Result superposed(const OscillatingChain& system, const Options& options, const Vector<double>& from,
+                  const Vector<double>& speed, Index count, Index all, const Found& found) {
+    using S = DoubleDouble;
+    using Offsets = Vector<S>;
+    const int length = system.units().length_exponent, weight = system.units().weight_exponent;
+    const Index pins = from.size(), all_pins = system.size() + 1;  // what a support that yields is on, too
+    Result result;
+    result.start = from;
+    Offsets rest = Offsets::Zero(all_pins), rest_speed = rest;
+    rest.head(pins) = from.cast<S>(), rest_speed.head(pins) = speed.cast<S>();
+    double unsettled = 0, unsettled_speed = 0;
+    if (all < system.size()) {
+        const double least = all == 0 ? 1 : std::ldexp(found(all, 1).conical_height[0], -length);
+        const S h(1e-8 * least);
+        rest = system.settled(rest, h, unsettled), rest_speed = system.settled(rest_speed, h, unsettled_speed);
+        for (Index m = 0; m < pins; ++m) result.start[m] = static_cast<double>(rest[m]);
+        result.projected = (result.start - from).cwiseAbs().maxCoeff() > 0x1p-50 * from.cwiseAbs().maxCoeff();
+    }
+
+    const S gravity = ldexp(S(options.gravity), -length);
+    Superposition parts;
+    const auto modes = found(1, count);
+    result.shape.resize(count, pins);
+    for (auto* column : {&result.angular_frequency, &result.energy, &result.cosine, &result.sine})
+        column->resize(count);
+    Vector<double> reached = Vector<double>::Zero(pins), rough = Vector<double>::Zero(all_pins);
+    for (Index k = 0; k < count; ++k) {
+        rough.head(pins) = modes.shapes().row(k).transpose();
+        const S height = pencil::rayleigh_quotient<S, double>(system.pencil(), rough);
+        const Offsets shape = pencil::eigenvector(system.pencil(), height).offset;
+        const S inertia = system.inertia(shape, shape), frequency = sqrt(gravity / height);
+        const S cosine = system.inertia(shape, rest) / inertia, rate = system.inertia(shape, rest_speed) / inertia;
+        const S sine = rate / frequency;
+        rest -= shape * cosine, rest_speed -= shape * rate;
+        for (Index m = 0; m < pins; ++m) result.shape(k, m) = static_cast<double>(shape[m]);
+        result.angular_frequency[k] = static_cast<double>(frequency);
+        result.cosine[k] = static_cast<double>(cosine), result.sine[k] = static_cast<double>(sine);
+        result.energy[k] = std::ldexp(static_cast<double>(S(0.5) * (cosine * cosine + sine * sine) * inertia / height),
+                                      weight - length);
+        const double amplitude = std::hypot(result.cosine[k], result.sine[k]) * (1 + 1e-15);
+        parts.frequency.push_back(frequency);
+        parts.amplitude.push_back(amplitude);
+        parts.unbalanced.push_back(amplitude * system.residual(height, shape));
+        reached += 1.5 * amplitude * result.shape.row(k).cwiseAbs().transpose();
+        advance(options.progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
+    }
+    parts.largest = count == 0 ? 0 : reached.maxCoeff();
+
+    // What is left moves by itself, and keeps its energy.
+    const double left = std::sqrt(std::max(0.0, static_cast<double>(system.stiffness(rest, rest)))) + unsettled;
+    const double left_speed =
+        std::sqrt(std::max(0.0, static_cast<double>(system.inertia(rest_speed, rest_speed) / gravity)));
+    const Vector<double> flexibility = system.flexibility();
+    const double norm = std::hypot(left, left_speed) * (1 + 1e-10);
+    result.truncation_error = norm * flexibility.head(pins).cwiseSqrt();
+    result.energy_left_out = std::ldexp(norm * norm / 2, weight - length);
+    const auto times = static_cast<Index>(options.time.size());
+    result.offset.resize(times, pins), result.velocity.resize(times, pins), result.error_bound.resize(times);
+    superpose(result, parts, options.time, std::sqrt(flexibility[0]) * (1 + 1e-10), options.progress);
+    return result;
+}
+
+}  // namespace detail
+
+}  // namespace revchain
