@@ -988,8 +988,8 @@ def test_the_page_and_its_examples(python, repository, run):
     page = (repository / "docs/studies.md").read_text(encoding="utf-8")
     done = python(repository / "examples/python/draw_studies.py")
     numbers, _, last = done.stdout.removesuffix("\n").rpartition("\n")
-    assert last == "wrote studies.png" and f"\n```text\n{numbers}\n```\n" in page, done.stderr
-    assert Path("studies.png").stat().st_size < 60_000 and (repository / "docs/figures/studies.png").is_file()
+    assert last == "wrote studies.svg" and f"\n```text\n{numbers}\n```\n" in page, done.stderr
+    assert Path("studies.svg").stat().st_size < 300_000 and (repository / "docs/figures/studies.svg").is_file()
     for path in (repository / "examples/studies").glob("*.toml"):
         assert run("sweep", path, "--check")[0] == 0
         assert why_not_drawn(rc.load_study(path)._plan("")) == ""
