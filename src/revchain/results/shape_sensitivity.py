@@ -17,6 +17,7 @@ from .sensitivity import DATA, datum_columns
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
+    from ..systems.chain import Chain
     from .shapes import SteadyShape
 
 PARTS = ("inclination", "offset", "tension")
@@ -143,7 +144,7 @@ class ShapeSensitivity(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class _Balance:
+class Balance:
     """What balances in a shape: moments about the N pins and the force on the support,
 
         (kappa + n H) sin d - turning cos d / lambda = 0,    E (y - b) - (sum of moves times out + carriage y) / lambda = 0,
@@ -213,7 +214,7 @@ class _Balance:
 
 
 @dataclass(frozen=True, slots=True)
-class _Change:
+class Change:
     """What data change while nothing moves, a column for each: kappa and turning; the force on a support that yields; lambda times
     the sideways pull on upper pins; what hangs there; the offsets of the pins."""
 
@@ -225,7 +226,7 @@ class _Change:
     pins: Any = 0.0
 
 
-def _balance(shape: SteadyShape) -> _Balance:
+def _balance(shape: SteadyShape) -> Balance:
     rig = shape.system if isinstance(shape.system, Rig) else None
     chain = rig.chain if rig is not None else shape.system
     n = chain.size
@@ -252,7 +253,7 @@ def _balance(shape: SteadyShape) -> _Balance:
         stiffness, carriage, radius = support.stiffness / shape._per, support.carriage, support.radius
     reach = np.where(link[:, None] < pins, column(chain.length), 0.0)
     reach += np.where(link[:, None] == pins, centroid[:, None], 0.0)
-    return _Balance(
+    return Balance(
         link=link,
         bears=bears,
         moves=moves,
@@ -271,11 +272,11 @@ def _balance(shape: SteadyShape) -> _Balance:
     )
 
 
-def _by_weight(at: _Balance, bodies: slice, bears: float, moves: float) -> _Change:
+def by_weight(at: Balance, bodies: slice, bears: float, moves: float) -> Change:
     """By the weights of bodies, one for each link, of which each bears and moves as its part."""
     reach, out = at.reach[bodies], at.out[bodies]
     above = np.tril(np.ones((at.size, at.size)))
-    return _Change(
+    return Change(
         kappa=bears * reach.T,
         turning=moves * (reach.T * out + np.diag(at.gyration[bodies] ** 2 * at.sine)),
         force=-moves * out / at.height,
@@ -284,50 +285,81 @@ def _by_weight(at: _Balance, bodies: slice, bears: float, moves: float) -> _Chan
     )
 
 
-def _changes(at: _Balance) -> dict[str, _Change]:
+def changes_of(at: Balance) -> dict[str, Change]:
     """By the data of each link that a chain has, and by its speed and the radius of its support."""
     n, sine, solid = at.size, at.sine, slice(0, at.size)
     above, lower = np.tril(np.ones((n, n))), at.link[:, None] < np.arange(n)
     drawn, moves = at.moves[:, None] * lower * sine, at.moves[solid]
     carried, turning = at.moves * at.out, at.turning
     return {
-        "mass": _by_weight(at, solid, 1.0, 1.0),
-        "length": _Change(
+        "mass": by_weight(at, solid, 1.0, 1.0),
+        "length": Change(
             kappa=np.diag(at.bears @ lower),
             turning=np.diag(carried @ lower) + at.reach.T @ drawn,
             force=-drawn.sum(axis=0) / at.height,
             sideways=at.carried @ drawn,
             pins=np.vstack([above.T * sine, np.zeros(n)]),
         ),
-        "centroid": _Change(
-            kappa=np.diag(moves),
+        "centroid": Change(
+            kappa=np.diag(at.bears[solid]),
             turning=np.diag(carried[solid]) + at.reach[solid].T * (moves * sine),
             force=-moves * sine / at.height,
             sideways=above * (moves * sine),
         ),
-        "radius_of_gyration": _Change(turning=np.diag(2 * moves * at.gyration[solid] * sine)),
+        "radius_of_gyration": Change(turning=np.diag(2 * moves * at.gyration[solid] * sine)),
         # 1/height falls: as if all that moves were lighter
-        "angular_speed": _Change(
+        "angular_speed": Change(
             kappa=np.copysign(1.0, at.speed) * at.momentum[:, None],
             turning=(2 / abs(at.speed) * turning)[:, None],
             force=-2 / abs(at.speed) / at.height * (carried.sum() + at.carriage * at.top),
             sideways=(2 / abs(at.speed) * (at.carried @ carried))[:, None],
         ),
-        "support_radius": _Change(kappa=np.zeros((n, 1)), force=-at.stiffness),
+        "support_radius": Change(kappa=np.zeros((n, 1)), force=-at.stiffness),
     }
 
 
-def _rigged(at: _Balance, rig: Rig) -> dict[str, _Change]:
+def _rigged(at: Balance, rig: Rig) -> dict[str, Change]:
     """By the data that a rig has beside."""
     fluid, turns, none = slice(at.size, None), rig.fluid == "turning", np.zeros((at.size, 1))
     return {
-        "momentum": _Change(kappa=at.speed * np.eye(at.size)),
-        "axial_moment": _Change(turning=-np.diag(at.sine)),
-        "displaced_mass": _by_weight(at, fluid, -1.0, -1.0 if turns else 0.0),
-        "added_mass": _by_weight(at, fluid, 0.0, 0.0 if turns else 1.0),
-        "stiffness": _Change(kappa=none, force=at.top - at.radius),
-        "support_mass": _Change(kappa=none, force=-at.top / at.height),
+        "momentum": Change(kappa=at.speed * np.eye(at.size)),
+        "axial_moment": Change(turning=-np.diag(at.sine)),
+        "displaced_mass": by_weight(at, fluid, -1.0, -1.0 if turns else 0.0),
+        "added_mass": by_weight(at, fluid, 0.0, 0.0 if turns else 1.0),
+        "stiffness": Change(kappa=none, force=at.top - at.radius),
+        "support_mass": Change(kappa=none, force=-at.top / at.height),
     }
+
+
+def loads_of(at: Balance, changes: dict[str, Change]) -> dict[str, Floats]:
+    """By each datum, while nothing moves: what changes of the moments and of the balance of the upper end, (N + 1, data)."""
+    loads = {}
+    for name, change in changes.items():
+        moments = at.sine[:, None] * change.kappa - at.cosine[:, None] * change.turning / at.height
+        last = change.force if at.yields else -float(name == "support_radius")
+        loads[name] = np.vstack([moments, np.broadcast_to(last, (1, moments.shape[1]))])
+    return loads
+
+
+def solved(slope: Floats, loads: dict[str, Floats]) -> dict[str, Floats]:
+    """What moves by each datum so that the balance is kept."""
+    ends = np.cumsum([load.shape[1] for load in loads.values()])[:-1]
+    moved = np.split(-np.linalg.solve(slope, np.concatenate([*loads.values()], axis=1)), ends, axis=1)
+    return dict(zip(loads, moved, strict=True))
+
+
+def reach_of_pins(length: Floats, n: int) -> Floats:
+    """Offsets of the pins are those of the uppermost plus this times the sines of the inclinations, (N + 1, N)."""
+    return np.vstack([np.triu(np.broadcast_to(length, (n, n))), np.zeros(n)])
+
+
+def named(given: dict[str, Floats], chain: Chain, single: tuple[str, ...]) -> None:
+    """Adds the derivatives by a length in proportion; those by data of which there is `single` one become columns."""
+    turned = given["centroid"] * chain.centroid + given["radius_of_gyration"] * chain.radius_of_gyration
+    given["length_in_proportion"] = given["length"] + turned / chain.length
+    for name in single:
+        if name in given:
+            given[name] = given[name][:, 0]
 
 
 def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
@@ -337,21 +369,16 @@ def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
     n = chain.size
     refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, (80 if rig is None else 160) * n)
     at = _balance(shape)
-    changes = _changes(at) | (_rigged(at, rig) if rig is not None else {})
-    sine, cosine = at.sine[:, None], at.cosine[:, None]
-    loads = []
-    for name, change in changes.items():
-        moments = sine * change.kappa - cosine * change.turning / at.height
-        last = change.force if at.yields else -float(name == "support_radius")
-        loads.append(np.vstack([moments, np.broadcast_to(last, (1, moments.shape[1]))]))
-    ends = np.cumsum([load.shape[1] for load in loads])[:-1]
-    moved = np.split(-np.linalg.solve(at.slope(), np.concatenate(loads, axis=1)), ends, axis=1)
+    changes = changes_of(at) | (_rigged(at, rig) if rig is not None else {})
+    cosine = at.cosine[:, None]
+    moved = solved(at.slope(), loads_of(at, changes))
 
-    reach = np.vstack([np.triu(np.broadcast_to(chain.length, (n, n))), np.zeros(n)])  # offsets of the pins: y + reach sin d
+    reach = reach_of_pins(chain.length, n)
     pull, hung = (at.carried @ (at.moves * at.out) / at.height)[:, None], (at.carried @ at.bears)[:, None]
     tension = np.hypot(pull, hung)
     found: list[dict[str, Floats]] = [{}, {}, {}]
-    for (name, change), each in zip(changes.items(), moved, strict=True):
+    for name, change in changes.items():
+        each = moved[name]
         swung, far = cosine * each[:n], each[n:]
         rise = (at.carried @ (at.moves[:, None] * (at.reach @ swung + far)) + change.sideways) / at.height
         found[0][name] = each[:n]
@@ -364,11 +391,7 @@ def _named(shape: SteadyShape, given: dict[str, Floats]) -> ShapeDerivatives:
     """The derivatives, with those that follow from others, by data in their own units."""
     rig = shape.system if isinstance(shape.system, Rig) else None
     chain = rig.chain if rig is not None else shape.system
-    turned = given["centroid"] * chain.centroid + given["radius_of_gyration"] * chain.radius_of_gyration
-    given["length_in_proportion"] = given["length"] + turned / chain.length
-    for name in ("angular_speed", "support_radius", *OF_SUPPORT):
-        if name in given:
-            given[name] = given[name][:, 0]
+    named(given, chain, ("angular_speed", "support_radius", *OF_SUPPORT))
     if rig is None:
         return ShapeDerivatives._made(None, **given)
     inertia = 0.0 if rig.flywheels is None else rig.flywheels._inertia
