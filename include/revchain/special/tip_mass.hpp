@@ -131,10 +131,11 @@ struct Ends {
         gap = share / (ratio + 1.0);
     }
 
-    /// z - z_0 at `part` of the length, over z_L - z_0, without a difference.
+    /// z - z_0 at `part` of the length, over z_L - z_0: from the nearer end, so that it is 0 and 1 at the ends.
     double part_apart(double part) const {
-        const double r = ratio.high;
-        return part > 0 ? part * ((1 + r) / (std::sqrt(r * r + part * share.high) + r)) : 0.0;
+        const double r = ratio.high, z = std::sqrt(r * r + part * share.high);  // over z_L
+        if (part > 0.5) return 1 - (1 - part) * ((1 + r) / (1 + z));
+        return part > 0 ? part * ((1 + r) / (z + r)) : 0.0;
     }
 
     /// z_L - z_0 by Newton's method on the phases, kept between bounds.

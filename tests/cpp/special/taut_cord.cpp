@@ -32,7 +32,7 @@ TEST_CASE("taut cord: heights, offsets and slopes against 25 digits", "[analytic
     }
     CAPTURE(worst, worst_offset, worst_slope, worst_point);
     CHECK(worst <= 0.9);  // documented: 2
-    CHECK(worst_offset <= 4e-16);
+    CHECK(worst_offset <= 2e-16);
     CHECK(worst_slope <= 3e-16);
     CHECK(worst_point <= 1e-15);
 }
