@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/held.hpp"
+#include "support/held_truth.hpp"
 #include "support/truth.hpp"
 
 namespace {
@@ -17,61 +18,6 @@ using revchain::HeldShape;
 using revchain::Index;
 using support::Quad;
 using support::quad;
-
-/// Newton's method in quadruple precision on all inclinations and the two forces that keep the upper end in its place, from
-/// a shape found: the potential energy less half of y^2 over all mass, of bodies told by centroid and radius of gyration.
-/// Returns the largest difference of an inclination.
-double against_truth(const Chain<double>& chain, const HeldShape& shape) {
-    const auto n = static_cast<std::size_t>(chain.size()), size = n + 2;
-    std::vector<Quad> x(size, 0);
-    for (std::size_t m = 0; m < n; ++m) x[m] = shape.inclination[static_cast<Index>(m)];
-    x[n] = shape.lower_pull[0], x[n + 1] = -shape.lower_pull[1];
-    const Quad lambda = shape.conical_height, span = shape.span;
-    for (int round = 0; round < 8; ++round) {
-        std::vector<std::vector<Quad>> A(size, std::vector<Quad>(size + 1, 0));
-        std::vector<Quad> sine(n), cosine(n), length(n);
-        Quad y = 0, z = 0;
-        for (std::size_t m = 0; m < n; ++m) {
-            const auto link = chain.link(static_cast<Index>(m));
-            const Quad W = link.weight, a = link.length, h = link.centroid, turn = quad(link.gyration_ratio) * a * a;
-            sine[m] = sinq(x[m]), cosine[m] = cosq(x[m]), length[m] = a;
-            const Quad s = sine[m], c = cosine[m];
-            y -= a * s, z += a * c;
-            const Quad y_body = y + h * s;
-            for (std::size_t j = 0; j <= m; ++j) {
-                const Quad arm = j < m ? length[j] : a - h;
-                const Quad dy = -arm * cosine[j], dz = -arm * sine[j];
-                A[j][size] += W * (lambda * dz - y_body * dy);
-                A[j][j] += W * (lambda * -arm * cosine[j] - y_body * arm * sine[j]);
-                for (std::size_t i = 0; i <= m; ++i) A[j][i] -= W * dy * -(i < m ? length[i] : a - h) * cosine[i];
-            }
-            A[m][size] -= W * turn * s * c, A[m][m] -= W * turn * (c * c - s * s);
-        }
-        for (std::size_t j = 0; j < n; ++j) {
-            const Quad dy = -length[j] * cosine[j], dz = -length[j] * sine[j];
-            A[j][size] += x[n] * dy + x[n + 1] * dz;
-            A[j][j] += x[n] * length[j] * sine[j] - x[n + 1] * length[j] * cosine[j];
-            A[j][n] = A[n][j] = dy, A[j][n + 1] = A[n + 1][j] = dz;
-        }
-        A[n][size] = y, A[n + 1][size] = z - span;
-        for (std::size_t k = 0; k < size; ++k) {
-            std::size_t pivot = k;
-            for (std::size_t i = k; i < size; ++i)
-                if (fabsq(A[i][k]) > fabsq(A[pivot][k])) pivot = i;
-            std::swap(A[k], A[pivot]);
-            for (std::size_t i = 0; i < size; ++i) {
-                if (i == k) continue;
-                const Quad share = A[i][k] / A[k][k];
-                for (std::size_t j = k; j <= size; ++j) A[i][j] -= share * A[k][j];
-            }
-        }
-        for (std::size_t k = 0; k < size; ++k) x[k] -= A[k][size] / A[k][k];
-    }
-    double worst = 0;
-    for (std::size_t m = 0; m < n; ++m)
-        worst = std::max(worst, std::abs(static_cast<double>(x[m] - Quad(shape.inclination[static_cast<Index>(m)]))));
-    return worst;
-}
 
 }  // namespace
 
@@ -91,7 +37,7 @@ TEST_CASE("held at both ends: inclinations within their proved bound of a Lagran
                     CHECK_FALSE(found.complete);
                     for (const HeldShape& shape : found.shapes) {
                         INFO(family.name << ", " << size << " links, span " << share << ", height " << slow);
-                        const double error = against_truth(chain, shape);
+                        const double error = support::held_against_truth(chain, {}, shape);
                         ++shapes;
                         sharp += shape.error_bound < 4.5e-16;
                         CHECK(error <= shape.error_bound);
@@ -115,7 +61,7 @@ TEST_CASE("held at both ends: extremes of weight") {
             const auto found = support::held_shapes(chain, share * chain.total_length(), 0.0);
             for (const HeldShape& shape : found.shapes) {
                 INFO(family.name << " " << share);
-                CHECK(against_truth(chain, shape) <= shape.error_bound);
+                CHECK(support::held_against_truth(chain, {}, shape) <= shape.error_bound);
             }
         }
     }
@@ -599,7 +545,8 @@ TEST_CASE("held at both ends: branches pass through the listed shapes, and a ten
             CHECK(branch.shapes.front().half_waves == branch.half_waves);
             CHECK(branch.shapes.front().conical_height == Approx(least).epsilon(1e-14));
             for (const HeldShape& shape : branch.shapes)
-                if (shape.condition < 1e3) CHECK(against_truth(chain, shape) < 1e-13 * (1 + shape.condition));
+                if (shape.condition < 1e3)
+                    CHECK(support::held_against_truth(chain, {}, shape) < 1e-13 * (1 + shape.condition));
         }
         const HeldShape& middle = branches[0].shapes[branches[0].shapes.size() / 2];
         const auto listed =

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "revchain/rig.hpp"
+#include "support/solved.hpp"
 #include "support/truth.hpp"
 
 namespace support {
@@ -17,36 +18,10 @@ namespace support {
 using revchain::Index;
 using revchain::Rig;
 
-template <class T>
-using Numbers = std::vector<T>;
 inline Quad sine(Quad x) { return sinq(x); }
 inline Quad cosine(Quad x) { return cosq(x); }
 inline double sine(double x) { return std::sin(x); }
 inline double cosine(double x) { return std::cos(x); }
-
-/// x with A x = b, by elimination with rows exchanged; nothing where A is singular.
-template <class T>
-std::optional<Numbers<T>> solved(std::vector<Numbers<T>> A, Numbers<T> b) {
-    const std::size_t n = b.size();
-    const auto size = [](const T& x) { return x < 0 ? -x : x; };
-    for (std::size_t i = 0; i < n; ++i) {
-        std::size_t best = i;
-        for (std::size_t r = i + 1; r < n; ++r)
-            if (size(A[r][i]) > size(A[best][i])) best = r;
-        if (!(size(A[best][i]) > 0)) return std::nullopt;
-        std::swap(A[i], A[best]), std::swap(b[i], b[best]);
-        for (std::size_t r = i + 1; r < n; ++r) {
-            const T f = A[r][i] / A[i][i];
-            for (std::size_t j = i; j < n; ++j) A[r][j] -= f * A[i][j];
-            b[r] -= f * b[i];
-        }
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t j = i + 1; j < n; ++j) b[i] -= A[i][j] * b[j];
-        b[i] /= A[i][i];
-    }
-    return b;
-}
 
 /// A body: the link it belongs to, the weights that bear and move, its centre and radius of gyration squared.
 template <class T>
