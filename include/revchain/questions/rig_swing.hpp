@@ -255,7 +255,7 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
     const bool yields = !rig.support().is_firm();
     const Vector<double> from = detail::checked_start(place, rig.size(), yields, "offset", options.offset);
     const Vector<double> speed = detail::checked_start(place, rig.size(), yields, "velocity", options.velocity);
-    detail::checked_count(place, options.time, options.gravity, {}, 0);
+    detail::check_times(place, options.time, options.gravity);
     const RigPencil pencil = rig_pencil(rig, options.gravity);
     const auto found = [&](Index first, Index number) {
         if (number == 0) return WhirlModes{};
@@ -272,7 +272,7 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
         assembled.pencil.elements.push_back({wide(e.stiffness), wide(e.lower), wide(e.upper), wide(e.cross),
                                              wide(e.turning), wide((e.lower + e.cross) + (e.cross + e.upper))});
     assembled.pencil.entry_error = elements->entry_error;
-    const Index count = detail::checked_count(place, options.time, options.gravity, options.count, all);
+    const Index count = detail::checked_count(place, options.count, all);
     return detail::superposed<Swing>(detail::OscillatingChain(std::move(assembled)), options, from, speed, count, all,
                                      found);
 }
@@ -285,7 +285,7 @@ REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions
     const bool yields = !rig.support().is_firm();
     const auto from = detail::checked_start(place, rig.size(), yields, "offset", options.offset);
     const auto speed = detail::checked_start(place, rig.size(), yields, "velocity", options.velocity);
-    detail::checked_count(place, options.time, options.gravity, {}, 0);
+    detail::check_times(place, options.time, options.gravity);
     const RigPencil pencil = rig_pencil(rig, options.gravity);
     if (pencil.massless.size > 0)
         detail::throw_invalid(place, "pins without inertia beside flywheels with momentum: give each some; there are",
@@ -293,7 +293,7 @@ REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions
     const RigModes found =
         detail::stable_modes(place, rig, pencil, options.gravity, options.count.value_or(all_modes), options.progress);
     const Index all = found.forward.available + found.backward.available;
-    const Index count = detail::checked_count(place, options.time, options.gravity, options.count, all);
+    const Index count = detail::checked_count(place, options.count, all);
 
     const Index pins = rig.size() + 1;
     WhirlSwing result;

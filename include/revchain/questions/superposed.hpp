@@ -186,12 +186,15 @@ Vector<Number> checked_start(std::string_view place, Index links, bool yields, s
     return result;
 }
 
-/// How many of `all` modes are asked for. Throws InvalidArgument for times and gravity that cannot be, too.
-inline Index checked_count(std::string_view place, const std::vector<double>& time, double gravity,
-                           const std::optional<Index>& asked, Index all) {
+/// Throws InvalidArgument for times and gravity that cannot be.
+inline void check_times(std::string_view place, const std::vector<double>& time, double gravity) {
     require_positive(place, "gravity", gravity);
     for (const double t : time)
         if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);
+}
+
+/// How many of `all` modes are asked for.
+inline Index checked_count(std::string_view place, const std::optional<Index>& asked, Index all) {
     const Index count = asked.value_or(all);
     if (count < 0 || count > all) throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
     return count;

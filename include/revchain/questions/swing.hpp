@@ -13,7 +13,8 @@ REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& opti
     const Vector<double> from = detail::checked_start(place, chain.size(), false, "offset", options.offset);
     const Vector<double> speed = detail::checked_start(place, chain.size(), false, "velocity", options.velocity);
     const Index all = chain.mode_count();
-    const Index count = detail::checked_count(place, options.time, options.gravity, options.count, all);
+    detail::check_times(place, options.time, options.gravity);
+    const Index count = detail::checked_count(place, options.count, all);
     return detail::superposed<Swing>(
         detail::OscillatingChain(chain), options, from, speed, count, all, [&](Index first, Index number) {
             if (number == 0) return Modes<double>{};
