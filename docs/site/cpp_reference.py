@@ -37,11 +37,6 @@ def end_of(lines: list[str], place: int) -> int:
     return len(lines)
 
 
-def end_of_head(lines: list[str], place: int) -> int:
-    """Where the template parameters, the type and the name of a declaration have been said."""
-    return place + next((k + 1 for k, line in enumerate(lines[place:]) if "(" in line or "{" in line or ";" in line), 1)
-
-
 def declarations(lines: list[str]) -> list[tuple[list[str], list[str]]]:
     """Each declaration of the namespace revchain with the comment before it; those of `detail` are left out."""
     found: list[tuple[list[str], list[str]]] = []
@@ -57,7 +52,8 @@ def declarations(lines: list[str]) -> list[tuple[list[str], list[str]]]:
             place += 1
         else:
             end = end_of(lines, place)
-            member = re.search(r"\w(<T>)?::~?\w+\(", "\n".join(lines[place : end_of_head(lines, place)]))
+            head = "\n".join(lines[place:end]).partition("{")[0]
+            member = re.search(r"\w(<T>)?::~?\w+\(", head.partition(" = ")[0])
             if not line.startswith("namespace") and not member:  # members are shown with their class
                 found.append((comment, lines[place:end]))
             comment, place = [], end
@@ -77,25 +73,20 @@ def shortened(code: list[str]) -> str:
     if not re.match(r"(struct|class)\b.*\{", kind):
         return "\n".join(code if re.match(r"enum|inline constexpr", kind) else without_body(code))
     place = code.index(kind) + 1
-    kept, hidden, place_of_body = code[:place], False, place
+    head, kept, hidden = code[:place], [], False
     while place < len(code) - 1:
         line = code[place].strip()
-        if line in ("public:", "private:"):
+        is_access = line in ("public:", "private:")
+        if is_access:
             hidden = line == "private:"
-            kept += [] if hidden else [code[place]]
-        if line.startswith("//") or not line or line in ("public:", "private:"):
-            kept += [] if hidden or line in ("public:", "private:") else [code[place]]
-            place += 1
-            continue
-        end = end_of(code, place)
-        if not hidden and not line.startswith("static_assert"):
-            kept += without_body(code[place:end])
+        if is_access or not line or line.startswith("//"):
+            shown, end = code[place : place + 1], place + 1
+        else:
+            end = end_of(code, place)
+            shown = [] if line.startswith("static_assert") else without_body(code[place:end])
+        kept += [] if hidden else shown
         place = end
-    if not kept[place_of_body].strip():
-        del kept[place_of_body]
-    while not kept[-1].strip():
-        kept.pop()
-    return "\n".join([*kept, code[-1]])
+    return "\n".join([*head, "\n".join(kept).strip("\n"), code[-1]])
 
 
 def page(header: Path) -> str:
