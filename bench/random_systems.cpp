@@ -27,7 +27,7 @@ using support::Quad;
 using support::Random;
 using Complex = std::complex<double>;
 
-/// What a kind of system showed.
+/// Counts of one kind of system: numbers compared, numbers outside their bound, the worst error.
 struct Tally {
     long numbers = 0, outside = 0, unproved = 0, systems_outside = 0, refused = 0;
     double worst = 0;
@@ -48,7 +48,7 @@ struct Tally {
     }
 };
 
-/// What a rig of a kind has.
+/// The parts that the rigs of one kind may have.
 struct Kind {
     bool spring = false, wheels = false, driven = false, still = false, turning = false, stands = false, arm = false;
     Index most = 6;

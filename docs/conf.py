@@ -67,7 +67,7 @@ mathjax2_config = {
 
 
 def copy_mathjax(app, _):
-    """What pages need of MathJax, so that they can be read without a network."""
+    """Copies MathJax into the site: formulas then show without a network."""
     source = Path(jupyter_server_mathjax.__file__).parent / "static"
     target = Path(app.outdir) / "_static" / "mathjax"
     if app.builder.format == "html" and not target.exists():

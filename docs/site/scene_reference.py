@@ -13,7 +13,7 @@ UNITS = "A number and its unit"
 
 
 def kind(entry: dict[str, Any]) -> str:
-    """What may stand there, in words."""
+    """The kinds of value that an entry accepts, in words."""
     if "$ref" in entry:
         name = entry["$ref"].rpartition("/")[2]
         return f"[{name}](#{name.lower()})"

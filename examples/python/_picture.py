@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pictures share: style, size, the drawing of a hanging chain, the file."""
+"""Shared by the programs that draw: the style, the size, a hanging chain, and how the picture is saved."""
 
 import sys
 from pathlib import Path

@@ -459,7 +459,7 @@ def pivots(diagonal, side, mass):
 
 
 def links(stiffness, weight):
-    """The same from the stiffness and the weight of every link, in double precision; nothing is assembled."""
+    """Computes the same number from the stiffness and weight of each link in double precision, without matrices."""
     pairs = list(zip(stiffness.tolist(), weight.tolist(), strict=True))
 
     def count(mu):
@@ -560,7 +560,7 @@ class Interval:
         return Interval(min(ends), max(ends))
 
     def sine(self):
-        """Of the angle with this tangent."""
+        """Returns the sine of the angle that has this tangent."""
         return Interval(*(p / np.hypot(1, p) for p in (self.low, self.high)))
 
     def cube(self):
@@ -714,7 +714,7 @@ def misprints():
 
 
 def unbalanced(system, height, y, m, printed):
-    """What (21) leaves for link m, over the sum of the sizes of its terms; pins y[0], y[1], ..."""
+    """Returns the residual of (21) for link m, divided by the sum of the absolute values of its terms; y[0], y[1], ... are pins."""
     W, a, h, l = (np.r_[np.nan, x] for x in (system.weight, system.length, system.centroid, system.pendulum_length))
     S = W[1:m].sum()
     own = W[m] * h[m] / a[m]

@@ -166,7 +166,7 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.
 Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
-/// Of a cord held at both ends, which stay where they are.
+/// The same for a shape of a cord held at both ends. The ends stay in their places.
 Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// A start of a cord: none (on the axis, at rest); values at `CordSwingOptions::arc_length`, straight between them; or

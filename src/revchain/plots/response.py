@@ -55,7 +55,7 @@ def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, 
     if finite.size:
         top = finite.max()
         ax.set_ylim(max(finite.min(), 1e-6 * min(top, found.support_radius)) / 2, 2 * top)
-    ax.set(xlabel="angular speed (rad/s)", ylabel="from the axis, that of the support the grey line")
+    ax.set(xlabel="angular speed (rad/s)", ylabel="distance from axis (m); grey: support")
     ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to the support")
     ax.legend()
     return ax

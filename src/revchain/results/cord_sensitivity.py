@@ -12,7 +12,7 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, shown
 from .base import Field
-from .sensitivity import Uncertainty, _ByDatum, _deviations, _refuse_no_deviations
+from .sensitivity import Uncertainty, _ByDatum, _deviations, _refuse_no_deviations, shared_out
 from .sheet import Sheet
 
 if TYPE_CHECKING:
@@ -158,10 +158,7 @@ def cord_uncertainty(modes: CordModes, given: dict[str, Any]) -> CordUncertainty
             spread = _deviations(place, called, given[called], np.array([values[name]]))
             _refuse_no_deviations(place, called, spread)
         parts[name] = (np.nan_to_num(sensitivity[name]) * spread.reshape(-1)[:1]) ** 2
-    table = np.column_stack([*parts.values()])
-    variance = table.sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = {name: np.nan_to_num(part / variance) for name, part in parts.items()}
+    table, variance, share = shared_out(parts)
     height = np.sqrt(variance)
     relative = height / modes.conical_height
     return CordUncertainty._made(

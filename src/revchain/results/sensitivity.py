@@ -397,6 +397,15 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     return found | {"spin": spin, "momentum": found["momentum"] / per, "stiffness": found["stiffness"] / per}
 
 
+def shared_out(parts: dict[str, Floats]) -> tuple[Floats, Floats, dict[str, Floats]]:
+    """Of the parts of the variance of each mode by datum: all side by side, their sum, and what share of it each is."""
+    table = np.column_stack([*parts.values()])
+    variance = np.maximum(table.sum(axis=1), 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = {n: np.nan_to_num(p / (variance[:, None] if p.ndim == 2 else variance)) for n, p in parts.items()}
+    return table, variance, share
+
+
 def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigUncertainty:
     """`RigModes.uncertainty`."""
     place, rig = "revchain.RigModes.uncertainty", modes.system
@@ -424,12 +433,9 @@ def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigU
         rates = rates if of_links else rates[:, None]
         part = rates * (rates @ spread) if spread.ndim == 2 else (rates * spread) ** 2
         parts[name] = part if of_links else part[:, 0]
-    table = np.column_stack([*parts.values()])
-    variance = np.maximum(table.sum(axis=1), 0.0)
+    table, variance, share = shared_out(parts)
     speed = np.sqrt(variance)
     places = [(name, k) for name, part in parts.items() for k in range(part.shape[1] if part.ndim == 2 else 1)]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = {n: np.nan_to_num(p / (variance[:, None] if p.ndim == 2 else variance)) for n, p in parts.items()}
     relative = 2 * speed / np.abs(modes.angular_speed)
     return RigUncertainty._made(
         None,
