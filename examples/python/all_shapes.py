@@ -7,7 +7,9 @@ All steady shapes of three point masses at one speed, proved complete; their bra
 Usage: ``python all_shapes.py [FOLDER]``
 """
 
-from _picture import COLOURS, panels, save
+import numpy as np
+from _picture import COLOURS, save
+from matplotlib.figure import Figure
 
 import revchain as rc
 
@@ -17,7 +19,7 @@ shapes = rc.steady_shapes(chain, angular_speed=SPEED, gravity=1.0)
 print(f"three point masses at {SPEED} sqrt(g/a): {len(shapes)} shapes, {'all' if shapes.complete else 'at least'}")
 print("half waves  inclinations, degrees   error bound  stability")
 for shape in shapes:
-    degrees = " ".join(f"{57.29577951308232 * d:6.2f}" for d in shape.inclination)
+    degrees = " ".join(f"{np.degrees(d):6.2f}" for d in shape.inclination)
     print(f"{shape.half_waves:10}   {degrees}   {shape.error_bound:11.1e}  {shape.stability().verdict}")
 
 diagram = rc.branches(chain, max_angular_speed=5.0, gravity=1.0)
@@ -26,21 +28,25 @@ print(f"two are born at {born.angular_speed[born.folds[0]]:.9f} sqrt(g/a)")
 eight = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2)
 print(f"eight point masses at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
 
-figure, axes = panels(2, [2, 3])
-seen = set()
-for shape in shapes:
-    k = shape.half_waves
-    axes[0].plot(shape.offset, -shape.height, "o-", color=COLOURS[k - 1], label=None if k in seen else f"{k}")
-    seen.add(k)
-axes[0].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-axes[0].set(title=f"all shapes at {SPEED}", xlabel="from the axis, threads", ylabel="below the support")
-axes[0].invert_yaxis()
-axes[0].set_aspect("equal")
-axes[0].legend(title="half waves", fontsize=8, frameon=False)
+BESIDE = {"A": (4, 5), "B": (7, 3), "C": (5, -12), "D": (5, -13), "E": (-14, -3)}  # of a point its letter, in points
+figure = Figure(figsize=(8, 4.5), layout="constrained")
+axes = figure.subplot_mosaic([["A", "B", "C", "all"], ["D", "E", ".", "all"]], width_ratios=[1.25, 1, 1, 3.4])
+curves = axes["all"]
 for branch in diagram:
-    speed, tip = branch.angular_speed, branch.tip_inclination
-    k = branch.half_waves[-1]
-    axes[1].plot(speed, 57.29577951308232 * tip, color=COLOURS[k - 1])
-axes[1].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
-axes[1].set(title="branches", xlabel="speed over sqrt(g/a)", ylabel="inclination of the lowest thread (°)")
+    colour = COLOURS[branch.half_waves[-1] - 1]
+    curves.plot(branch.angular_speed, np.degrees(branch.tip_inclination), color=colour)
+line = {"arrowstyle": "-", "color": COLOURS[2]}
+curves.annotate("isolated branch", (3.95, 80), (3.85, 70), color=COLOURS[2], ha="right", arrowprops=line)
+curves.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
+for letter, shape in zip("ABCDE", shapes, strict=True):
+    panel, colour, tip = axes[letter], COLOURS[shape.half_waves - 1], np.degrees(shape.inclination[0])
+    panel.plot(shape.offset, shape.height, "o-", color=colour, clip_on=False)
+    panel.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+    panel.set_title(f"{letter}: {shape.half_waves} half wave{'s' * (shape.half_waves > 1)}")
+    panel.set(aspect="equal", xticks=[], yticks=[])
+    panel.spines[:].set_visible(False)
+    curves.plot(SPEED, tip, "o", color=colour)
+    curves.annotate(letter, (SPEED, tip), xytext=BESIDE[letter], textcoords="offset points")
+curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$")
+curves.set_ylabel("inclination of the lowest thread (°)")
 save(figure)
