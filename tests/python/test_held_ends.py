@@ -381,3 +381,29 @@ def test_plots_of_arms():
     assert any(list(line.get_xdata()) == [0.3, 0.7] for line in ax.get_lines())
     assert rc.branches(held, max_angular_speed=9.0).plot().get_xlabel() == "speed (rad/s)"
     held.plot()
+
+
+# ---- tuning and no gravity, between springs
+
+
+def test_the_length_between_springs_that_gives_a_speed():
+    """Springs keep their stiffness, so that heights are not as the length."""
+    held = rc.Held(rc.Chain.uniform_rods(6, length=2.0, mass=1.0), tension=50.0, lower=Support(stiffness=150.0, mass=0.1))
+    for mode, speed in ((1, 14.0), (2, 30.0)):
+        tuned = rc.tune(held, vary="length", mode=mode, angular_speed=speed)
+        assert tuned.status == "found" and not tuned.complete and tuned.system.lower == held.lower
+        assert rc.modes(tuned.system, mode).angular_speed[-1] == pytest.approx(speed, rel=1e-13)
+
+
+@pytest.mark.parametrize("gravity", [9.80665, 2.0])
+def test_whirl_speeds_between_springs_without_gravity(gravity):
+    """Of point masses on a string with springs: a dense pencil, and the same whatever the gravity of the question."""
+    masses, length, tension, ends = np.array([0.3, 0.5, 0.2, 0.4]), 0.5, 40.0, (150.0, 900.0)
+    springs = {"lower": Support(stiffness=ends[0], mass=0.1), "upper": Support(stiffness=ends[1], mass=0.25)}
+    held = rc.Held(rc.Chain(mass=masses, length=length), tension=tension, weightless=True, **springs)
+    M = np.diag([masses[0] + 0.1, *masses[1:], 0.25])
+    K = np.diag([ends[0], 0.0, 0.0, 0.0, ends[1]])
+    for i in range(4):
+        K[i : i + 2, i : i + 2] += tension / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    speeds = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(M, K)).real))
+    np.testing.assert_allclose(rc.modes(held, "all", gravity=gravity).angular_speed, speeds, rtol=1e-13)

@@ -160,7 +160,7 @@ def tune(
     one: Tuned | None = None
     if isinstance(system, Rig):
         one = _formed(system, datum, number, speed, g)
-    elif vary == "length":
+    elif vary == "length" and not (isinstance(system, Held) and not system.is_plain):  # springs keep their stiffness
         one = _length(system, datum, number, value if name == "conical_height" else g / value**2, g)
     if one is None:
         signed = np.array([number if speed > 0 else -number])
