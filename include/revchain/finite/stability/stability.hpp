@@ -93,40 +93,49 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const
     return result;
 }
 
+/// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in given units: the load
+/// resolved along the link. Load over cosine would lose the digits of a link that lies nearly level.
+template <class Shape>
+std::vector<double> pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units,
+                          double H = 0, double tau = 0) {
+    const auto length = [&](double x) { return std::ldexp(x, -units.length_exponent); };
+    std::vector<double> result;
+    for (Index m = 0; m < shape.inclination.size(); ++m) {
+        const Link<double>& link = links[static_cast<std::size_t>(m)];
+        const double s = std::sin(shape.inclination[m]), c = std::cos(shape.inclination[m]);
+        const double R = H + link.moment * length(shape.offset[m]), V = length(shape.conical_height) * link.pull + tau;
+        H = R + link.rest * length(shape.offset[m + 1]);
+        result.push_back(V * c + (R - link.cross * link.length * s) * s);
+    }
+    return result;
+}
+
 inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
-    const double unit = std::ldexp(1.0, -chain.units.length_exponent);
     PulledLinks result(chain.units);
-    Index i = 0;
-    for (const Link<double>& link : rounded<double>(chain.links)) {
-        const double delta = shape.inclination[i];
-        result.add(link, delta, shape.conical_height * unit * link.pull / std::cos(delta), shape.offset[i] * unit);
-        ++i;
+    const std::vector<Link<double>> links = rounded<double>(chain.links);
+    const std::vector<double> pull = pulls(links, shape, chain.units);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        const auto m = static_cast<Index>(i);
+        result.add(links[i], shape.inclination[m], pull[i], std::ldexp(shape.offset[m], -chain.units.length_exponent));
     }
     return result;
 }
 
 inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShape& shape) {
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
-    const auto moment = [&](double x) { return std::ldexp(length(x), -chain.units.weight_exponent); };
+    const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
     result.links = rounded<double>(chain.links), result.held = true;
     const auto& [lower, upper] = shape.ends;
     result.turns_freely = lower.radius == 0 && upper.radius == 0;
-    const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     result.stiffness = weight(upper.stiffness), result.carriage = weight(upper.carriage_weight);
     result.lower_stiffness = weight(lower.stiffness), result.lower_carriage = weight(lower.carriage_weight);
     result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
-    double H = moment(-shape.lower_pull[0]);
-    const double height = length(shape.conical_height), tau = moment(shape.lower_pull[1]);
-    for (Index m = 0; m < shape.inclination.size(); ++m) {
-        const Link<double>& link = result.links[static_cast<std::size_t>(m)];
-        const double s = std::sin(shape.inclination[m]), c = std::cos(shape.inclination[m]);
-        const double R = H + link.moment * length(shape.offset[m]), V = height * link.pull + tau;
-        H = R + link.rest * length(shape.offset[m + 1]);
-        result.inclination.push_back(shape.inclination[m]), result.offset.push_back(length(shape.offset[m]));
-        result.pull.push_back(V * c + (R - link.cross * link.length * s) * s);
-    }
-    if (result.yields()) result.offset.push_back(length(shape.offset[shape.inclination.size()]));
+    result.inclination.assign(shape.inclination.begin(), shape.inclination.end());
+    const double H = length(weight(-shape.lower_pull[0])), tau = length(weight(shape.lower_pull[1]));
+    result.pull = pulls(result.links, shape, chain.units, H, tau);
+    for (Index m = 0; m < shape.inclination.size() + result.yields(); ++m)
+        result.offset.push_back(length(shape.offset[m]));
     return result;
 }
 
@@ -169,7 +178,7 @@ REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShap
 
 namespace finite {
 
-/// The shape of a rig. The pull along a link is lambda tension/cos d + p/a, p its momentum about its own axis.
+/// The shape of a rig. A link's momentum p about its own axis adds p/a to the pull along it.
 inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
@@ -179,6 +188,7 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         result.carriage = static_cast<double>(given.support.carriage);
     }
     const std::vector<Link<double>> links = rounded<double>(given.links);
+    const std::vector<double> pull = pulls(links, shape, given.units);
     for (Index m = 0; m < rig.size(); ++m) {
         const auto i = static_cast<std::size_t>(m);
         const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment;
@@ -187,7 +197,7 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         link.cross =
             static_cast<double>(given.given[i].cross - Wide<double>(about / link.length) / given.given[i].length);
         const double kept = height * static_cast<double>(given.speed * given.given[i].spin);
-        result.add(link, delta, height * link.pull / c + about / link.length, in_lengths(shape.offset[m]),
+        result.add(link, delta, pull[i] + about / link.length, in_lengths(shape.offset[m]),
                    kept * link.length + about * c, about);
     }
     if (result.yields()) result.offset.push_back(in_lengths(shape.offset[rig.size()]));
