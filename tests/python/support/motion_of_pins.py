@@ -63,30 +63,72 @@ class Motion:
         force[..., 2] -= self.weight
         return force.reshape(*force.shape[:-2], -1)[..., self.moves]
 
+    def drawn(self, place, pull):
+        """Forces of the links on the coordinates that move; `pull` is that over the length."""
+        along, force = pull[..., None] * np.diff(place, axis=-2), np.zeros_like(place)
+        force[..., :-1, :] += along
+        force[..., 1:, :] -= along
+        return force.reshape(*force.shape[:-2], -1)[..., self.moves]
+
     def rate(self, state):
-        """Of places and velocities; the multipliers keep the lengths."""
+        """Of places and velocities; the links' pulls keep their lengths."""
         moving, speeds = np.split(state, 2, axis=-1)
         place, velocity = self.all_pins(moving, self.rest), self.all_pins(speeds, 0 * self.rest)
         force, rows = self.forces(place, velocity), self.slopes(place)
         weighed = rows @ self.inverse
         turning = (np.diff(velocity, axis=-2) ** 2).sum(axis=-1)
-        wanted = -turning - (weighed @ force[..., None])[..., 0]
-        pull = np.linalg.solve(weighed @ np.swapaxes(rows, -1, -2), wanted[..., None])
-        whole = force + (pull[..., None, :, 0] @ rows)[..., 0, :]
-        return np.concatenate([speeds, whole @ self.inverse], axis=-1)
+        wanted = turning + (weighed @ force[..., None])[..., 0]
+        pull = np.linalg.solve(weighed @ np.swapaxes(rows, -1, -2), wanted[..., None])[..., 0]
+        return np.concatenate([speeds, (force + self.drawn(place, pull)) @ self.inverse], axis=-1)
+
+    def turned(self):
+        """What a turn about the axis does to places, and how places alone change the angular momentum."""
+        across, inward = np.zeros_like(self.rest), np.zeros_like(self.rest)
+        across[:, 1] = self.rest[:, 0]
+        inward[:, 0] = 2 * self.speed * self.masses @ self.rest[:, 0]
+        return across.ravel()[self.moves], inward.ravel()[self.moves]
 
     def kept(self):
         """Rows of what a small disturbance leaves as it is: lengths, and, about an axis with no arm, momentum and direction."""
-        rows, size = self.slopes(self.rest), self.moves.size
+        rows = self.slopes(self.rest)
         kept = [np.hstack([rows, 0 * rows]), np.hstack([0 * rows, rows])]
         if self.rotates:
-            across = np.zeros_like(self.rest)
-            across[:, 1] = self.rest[:, 0]
-            inward = np.zeros_like(self.rest)
-            inward[:, 0] = 2 * self.speed * self.masses @ self.rest[:, 0]
-            turned = across.ravel()[self.moves]
-            kept += [np.concatenate([turned, np.zeros(size)]), np.concatenate([inward.ravel()[self.moves], self.inertia @ turned])]
+            across, inward = self.turned()
+            kept += [np.concatenate([across, 0 * across]), np.concatenate([inward, self.inertia @ across])]
         return np.vstack(kept)
+
+    # ---- small disturbances
+
+    def stiffness(self):
+        """Second derivatives of the energy in the frame that turns, lengths kept: between all coordinates that move."""
+        still = 0 * self.rest
+        pull = np.linalg.lstsq(self.slopes(self.rest).T, self.forces(self.rest, still), rcond=None)[0]
+        size = self.moves.size
+        place = self.all_pins(self.start[:size] + TINY * 1j * np.eye(size), self.rest)
+        return -(self.forces(place, 0 * place) + self.drawn(place, pull)).imag / TINY
+
+    def negative_directions(self):
+        """Of the energy; about an axis with no arm at the same angular momentum."""
+        stiff, rows = self.stiffness(), self.slopes(self.rest)
+        if self.rotates:
+            across, inward = self.turned()
+            stiff += np.outer(inward, inward) / (across @ self.inertia @ across)
+            rows = np.vstack([rows, across])
+        basis = null_space(rows)
+        return int((np.linalg.eigvalsh(basis.T @ stiff @ basis) < 0).sum())
+
+    def first_order(self):
+        """Rates of the disturbances of `basis` without integration, for many links."""
+        size = self.moves.size
+        tangent = null_space(self.slopes(self.rest))
+        follow = tangent @ np.linalg.solve(tangent.T @ self.inertia @ tangent, tangent.T)
+        velocity = self.all_pins(TINY * 1j * np.eye(size), 0 * self.rest)
+        coriolis = self.forces(0 * velocity, velocity).imag / TINY
+        rates = np.zeros((2 * size, 2 * size))
+        rates[:size, size:] = np.eye(size)
+        rates[size:, :size] = -follow @ self.stiffness()
+        rates[size:, size:] = follow @ coriolis.T
+        return self.basis.T @ rates @ self.basis
 
     def step(self, state, time):
         """One step of Dormand and Prince, of eighth order."""
@@ -100,20 +142,54 @@ class Motion:
         return self.basis.T @ move(self.start + TINY * 1j * self.basis.T).imag.T / TINY
 
     def one_step(self):
-        """What one step does to disturbances, and its time: a tenth of the shortest period over 2 pi."""
+        """What one step does to disturbances, and its time: a tenth over the fastest of them."""
         fastest = np.linalg.norm(np.linalg.matrix_power(self.linear(self.rate), 16), 2) ** (1 / 16)
         time = 0.1 / max(fastest, self.speed)
         return self.linear(lambda state: self.step(state, time)), time
 
-    def growth(self, doublings=40):
-        """Growth rate over the speed of the largest disturbance, from the last doubling of the time."""
-        if not self.basis.shape[1]:
-            return 0.0
-        power, time = self.one_step()
-        logarithm, before = 0.0, 0.0
-        for _ in range(doublings):
-            power = power @ power
-            size = np.linalg.norm(power, 2)
-            power /= size
-            logarithm, before = 2 * logarithm + math.log(size), logarithm
-        return (logarithm - before) / (2.0 ** (doublings - 1) * time * self.speed)
+    def growth_rate(self):
+        """Over the speed, of the disturbance that grows most."""
+        return growth_rate(*self.one_step()) / self.speed if self.basis.size else 0.0
+
+    # ---- disturbances that are not small
+
+    def on_lengths(self, state):
+        """The nearest state with the lengths of the links."""
+        moving, speeds = np.split(state, 2)
+        for _ in range(3):
+            place = self.all_pins(moving, self.rest)
+            rows, off = self.slopes(place), ((np.diff(place, axis=0) ** 2).sum(axis=1) - self.length**2) / 2
+            moving = moving - np.linalg.lstsq(rows, off, rcond=None)[0]
+        rows = self.slopes(self.all_pins(moving, self.rest))
+        return np.concatenate([moving, speeds - np.linalg.lstsq(rows, rows @ speeds, rcond=None)[0]])
+
+    def after(self, disturbance, times):
+        """Disturbances at equally spaced times, from one at 0: the motion itself, brought back to the lengths each time."""
+        state, found = self.on_lengths(self.start + self.basis @ disturbance), []
+        for pause in np.diff(times, prepend=0.0):
+            done = solve_ivp(lambda _, y: self.rate(y), (0.0, pause), state, "DOP853", rtol=1e-12, atol=1e-15)
+            state = self.on_lengths(done.y[:, -1])
+            found.append(self.basis.T @ (state - self.start))
+        return np.array(found)
+
+
+def growth_rate(power, time, doublings=40):
+    """What the largest disturbance grows by in a unit of time, from one step: its time is doubled over and over, and the
+    last doubling tells."""
+    logarithm, before = 0.0, 0.0
+    for _ in range(doublings):
+        power = power @ power
+        size = np.linalg.norm(power)
+        power /= size
+        logarithm, before = 2 * logarithm + math.log(size), logarithm
+    return (logarithm - before) / (2.0 ** (doublings - 1) * time)
+
+
+def step_of(rates):
+    """What a step does if the rates of disturbances are a matrix, and its time."""
+    time = 0.1 / np.linalg.norm(np.linalg.matrix_power(rates, 16)) ** (1 / 16)
+    term = power = np.eye(len(rates))
+    for k in range(1, 13):
+        term = term @ rates * (time / k)
+        power = power + term
+    return power, time
