@@ -143,13 +143,13 @@ class Motion:
 
     def one_step(self):
         """What one step does to disturbances, and its time: a tenth over the fastest of them."""
-        fastest = np.linalg.norm(np.linalg.matrix_power(self.linear(self.rate), 16), 2) ** (1 / 16)
-        time = 0.1 / max(fastest, self.speed)
+        time = 0.1 / fastest_of(self.linear(self.rate))
         return self.linear(lambda state: self.step(state, time)), time
 
     def growth_rate(self):
-        """Over the speed, of the disturbance that grows most."""
-        return growth_rate(*self.one_step()) / self.speed if self.basis.size else 0.0
+        """Of the disturbance that grows most, and how fast the fastest goes; both over the speed."""
+        power, time = self.one_step()
+        return growth_rate(power, time) / self.speed, 0.1 / (time * self.speed)
 
     # ---- disturbances that are not small
 
@@ -173,6 +173,11 @@ class Motion:
         return np.array(found)
 
 
+def fastest_of(rates):
+    """The size of the largest exponent, a little too large."""
+    return np.linalg.norm(np.linalg.matrix_power(rates, 16)) ** (1 / 16)
+
+
 def growth_rate(power, time, doublings=40):
     """What the largest disturbance grows by in a unit of time, from one step: its time is doubled over and over, and the
     last doubling tells."""
@@ -187,7 +192,7 @@ def growth_rate(power, time, doublings=40):
 
 def step_of(rates):
     """What a step does if the rates of disturbances are a matrix, and its time."""
-    time = 0.1 / np.linalg.norm(np.linalg.matrix_power(rates, 16)) ** (1 / 16)
+    time = 0.1 / fastest_of(rates)
     term = power = np.eye(len(rates))
     for k in range(1, 13):
         term = term @ rates * (time / k)
