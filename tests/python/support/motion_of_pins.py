@@ -188,13 +188,3 @@ def growth_rate(power, time, doublings=40):
         power /= size
         logarithm, before = 2 * logarithm + math.log(size), logarithm
     return (logarithm - before) / (2.0 ** (doublings - 1) * time)
-
-
-def step_of(rates):
-    """What a step does if the rates of disturbances are a matrix, and its time."""
-    time = 0.1 / fastest_of(rates)
-    term = power = np.eye(len(rates))
-    for k in range(1, 13):
-        term = term @ rates * (time / k)
-        power = power + term
-    return power, time
