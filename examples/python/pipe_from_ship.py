@@ -65,6 +65,6 @@ depth = np.append(np.cumsum(rig.chain.length[::-1])[::-1], 0.0)
 for wave, colour in zip((6.0, 8.0, 13.0), COLOURS, strict=False):
     hang(shape, swayed(rig, wave).offset, depth, color=colour, label=f"{wave:g} s")
 shape.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-shape.set(xlabel="offset (m)", ylabel="below the ship (m)", ylim=(620, 0), title=f"600 m, sway {SWAY:g} m")
-shape.legend(title="waves", loc="lower left")
+shape.set(xlabel="offset (m)", ylabel="below the ship (m)", ylim=(620, 0), xlim=(-4.5, 3), title=f"600 m, sway {SWAY:g} m")
+shape.legend(title="waves", loc="upper left")
 save(figure)

@@ -188,7 +188,7 @@ def test_what_the_programs_say(python):
     assert "0.1785  +1.000000" in bell.stdout
     shapes = python(ROOT / "examples/python/all_shapes.py")
     assert "5 shapes, all" in shapes.stdout and "84 shapes, all" in shapes.stdout
-    assert "two are born at 3.903762157 sqrt(g/a)" in shapes.stdout
+    assert "two shapes appear at a fold at 3.903762157 sqrt(g/a)" in shapes.stdout
     carousel = python(ROOT / "examples/python/swing_carousel.py")
     assert "at 6 rad/s: 5 shapes, proved complete: True" in carousel.stdout
     plane = python(ROOT / "examples/python/chair_o_plane.py")
