@@ -81,7 +81,7 @@ int main() {
                         static_cast<int>(each.fit.reason.size()), each.fit.reason.data());
     const Solution found = solve(methods, chain, question);
     const double exact = modes(chain, {.count = 1}).conical_height[0], height = found.answer.conical_height[0];
-    std::printf("%.*s: %.6f within %.1e; to the last digit %.15f\n", static_cast<int>(found.model.size()),
+    std::printf("%.*s: %.6f within %.1e; to the last digit %.12f\n", static_cast<int>(found.model.size()),
                 found.model.data(), height, found.answer.error_bound[0], exact);
     return found.model == PowerIteration::name && std::abs(height / exact - 1) <= found.answer.error_bound[0] ? 0 : 1;
 }
