@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shared by the programs that draw: the style, the size, a hanging chain, and how the picture is saved."""
+"""For the programs that draw: style, size of figures, a hanging chain, the file of the picture."""
 
 import sys
 from pathlib import Path
@@ -20,7 +20,7 @@ def panels(count, widths=None):
 
 
 def hang(axes, offset, depth, *, weights=(), **line):
-    """Draw a chain given by offsets from the axis and depths below the support; dots as large as its weights."""
+    """Draw a chain given by offsets from the axis and depths below the support; `weights` are the sizes of dots."""
     (drawn,) = axes.plot(offset, depth, **line)
     for y, z, size in zip(offset, depth, weights, strict=False):
         axes.scatter(y, z, s=size, color=drawn.get_color(), alpha=drawn.get_alpha(), linewidth=0, zorder=3)

@@ -2,10 +2,13 @@
 """A chain in a hand that circles
 ==============================
 
-A chain in a hand that moves round a circle of 1 cm, faster and faster; and the same chain plucked and let go.
+A hand moves the upper end of a chain round a circle of 1 cm, faster and faster. Then the same chain is plucked and released.
 
-Greenhill (1908) section 1 (9) for a chain. Below its first whirl speed the chain goes out with the hand, past it the
-free end is on the other side, and so at each whirl speed; in between, speeds at which a link stays still.
+Greenhill (1908) section 1 (9) for a chain. Below its first whirl speed the chain is on the same side as the hand. At each
+whirl speed the free end changes to the other side. Between two whirl speeds there is a speed at which a given link stays
+on the axis.
+
+Checked: ``tests/python/test_response.py``, against linear algebra in 50 digits.
 
 Usage: ``python carried_chain.py [FOLDER]``
 """

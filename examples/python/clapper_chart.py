@@ -2,13 +2,16 @@
 """When the clapper strikes: a design chart
 ========================================
 
-When does the clapper strike? A design chart of church bells rung full circle.
+A design chart for church bells rung full circle: when does the clapper strike?
 
-Two ratios decide where the bell is many times heavier than its clapper (Woodhouse et al. 2012,
-doi:10.1155/2012/681787): the distance from the axle to the clapper's pin, and the pendulum length of the
-bell, both over the pendulum length of the clapper. Each point of the chart is one motion of bell and
-clapper, from the balance to the first blow. On the dashed line the two swing as one piece where the
-clapper hangs in the middle (Greenhill 1908, section 8 (16)). Needs SciPy.
+If the bell is much heavier than its clapper, only two ratios matter (Woodhouse et al. 2012, doi:10.1155/2012/681787): the
+distance from the axle to the clapper's pin, and the pendulum length of the bell, both divided by the pendulum length of the
+clapper. Each point of the chart is one motion of bell and clapper, from the balance to the first blow. On the dashed line
+bell and clapper swing as one piece while the clapper is in the middle of the bell (Greenhill 1908, section 8 (16)). Needs
+SciPy.
+
+Checked: ``tests/python/test_bell.py`` integrates the same motion in other coordinates, with a side of the bell like a stiff
+spring.
 """
 
 import matplotlib

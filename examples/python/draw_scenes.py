@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every scene of docs/scenes.md solved and drawn: what a scene file can hold.
+"""Solve and draw every scene of docs/scenes.md.
 
 python draw_scenes.py [FOLDER]
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw the studies of examples/studies: speeds that part as wheels spin up, a map over two ratios, a scatter.
+"""Draw the studies of examples/studies: speeds of wheels against spin, a map over two ratios, scatter of a crane's periods.
 
 python draw_studies.py [FOLDER]
 """

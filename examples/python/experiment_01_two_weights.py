@@ -4,6 +4,8 @@
 
 A chain that whirls, seen from the side, seems to swing. Two weights on a thread, and a watch chain.
 
+Checked: ``tests/python/test_modes.py``, against heights in 50 digits.
+
 Usage: ``python experiment_01_two_weights.py [FOLDER]``
 """
 

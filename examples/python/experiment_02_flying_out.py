@@ -2,7 +2,9 @@
 """Experiment II: when a conical pendulum leaves the vertical
 ==========================================================
 
-A plummet on a thread leaves the vertical only where the conical height is less than the thread.
+A plummet on a thread leaves the vertical only at speeds whose conical height is less than the thread.
+
+Checked: ``tests/cpp/conical_pendulum.cpp``, and ``tests/python/test_closed_forms.py`` with mpmath.
 
 Usage: ``python experiment_02_flying_out.py [FOLDER]``
 """

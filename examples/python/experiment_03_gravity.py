@@ -2,7 +2,9 @@
 """Experiment III: gravity from a pendulum
 =======================================
 
-Gravity from a pendulum that is almost vertical, and what a visible circle does to it.
+Gravity from the period of a conical pendulum that is almost vertical, and the error if it is not.
+
+Checked: ``tests/python/test_closed_forms.py`` has the paper's pendulum that beats seconds.
 
 Usage: ``python experiment_03_gravity.py [FOLDER]``
 """

@@ -2,7 +2,10 @@
 """Experiment IV: a chain twirled by the hand
 ==========================================
 
-The hand carries the upper end round a small circle; at higher speeds the tip crosses the axis.
+The hand moves the upper end round a small circle. At higher speeds the tip changes to the other side of the axis.
+
+Checked: ``tests/python/test_closed_forms.py`` (plummet), ``tests/python/test_response.py`` (small amplitude) and
+``tests/python/test_rig_shapes.py`` (every shape of a driven chain).
 
 Usage: ``python experiment_04_twirled_chain.py [FOLDER]``
 """

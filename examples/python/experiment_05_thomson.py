@@ -2,7 +2,9 @@
 """Experiment V: Thomson's four cases
 ==================================
 
-Where on its thread the second weight sits. Thomson's four cases, as Greenhill's Fig. 4 has them.
+Two weights on one thread, the second at different places: Thomson's four cases of Greenhill's Fig. 4.
+
+Checked: ``tests/python/test_closed_forms.py``, with mpmath.
 
 Usage: ``python experiment_05_thomson.py [FOLDER]``
 """

@@ -2,7 +2,9 @@
 """Experiment VI: a balanced cue
 =============================
 
-Sticks balanced on a hand that moves in a circle; a pendulum that stands on a swinging one.
+Sticks balanced on a hand that moves in a circle, and an inverted pendulum on a swinging one.
+
+Checked: ``tests/python/test_rig_shapes.py``, inclinations and motions of broomsticks and columns.
 
 Usage: ``python experiment_06_balanced_cue.py [FOLDER]``
 """

@@ -2,7 +2,10 @@
 """Experiment VII: the revolving chain at any inclination
 ======================================================
 
-A chain of 1 m whirled in the hand at any inclination; two weights in its place.
+A chain of 1 m whirled by the hand at any inclination, and two weights in its place.
+
+Checked: ``tests/cpp/finite/cord/continuous_chain.cpp`` (cord), ``tests/python/test_steady_shapes.py`` (links) and
+``tests/python/test_closed_forms.py`` (two weights).
 
 Usage: ``python experiment_07_revolving_chain.py [FOLDER]``
 """

@@ -4,6 +4,8 @@
 
 Where a whirling chain crosses its axis, and where it hangs vertically.
 
+Checked: ``tests/python/test_cord_modes.py``, against mpmath and the numbers of the paper.
+
 Usage: ``python experiment_08_nodes.py [FOLDER]``
 """
 

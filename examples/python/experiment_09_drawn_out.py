@@ -2,7 +2,9 @@
 """Experiment IX: a whirling chain drawn out
 =========================================
 
-A whirling chain whose ends are drawn apart keeps its angular momentum and turns faster.
+When the ends of a whirling chain are drawn apart, it keeps its angular momentum and turns faster.
+
+Checked: ``tests/python/test_closed_motions.py`` (without gravity) and ``tests/python/test_held.py`` (with gravity).
 
 Usage: ``python experiment_09_drawn_out.py [FOLDER]``
 """

@@ -4,6 +4,9 @@
 
 A stick whirled round at the end of a string, near the vertical and at any inclination.
 
+Checked: ``tests/python/test_closed_forms.py`` (hand at rest), ``tests/python/test_response.py`` and
+``tests/python/test_rig_shapes.py`` (hand on a circle).
+
 Usage: ``python experiment_10_stick_on_string.py [FOLDER]``
 """
 

@@ -2,7 +2,9 @@
 """Experiment XI: a balanced broomstick
 ====================================
 
-A broomstick upright on a hand that moves to and fro; which point of it stays at rest.
+A broomstick stands upright on a hand that moves to and fro. One point of it stays at rest: which one?
+
+Checked: ``tests/python/test_closed_forms.py`` and ``tests/python/test_rig_shapes.py``.
 
 Usage: ``python experiment_11_broomstick.py [FOLDER]``
 """

@@ -2,10 +2,13 @@
 """Gyrostatic string
 =================
 
-Thomson's gyrostatic string: bicycle wheels on a stretched cord turn the plane of a vibration as magnetised glass does.
+Thomson's gyrostatic string: bicycle wheels on a stretched cord turn the plane of a vibration, as magnetised glass turns that
+of polarised light.
 
-Greenhill (1908) section 2: a vibration to and fro is two circular waves, one with the spin and one against it. They have
-different lengths, so that the plane of their sum turns from link to link.
+Greenhill (1908) section 2: a vibration in a plane is the sum of two circular waves, one with the spin and one against it.
+Their wavelengths differ, so the plane turns from link to link.
+
+Checked: ``tests/python/test_gyrostatic.py``, against a long row of links driven at one end.
 
 Usage: ``python gyrostatic_string.py [FOLDER]``
 """

@@ -2,7 +2,10 @@
 """Blade of a vertical-axis wind turbine (troposkien)
 ==================================================
 
-The blade of a wind turbine with a vertical axis, hung as a rope would whirl, so that it is not bent: with gravity.
+The blade of a wind turbine with a vertical axis, in the shape of a whirling rope, which has no bending stress. Gravity is
+included. The dashed form (two straight ends and an arc) is how such blades are made.
+
+Checked: ``tests/python/test_held.py``, against the balance of moments and against integration of the rope with gravity.
 
 Usage: ``python troposkien.py [FOLDER]``
 """
@@ -19,7 +22,7 @@ RADIUS = light.sag
 
 
 def straight_arc_straight(length, span, sag):
-    """Two straight ends and a circular arc between, of given length, span and sag: the form that factories bend."""
+    """Two straight ends with a circular arc between them, of given length, span and sag."""
 
     def parts(angle):  # of the straight ends to the axis
         c, s = np.cos(angle), np.sin(angle)

@@ -2,7 +2,10 @@
 """Watch chain: 120 links and the continuous limit
 ===============================================
 
-A watch chain twirled by a string: how close 120 links come to the continuous chain.
+A watch chain twirled by a string: how close its 120 links are to the continuous limit.
+
+Checked: the heights of the links are in 40 digits in ``examples/scenes/watch_chain.expected.json``. Those of the limit are
+4 L / j², with the zeros j of the Bessel function J₀.
 
 Usage: ``python watch_chain.py [FOLDER]``
 """

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every example scene against the values beside it, every example program run."""
 
+import ast
 import json
 import re
 import runpy
@@ -16,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
 PYTHON = ROOT / "examples" / "python"
 EXPERIMENTS = sorted(PYTHON.glob("experiment_*.py"))
+GALLERY = [path for path in sorted(PYTHON.glob("[!_]*.py")) if not path.stem.startswith("draw_")]
 PROGRAMS = sorted(set(PYTHON.glob("[!_]*.py")) - set(EXPERIMENTS))
 RIGS = [path for path in SCENES if rc.load_scene(path).is_rigged]
 HELD = [path for path in SCENES if rc.load_scene(path).is_held]
@@ -162,6 +164,13 @@ def test_let_go():
         assert np.abs(found.offset[row] - exact).max() <= found.error_bound[row] + 1e-17  # decimals of the file
 
 
+@pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
+def test_programs_say_where_they_are_checked(path):
+    [said] = re.findall(r"^Checked: (.*?)\n\n", ast.get_docstring(ast.parse(path.read_text("utf-8"))) + "\n\n", re.DOTALL | re.MULTILINE)
+    files = re.findall(r"``([\w./]+)``", said)
+    assert files and all((ROOT / name).is_file() for name in files)
+
+
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_programs(python, path):
     done = python(path)
@@ -179,7 +188,7 @@ def test_what_the_programs_say(python):
     assert "0.1785  +1.000000" in bell.stdout
     shapes = python(ROOT / "examples/python/all_shapes.py")
     assert "5 shapes, all" in shapes.stdout and "84 shapes, all" in shapes.stdout
-    assert "two are born at 3.903762157 sqrt(g/a)" in shapes.stdout
+    assert "two shapes appear at a fold at 3.903762157 sqrt(g/a)" in shapes.stdout
     carousel = python(ROOT / "examples/python/swing_carousel.py")
     assert "at 6 rad/s: 5 shapes, proved complete: True" in carousel.stdout
     plane = python(ROOT / "examples/python/chair_o_plane.py")
@@ -191,6 +200,28 @@ def test_what_the_programs_say(python):
     assert table and f"```text\n{table}```" in page and "wrote fit_measured_speeds.svg" in fitted.stdout
     assert "(figures/fit_measured_speeds.svg)" in page and (ROOT / "docs/figures/fit_measured_speeds.svg").is_file()
     assert "cannot tell links[0].mass and links[1].mass apart" in fitted.stdout
+
+
+def test_pipe_from_a_ship(python):
+    """Periods and offsets from matrices written here: tension from net weights, inertia with the added mass."""
+    done = python(PYTHON / "pipe_from_ship.py", ".")
+    rows = [[float(x) for x in line.split()] for line in done.stdout.splitlines()[1:6]]
+    assert [row[0] for row in rows] == [200, 400, 600, 800, 1000]
+    for length, *shown in rows:
+        lengths = np.array([8.0, *[length / 60] * 60])
+        net = np.array([12_000 - 1600, *[(29.0 - 3.8) * length / 60] * 60])
+        moved = np.array([15_000, *[(29.0 + 22.5) * length / 60] * 60])
+        tension = 9.80665 * (np.cumsum(net) - net / 2)  # of a rod in its middle
+        stiffness, mass = np.zeros((62, 62)), np.zeros((62, 62))
+        for m, (a, t, w) in enumerate(zip(lengths, tension, moved, strict=True)):
+            stiffness[m : m + 2, m : m + 2] += t / a * np.array([[1, -1], [-1, 1]])
+            mass[m : m + 2, m : m + 2] += w / 6 * np.array([[2, 1], [1, 2]])
+        speeds = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(mass[:-1, :-1], stiffness[:-1, :-1])).real)[:4])
+        np.testing.assert_allclose(shown[:4], 2 * np.pi / speeds, atol=0.0051)
+        for period, found in zip((8.0, 12.0), shown[4:], strict=True):
+            dynamic = stiffness - (2 * np.pi / period) ** 2 * mass
+            tip = np.linalg.solve(dynamic[:-1, :-1], -2.0 * dynamic[:-1, -1])[0]
+            np.testing.assert_allclose(found, abs(tip), atol=0.00051)
 
 
 @pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)
