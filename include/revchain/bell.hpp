@@ -46,7 +46,7 @@ template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
     std::array<T, 2> inclination_ratio;  ///< clapper's over bell's; one piece where the first is 1
-    T silent_height;                     ///< l1 + a2, the conical height of the slower mode when they are one piece
+    T silent_height;                     ///< l1 + a2, the conical height of the slower mode if they swing as one piece
     T mismatch;  ///< h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 when they are one piece, §8 (16)
     ByBellDatum<T> present;     ///< the data
     ByBellDatum<T> derivative;  ///< of the first inclination ratio with respect to each datum

@@ -42,11 +42,11 @@ enum class BranchEnd {
     height,    ///< at the conical height asked for
     vertical,  ///< back at the straight chain
     closed,    ///< at the point it started from
-    budget,    ///< after so many points
+    budget,    ///< after `max_points` points
     stuck,     ///< no step could be taken that passes every check
-    slow,      ///< at a tenth of the slower of the first critical speed and the speed asked for: on the way to rest
-    slack,     ///< where flywheels take the effective tension from a link, which comes to the horizontal
-    loose,     ///< where the spring at the support no longer holds the whole: it is drawn out a thousand lengths
+    slow,      ///< on the way to rest, at a tenth of the first critical speed, or of the given one if that is slower
+    slack,     ///< where flywheels make the effective tension of a link 0: it reaches the horizontal
+    loose,     ///< where the spring at the support can no longer hold the rig: it is stretched to a thousand lengths
 };
 inline std::string_view to_string(BranchEnd end) {
     constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
@@ -57,7 +57,7 @@ inline std::string_view to_string(BranchEnd end) {
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
     rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
-    fold,      ///< isolated: two shapes are born at a speed, a fold, or it is closed
+    fold,      ///< isolated: it begins at a fold, where two shapes appear together, or it is closed
 };
 inline std::string_view to_string(BranchBirth birth) {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
@@ -69,7 +69,7 @@ inline std::string_view to_string(BranchBirth birth) {
 /// The arc s has no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where tau is given by
 /// tan(inclination) = sinh(tau).
 struct Branch {
-    Index mode = 0;  ///< the mode at which it leaves the vertical; 1: from rest; 0: an isolated one
+    Index mode = 0;  ///< the mode at which it leaves the vertical; 1 also for the branch from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
     /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free end; `top_tension`:
     /// size of the reaction at the support; the others as in SteadyShape.
@@ -87,8 +87,8 @@ struct Branch {
     /// Throws InvalidArgument for a point that is the straight chain (point 0 on the branch of a mode), past the end,
     /// and for a shape that does not balance in double-double.
     SteadyShape shape(std::size_t point) const;
-    /// The shapes at which the branch, as far as it was followed, passes a conical height, in the order of the arc.
-    /// Accuracy: as of `steady_shape`. Cost: one look at every point, and O(N) for each shape.
+    /// The shapes of the branch, as far as it was followed, at a conical height, in the order of the arc.
+    /// Accuracy: as of `steady_shape`. Cost: a test of every point, and O(N) for each shape.
     /// Throws InvalidArgument for a height that is not positive and finite.
     std::vector<SteadyShape> shapes_at(double conical_height) const;
 
@@ -125,12 +125,13 @@ Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
 /// The branch of a mode of a rig, or, where its support is off the axis, the branch from rest.
 ///
-/// In the axis modes are numbered as by `modes` in the direction of rotation. Off the axis no shape is straight and no
-/// branch leaves the vertical: the branch from rest, `mode` 1, begins at a tenth of the slower of the first critical
-/// speed (of the rig with its support in the axis) and the speed given. `branches` finds the others, which are born in
-/// folds. Where links stand or lean against their load, a branch may begin towards slower speeds; it is followed up to
-/// a tenth of the speed of its mode. Along a branch every link keeps its posture.
-/// The arc counts the stretch of a spring at the support, over the length of the chain, as the tau of one link more.
+/// With the support on the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no shape
+/// is straight and no branch leaves the vertical. The branch from rest, `mode` 1, then begins at a tenth of the first
+/// critical speed (of the rig with its support on the axis), or of the given speed if that is slower. `branches` finds
+/// the others, which begin at folds. Where links stand or lean against their load, a branch may begin towards slower
+/// speeds; it is followed down to a tenth of the speed of its mode. Along a branch every link keeps its posture.
+/// The arc includes the stretch of a spring at the support, divided by the length of the chain, as tau of one more
+/// link.
 /// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
 /// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
 Branch branch(const Rig& rig, const BranchOptions& options);
@@ -141,20 +142,20 @@ struct BranchesOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< number of proved lists of all shapes, at heights evenly spaced in the logarithm
+    int lists = 16;                 ///< number of heights, evenly spaced in the logarithm, with a proved list of shapes
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< links to look at to prove that no branch is missing, 0.1 to 1 microsecond each
+    long proof_budget = 1'000'000;  ///< of the proof that no branch is missing: link evaluations, 0.1 to 1 us each
     double gravity = conical_pendulum::standard_gravity;
     int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// All branches found above one conical height.
 struct Branches {
-    /// Those of the modes, slowest first, or the one from rest; then isolated ones by where they are born.
+    /// Those of the modes, slowest first, or the one from rest; then isolated ones, sorted by where they begin.
     std::vector<Branch> branches;
     double conical_height = 0;  ///< lowest conical height of the diagram
-    /// Every branch ends at that height or is closed, and at every height looked at the branches cross each shape of
-    /// the proved list once and nothing else.
+    /// Every branch ends at that height or is closed, and at every height of `looked_at` the branches pass each shape
+    /// of the proved list once, and no other shape.
     bool consistent = false;
     bool complete = false;          ///< consistent, and proved: no branch is missing, not even between those heights
     std::vector<double> looked_at;  ///< conical heights of those lists, descending
@@ -168,9 +169,9 @@ struct Branches {
 /// up. Each shape is matched with a crossing of a branch. A shape that no branch crosses lies on an isolated branch,
 /// which is followed from it both ways. `consistent` is true if all lists are proved complete and every shape in them
 /// is met once. finite::DiagramProver then shows that no loop opens and closes between two of the heights, or finds it,
-/// and sets `complete`. `complete` stays false where the proof's budget ends, and where links could hang at several
-/// inclinations; `remark` says between which heights. The proof is about where branches are. It is checked, not proved,
-/// that a computed branch is one of them (see finite::BranchWalk).
+/// and sets `complete`. `complete` stays false where the budget of the proof runs out, and where links could hang at
+/// several inclinations; `remark` says between which heights. The proof shows where branches are. That a computed
+/// branch is one of them is checked, not proved (see finite::BranchWalk).
 /// Accuracy: as of `branch`.
 /// Cost: that of the lists and of the proof: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30
 /// ms for six; eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with AVX-512;
@@ -184,9 +185,9 @@ Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 ///
 /// The proof covers rigs whose links all hang in tension, each at one inclination for its load, at every speed up to
 /// the one given: on springs, on an arm, with flywheels, in fluids. Below the first critical speed there is then one
-/// shape (in the axis none): in the sines of the inclinations the energy in the turning frame is convex. A spring
-/// cannot hold the whole where its stiffness times the conical height is less than the weight that moves: at such
-/// heights the diagram is not proved, and `remark` says so.
+/// shape (none with the support on the axis): as a function of the sines of the inclinations, the energy in the turning
+/// frame is convex. A spring cannot hold the rig where its stiffness times the conical height is less than the weight
+/// that moves: at such heights the diagram is not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
 Branches branches(const Rig& rig, const BranchesOptions& options);
 
@@ -228,12 +229,12 @@ struct ShapesOnBranch {
 /// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
 SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
 
-/// The first shape along a branch of a rig at which one number is as given. In the axis `mode` is that of the rig; off
-/// the axis it must be 1: the branch is followed from rest, from a ten-thousandth of the first critical speed, or from
-/// slower than the speed given.
+/// The first shape along a branch of a rig at which one number is as given. With the support on the axis, `mode` is a
+/// mode of the rig. Off the axis it must be 1: the branch from rest, followed from a ten-thousandth of the first
+/// critical speed, or from below the given speed.
 ///
-/// The tip inclination is that of the lowest link, of its size, off the axis outwards; between pi/2 and pi where that
-/// link stands. The top tension is that at the topmost pin of the chain, as `SteadyShape::tension`.
+/// `tip_inclination` is the size of the lowest link's inclination, off the axis the inclination outwards; it is between
+/// pi/2 and pi if that link stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`.
 /// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
 SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options);
 

@@ -24,19 +24,19 @@
 /// may weights: speeds depend on their ratios alone. Numbers are kept exactly as given. Greenhill (1908) section 8.
 namespace revchain {
 
-/// Powers of two that bring the total weight and the largest length to the order of 1: exact, and what keeps every
-/// recursion in range whatever the user's units.
+/// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by them is exact, and
+/// keeps every recursion in range whatever the user's units.
 struct ChainUnits {
     int weight_exponent = 0;
     int length_exponent = 0;
 };
 
 /// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0 is the free end, pin
-/// `size()` the support. Checked once here, immutable, and trusted by everything that reads it.
+/// `size()` the support. A chain is checked once, by its constructor, and is immutable.
 ///
 /// Throws InvalidArgument, naming the link (counted from 0, lowest first), for: no links; numbers that are not finite;
 /// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
-/// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T
+/// than hang (W h + a S <= 0, S the weight hung below it); lengths, centroids or radii of gyration too far apart for T
 /// (2^(max_exponent/4): 1e77 in double).
 /// Cost O(N) once; memory one number per stored number.
 template <Real T>
@@ -69,11 +69,11 @@ class Chain {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
 
-    /// `count` straight links of equal length, each the piece of a cord whose line density is as x^exponent, x from the
-    /// free end: 0 is `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at the free end.
-    /// Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
-    /// Throws InvalidArgument, too, for an exponent that is not above -1 or above 1000, and where the lowest link would
-    /// be left with no weight that T can hold. Accuracy and cost: system/tapered_links.hpp.
+    /// `count` straight links of equal length, cut from a cord whose line density is proportional to x^exponent, x from
+    /// the free end. Exponent 0 gives `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at
+    /// the free end. Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
+    /// Also throws InvalidArgument for an exponent not above -1 or above 1000, and if the weight of the lowest link is
+    /// too small for T. Accuracy and cost: system/tapered_links.hpp.
     static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
         if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
@@ -84,14 +84,16 @@ class Chain {
         detail::TaperedLinks<T> links = detail::tapered_links<T>(count, link, exponent, weight);
         if (!(links.weight[0] >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon()))
             detail::throw_invalid(
-                place, "the lowest link is left with too little weight for this scalar by an exponent of", exponent);
+                place,
+                "the weight of the lowest link is too small for this scalar; use fewer links or a smaller exponent",
+                exponent);
         return Chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio),
                      exponent);
     }
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
-    /// The exponent of the line density of a chain that `tapered` made, or of a copy of it; nothing for others.
+    /// The exponent of the line density of a chain that `tapered` made, or of a copy of it; no value for other chains.
     std::optional<double> taper() const { return taper_; }
 
     Index size() const { return size_; }
@@ -104,9 +106,9 @@ class Chain {
     /// The number of finite conical heights: N, less one for each coordinate that carries no inertia.
     Index mode_count() const { return mode_count_; }
     T total_weight() const { return total_weight_; }
-    /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`: within 14 of its operations where it is a double word
-    /// (measured: 0.27); exact to one operation where one weight serves all links. Cost: O(1) where m is a multiple of
-    /// `segment_size`, else O(segment_size) (70 ns in double).
+    /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14 operations of a double
+    /// word (measured: 0.27), and of one operation where one weight serves all links. Cost: O(1) where m is a multiple
+    /// of `segment_size`, else O(segment_size) (70 ns in double).
     Wide<T> weight_below(Index m) const {
         const Index whole = m / segment_size, rest = m % segment_size;
         if (weight_.is_scalar()) return times(weight_[0], m);
@@ -122,7 +124,7 @@ class Chain {
     }
     /// Whether no centroid lies above its link's upper pin.
     bool centroids_below() const { return centroids_below_; }
-    /// Whether the ratio of the weights (up to 1e123 in double) lets one unit serve them all.
+    /// Whether the weights are close enough together for one unit (ratios up to 1e123 in double).
     bool has_one_weight_unit() const { return one_weight_unit_; }
     /// Straight length from the support to the free end.
     T total_length() const { return total_length_; }
@@ -200,8 +202,7 @@ T least_size(const Column<T>& column, const T& given) {
 
 }  // namespace detail
 
-/// One pass over each column in loops that compilers vectorise. Links are read one by one only where that finds a
-/// fault.
+/// One pass over each column in loops that compilers vectorise. Links are read one by one only if that finds a fault.
 template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
@@ -237,8 +238,10 @@ void Chain<T>::check() {
     if (!(isfinite(weights.sum) && weights.least >= T(0) && weight_[0] > T(0) && isfinite(lengths.sum) &&
           lengths.least > T(0) && isfinite(centroids.sum) && radii))
         check_each_link();
-    if (!isfinite(weights.sum)) detail::throw_invalid("Chain", "the weights add up to infinity, each", weight_[0]);
-    if (!isfinite(lengths.sum)) detail::throw_invalid("Chain", "the lengths add up to infinity, each", length_[0]);
+    if (!isfinite(weights.sum))
+        detail::throw_invalid("Chain", "the weights add up to infinity; use a larger unit; each weight", weight_[0]);
+    if (!isfinite(lengths.sum))
+        detail::throw_invalid("Chain", "the lengths add up to infinity; use a larger unit; each length", length_[0]);
 
     total_weight_ = static_cast<T>(weights.sum);
     total_length_ = static_cast<T>(lengths.sum);
@@ -253,8 +256,8 @@ void Chain<T>::check() {
                                            detail::in_digits(largest_length_));
     if (largest_ratio / span > span || least_ratio < T(1) / span / span)
         detail::throw_invalid("Chain",
-                              "a radius of gyration is too far from its link's length for this scalar; its square over "
-                              "that of the length",
+                              "the radius of gyration of a link is too far from its length for this scalar; "
+                              "(radius of gyration / length)^2",
                               largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
     // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of its own.
@@ -280,9 +283,9 @@ void Chain<T>::check_each_link() const {
         below = below + Wide<T>(it.weight);
         straight = straight + Wide<T>(it.length);
         if (!isfinite(below))
-            detail::throw_invalid(at(m), "the weights add up to infinity, from this link's", it.weight);
+            detail::throw_invalid(at(m), "the weights add up to infinity; use a larger unit; its weight", it.weight);
         if (!isfinite(straight))
-            detail::throw_invalid(at(m), "the lengths add up to infinity, from this link's", it.length);
+            detail::throw_invalid(at(m), "the lengths add up to infinity; use a larger unit; its length", it.length);
     }
 }
 
@@ -303,15 +306,16 @@ void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
             if (!(share > Wide<T>(T(0))))
                 detail::throw_invalid(
                     "Chain: links[" + std::to_string(m) + "]",
-                    "it would stand, not hang: weight x centroid + length x (weight below) must be positive",
+                    "it would stand, not hang; lower its centroid or put more weight below it: weight x centroid + "
+                    "length x (weight below) must be positive",
                     ldexp(detail::times_length(share, length_[m]), exponent));
         }
         below = below + Wide<T>(weight_[m]);
     }
 }
 
-/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), from the links, from the support down: `free` says whether
-/// the pin reached so far can move without inertia.
+/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from the support down. `free` says
+/// whether the pin reached so far can move without inertia.
 /// A massless thread between two rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
 template <Real T>
 Index Chain<T>::inertialess_coordinates() const {

@@ -157,8 +157,9 @@ struct HeldPlummet {
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
 /// the polygon KN, NP, PC', C'K of §1. With D the depth where both are straight, the lower thread is slack where
-/// height >= D, and the upper one where height <= D - distance: a conical pendulum on the other one.
-/// It is where depth + radius^2/(2 height) is largest within reach of both: that has one maximum along their limits.
+/// height >= D, and the upper one where height <= D - distance; the plummet is then a conical pendulum on the other.
+/// The plummet takes the place within reach of both threads where depth + radius^2/(2 height) is largest; this function
+/// has one maximum there.
 /// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
 /// Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
@@ -246,7 +247,7 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
     if (!(farthest <= std::numeric_limits<T>::max() / T(2)) || !(c > T(0)))
-        detail::throw_invalid(place, "height must not be so small beside length and radius", height);
+        detail::throw_invalid(place, "height must be larger, else the tangent of an inclination overflows", height);
     const auto function = [&](const T& t) {
         const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant, versed = t / (secant + T(1)) * (t / secant);
         const T slope = c - cosine * cosine * cosine;

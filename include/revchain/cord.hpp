@@ -34,8 +34,8 @@
 /// Greenhill (1908) section 4.
 namespace revchain {
 
-/// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first. Of a cord that is held straight
-/// at both ends the free end is the lower end.
+/// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first. For a cord held straight at
+/// both ends, the lower end takes the place of the free end.
 struct CordModes {
     Cord cord;
     Index first = 1;                  ///< number of the slowest mode here
@@ -47,18 +47,18 @@ struct CordModes {
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, divided by that of the free end; of a cord held at both ends, by
-    /// the largest one, which is that at the lowest vertical point. Throws InvalidArgument for s not in 0 ... length.
-    /// Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
+    /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord held at both ends it
+    /// is divided by the largest offset, which is at the lowest vertical point. Throws InvalidArgument for s not in
+    /// 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
     double offset(Index j, double s) const;
     Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
     double slope(Index j, double s) const;
     Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending, without the ends held.
+    /// Arc lengths at which the mode at index j crosses the axis, ascending; held ends are left out.
     Vector<double> nodes(Index j) const;
-    /// Arc lengths at which it is vertical, one above each node, ascending: what hangs below has its centre of gravity
-    /// on the axis. Of a cord held at both ends one below each node, and one below the upper end.
+    /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below has its centre of
+    /// gravity on the axis. For a cord held at both ends there is one below each node, and one below the upper end.
     Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -69,11 +69,11 @@ struct CordModes {
 /// The modes chosen by `options`: by `first` and `count` (absent: ten) or by a window of heights or speeds that holds
 /// finitely many.
 ///
-/// Methods and accuracy: a uniform cord has lambda_k = 4 L / j_{0,k}^2, to 3 ulp; one whose density goes like s^p has
-/// 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of Bessel
-/// functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says the
-/// same; it was measured, for exponents from -0.99 to 100. Offsets are within 1e-15 times the mode number, with series
-/// within 1e-14, of the largest one; slopes likewise.
+/// Methods and accuracy: a uniform cord has lambda_k = 4 L / j_{0,k}^2, to 3 ulp; one with a density proportional to
+/// s^p has 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of
+/// Bessel functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says
+/// the same; it was measured, for exponents from -0.99 to 100. Offsets are within 1e-15 times the mode number, with
+/// series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
 /// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for
@@ -98,20 +98,20 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options);
 CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
 Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
-/// d(conical height)/d(datum) of each mode, (k,); all else is held. Of speeds: d n = - n / (2 lambda) d lambda.
+/// d(conical height)/d(datum) of each mode, (k,), with all other data constant. For speeds dn = -n/(2 lambda) d lambda.
 struct CordSensitivity {
     Index first = 1;
-    Vector<double> length;      ///< of a cord as a whole, its density spread in proportion
-    Vector<double> weight;      ///< of the cord without its tip, spread in proportion
-    Vector<double> tip_weight;  ///< 0 of a cord held at both ends
-    Vector<double> exponent;    ///< of the density, the weight kept; NaN where it is a function
-    Vector<double> tension;     ///< at the upper end; 0 of a cord that hangs
+    Vector<double> length;      ///< of the whole cord; its density stretches with it
+    Vector<double> weight;      ///< of the cord without its tip, in proportion everywhere
+    Vector<double> tip_weight;  ///< 0 for a cord held at both ends
+    Vector<double> exponent;    ///< of the density, at constant weight; NaN where the density is a function
+    Vector<double> tension;     ///< at the upper end; 0 for a cord that hangs
 };
 
-/// How the data of a cord move the heights of its modes. A change dV of the weight below, tip and all, moves
-///     lambda = integral of y^2 dV / integral of V y'^2    by    - integral of dV y' (2 y + lambda y') / that of V
-/// y'^2.
-/// Heights are as the length; they depend on the ratio of weights (and tension) alone.
+/// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of the weight below a
+/// point, tip included, changes
+///     lambda = integral of y^2 dV / I    by    - integral of dV y' (2 y + lambda y') / I,    I = integral of V y'^2.
+/// Heights are proportional to the length; otherwise they depend only on ratios of weights (and tension).
 /// Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
 /// held at both ends two slopes, or 16 for each half wave.
 CordSensitivity sensitivity(const CordModes& modes);
@@ -131,8 +131,8 @@ CordBranch branch(const Cord& cord, const BranchOptions& options);
 /// The whole diagram of branches down to the conical height or speed given: those of the modes, and isolated ones.
 ///
 /// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes (`steady_shapes`) at `lists`
-/// heights are brought together with the branches. A shape that no branch meets lies on an isolated branch, which is
-/// followed both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
+/// heights are compared with the branches. A shape that no branch passes lies on an isolated branch, which is followed
+/// both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
 /// uniform cord, a power s^p without a tip or with p below 0, and one mode.
 /// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
 CordBranches branches(const Cord& cord, const BranchesOptions& options);
@@ -140,9 +140,9 @@ CordBranches branches(const Cord& cord, const BranchesOptions& options);
 /// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
 /// tip radius or top tension.
 ///
-/// Accuracy: the shape is within its `error_bound`, an estimate, of the one at its conical height. That height is as
-/// given, or within 1e-14 of that at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of the branch up
-/// to there.
+/// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical height. That height is
+/// the given one, or within 1e-14 of the one at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of
+/// the branch up to there.
 /// Throws InvalidArgument as `steady_shape` of a chain does.
 CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
 
@@ -152,25 +152,25 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 
 /// The stability of a steady shape of a cord that hangs.
 ///
-/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), 8 and 10 nodes each. `exponents` are those
-/// of which the two agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely many. `margin`
-/// covers by how much the two differ in the growth rate; where they differ in the verdict, or in the number of negative
-/// directions, it is `undecided`. Only finitely many directions have negative energy, and only as many motions can
-/// grow, so that what is left out, of high frequency, stays as it is. `internal_damping` is NaN: friction of bending
-/// needs a stiffness that a flexible cord has not. `external_damping`: the drag of still air on a length of cord over
-/// its length and velocity, as of a chain.
+/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with 10 nodes a panel.
+/// `exponents` are those on which both agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely
+/// many. `margin` covers the difference of the two growth rates. If the two verdicts or numbers of negative directions
+/// differ, the verdict is `undecided`. Only finitely many directions have negative energy, and only as many motions can
+/// grow, so the motions of high frequency that are left out do not grow. `internal_damping` is NaN: friction in bending
+/// needs a stiffness, which a flexible cord does not have. `external_damping` is for the drag of still air on a piece
+/// of cord over its length and velocity, as of a chain.
 /// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip to 2e-9 against
 /// chains with Richardson's extrapolation: tests/python/test_cord_branches.py); those of N links differ as 1/N^2
 /// (tests/cpp/cord_branches.cpp).
-/// Cost: that of a chain of 10 links a panel, two to four panels a half wave and more: 15 ms without nodes, 0.3 s for
-/// three half waves.
+/// Cost: that of a chain with 10 links for each panel, and two to four panels or more for each half wave: 15 ms without
+/// nodes, 0.3 s for three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.
 Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
 /// The same for a shape of a cord held at both ends. The ends stay in their places.
 Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame = StabilityFrame::free);
 
-/// A start of a cord: none (on the axis, at rest); values at `CordSwingOptions::arc_length`, straight between them; or
-/// a continuous function of the arc length. The support's must be 0.
+/// The offsets or velocities of a cord at time 0: none (all 0); values at `CordSwingOptions::arc_length`, linear
+/// between them; or a continuous function of the arc length. The value at the support must be 0.
 using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
 
 /// The start of a swing, and the times and places of its results.
@@ -178,7 +178,7 @@ struct CordSwingOptions {
     CordStart offset{};           ///< at time 0
     CordStart velocity{};         ///< at time 0
     std::vector<double> time{};   ///< of either sign, in any order
-    Vector<double> arc_length{};  ///< ascending, 0 (the free end) ... length; empty: 101 places evenly apart
+    Vector<double> arc_length{};  ///< ascending, 0 (the free end) ... length; empty: 101 equally spaced places
     Index count = 40;             ///< of the slowest modes that are superposed
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;
@@ -186,20 +186,21 @@ struct CordSwingOptions {
 
 /// A cord swinging in a plane with small amplitude: the sum of its modes, each at its own frequency.
 struct CordSwing {
-    Vector<double> arc_length;         ///< (n) where it is looked at
+    Vector<double> arc_length;         ///< (n) places of the offsets
     Table<double> offset, velocity;    ///< (times, n) sums of the modes kept
     Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
     Vector<double> energy;             ///< (k,) of each mode, weight times length; it stays in the mode
     Table<double> shape;               ///< (k, n) of each mode, 1 at the free end
     Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
-    double energy_left_out = 0;        ///< of the start beside the modes kept
+    double energy_left_out = 0;        ///< of the start, outside the modes kept
     Vector<double> error_estimate;     ///< (n) of an offset at any time, from the modes up to number 2 k
 };
 
 /// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.
 ///
-/// `error_estimate`: what modes k + 1 ... 2 k do at most, and all beyond, falling as those do from k / 2 ... k. A start
-/// with a kink in a cord without a tip is slow to converge at the free end, as k^-1/2: waves meet there.
+/// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher modes, extrapolated
+/// from the decrease between modes k/2 ... k and k + 1 ... 2 k. For a start with a kink in a cord without a tip,
+/// convergence at the free end is slow, as k^-1/2, because waves meet there.
 /// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of swings. Measured
 /// against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800 places and more, 1 to 15 microseconds
 /// each.
@@ -207,7 +208,8 @@ struct CordSwing {
 /// support, for places out of order, a count below 1 or above 1e4, gravity not positive and times not finite.
 CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 
-/// Throw InvalidArgument: these questions about a cord have no answer yet. The message says what to ask instead.
+/// Throw InvalidArgument: the C++ library does not answer these questions about a cord yet. The message says what to
+/// call instead. The Python function `tune` tunes a cord.
 Tuned tune(const Cord& cord, const TuneOptions& options);
 Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 

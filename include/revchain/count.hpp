@@ -109,8 +109,8 @@ class ModeCounter {
                      gravity / angular_speed / angular_speed);
     }
 
-    /// The modes whose heights lie in the window: what exceeds `low` and does not exceed `high`, by `above_height`.
-    /// Windows that meet share no mode and lose none. Throws InvalidArgument unless 0 <= low < high.
+    /// The modes whose heights lie in the window: those above `low` and not above `high`, by `above_height`. Adjacent
+    /// windows share no mode and miss none. Throws InvalidArgument unless 0 <= low < high.
     ModeRange within(const HeightWindow<T>& window) const {
         return detail::modes_within(window, mode_count_, [&](const T& height) { return above_height(height); });
     }
@@ -146,8 +146,8 @@ class ModeCounter {
 
 namespace detail {
 
-/// The counter of a chain that outlives this, and its pencils, assembled when first asked for: a stage of `modes` that
-/// needs none shall not pay for them.
+/// The counter of a chain and its pencils, assembled when first needed, so that a stage of `modes` without counts does
+/// not pay for them. The chain must outlive it.
 template <Real T>
 class LazyCounter {
    public:
@@ -165,7 +165,7 @@ class LazyCounter {
 
 }  // namespace detail
 
-/// The speed below which modes are counted: one of the two.
+/// The speed below which modes are counted. Give one of `conical_height` and `angular_speed`.
 template <Real T>
 struct CountOptions {
     std::optional<T> conical_height{};                  ///< modes whose conical height exceeds it

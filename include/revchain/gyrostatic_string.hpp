@@ -14,11 +14,11 @@
 ///     revchain::wave_speeds(string, 0.3)[0];     // 21.6189 rad/s forward
 ///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
 ///
-/// Links are jointed in a row under one tension; their weight counts in their inertia only; offsets are small. It is a
-/// model of light in a magnetised body. Units: any consistent set, angles in rad.
+/// Links are jointed in a row under one tension. Their weight counts only as inertia; offsets are small. The string is
+/// a model of light in a magnetised body. Units: any consistent set, angles in rad.
 ///
-/// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each by
-/// an angle theta behind its neighbour:
+/// In a circular wave every pin runs round the line with the speed n, an angle theta behind its neighbour. The speed is
+/// positive in the direction of rotation of a wheel with positive momentum:
 ///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
 /// All functions are O(1). They throw InvalidArgument unless weight, length, tension and gravity are positive and all
 /// numbers finite, and for a negative radius of gyration.
@@ -36,8 +36,8 @@ struct GyrostaticString {
     T gravity = T(conical_pendulum::standard_gravity);  ///< turns weight into mass
 };
 
-/// Propagation of a circular wave: exp(i m phase) exp(-m attenuation) at link m. A wave that passes has no attenuation;
-/// one that does not has phase 0, or phase pi if neighbours move against each other.
+/// Propagation of a circular wave: exp(i m phase) exp(-m attenuation) at link m. A wave that propagates has attenuation
+/// 0. One that does not has phase 0, or phase pi if neighbours move against each other.
 template <Real T>
 struct LinkPhase {
     T phase{};        ///< 0 ... pi
@@ -71,7 +71,7 @@ Product<T> spin_ratio(const GyrostaticString<T>& s, const T& n) {
     return Product<T>::of(s.momentum).over(s.length).over(s.length).over(s.weight).times(s.gravity).over(n);
 }
 
-/// sin^2 and cos^2 of half the phase; one of them is negative if the wave does not pass.
+/// sin^2 and cos^2 of half the phase; one of them is negative if the wave does not propagate.
 template <Real T>
 std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
     using P = Product<T>;
@@ -118,11 +118,11 @@ std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) 
     return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
 }
 
-/// Angle by which the plane of a vibration to and fro turns from link to link, in the sense of a positive momentum:
-/// half the difference of the phases of its two circular parts. It is the same for waves in both directions, so a wave
-/// that comes back is turned twice. NaN if one of the parts does not pass. Accuracy: 8 ulp, also for a tiny momentum,
-/// divided by the cosine of half the larger phase where that is small. Also throws InvalidArgument for a speed that is
-/// not positive.
+/// Angle by which the plane of a vibration to and fro turns from link to link, positive in the direction of rotation of
+/// a wheel with positive momentum. It is half the difference of the phases of the two circular parts. It is the same
+/// for waves in both directions, so a wave that comes back is turned twice. NaN if one of the parts does not propagate.
+/// Accuracy: 8 ulp, also for a tiny momentum, divided by the cosine of half the larger phase where that is small. Also
+/// throws InvalidArgument for a speed that is not positive.
 template <Real T>
 T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;

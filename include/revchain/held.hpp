@@ -35,29 +35,33 @@ namespace revchain {
 struct HeldBy {
     std::optional<double> span{};     ///< distance of the two ends along the axis, less than the length
     std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
-    bool weightless = false;          ///< no gravity: weights are masses; between firm ends the speed plays no part
-    Support lower{};                  ///< of a chain: what holds its lower end; a radius below 0 is on the other side
-    Support upper{};                  ///< what holds its upper end
+    bool weightless = false;  ///< no gravity: weights are masses; between firm ends shapes do not depend on speed
+    Support lower{};          ///< of a chain: support of its lower end; a negative radius is on the other side
+    Support upper{};          ///< of a chain: support of its upper end
 
     bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
     bool firm() const { return lower.is_firm() && upper.is_firm(); }
 };
 
-/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis
-/// unless `lower` and `upper` say otherwise: on a spring, alike in all directions across the axis, or carried round the
-/// axis at a radius, both in one plane with it, as two arms of a jib are.
+/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis by
+/// default. `lower` and `upper` put an end of a chain on a spring, equal in all directions across the axis, or carry it
+/// round the axis at a radius, as two arms of a jib do. Both ends and the axis lie in one plane.
 ///
-/// Throws InvalidArgument unless exactly one of span and tension is given, for one that is not positive and finite, a
-/// span that is not less than the length, firm ends as far apart as the length, stiffnesses not positive, carriages
-/// negative, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform
-/// or has a tip weight.
+/// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite; for a span that is not
+/// less than the length, firm ends as far apart as the length, a stiffness not positive, a negative carriage weight,
+/// numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform or has a
+/// tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
 
    public:
     Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) {
-        if (by.span.has_value() == by.tension.has_value()) detail::throw_invalid("Held", "give either span or tension");
+        if (by.span.has_value() == by.tension.has_value())
+            detail::throw_invalid("Held", std::string("give either span or tension, got ") +
+                                              (by.span ? "both: span " + detail::in_digits(*by.span) + ", tension " +
+                                                             detail::in_digits(*by.tension)
+                                                       : "neither"));
         if (by.tension) detail::require_positive("Held", "tension", *by.tension);
         if (by.span) detail::require_positive("Held", "span", *by.span);
         if (by.span && !(*by.span < length()))
@@ -102,47 +106,47 @@ class Held {
     HeldBy by_;
 };
 
-/// The speed, and how many half waves to look for. With gravity give either `conical_height` or `angular_speed`.
-/// Without gravity do not give `conical_height`; a tension then needs `angular_speed`, a span needs neither.
+/// The speed, and the numbers of half waves to look for. With gravity give either `conical_height` or `angular_speed`.
+/// Without gravity give `angular_speed` with a tension or with springs; with a span between firm ends it is optional.
 struct HeldShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
-    int max_half_waves = 1;                               ///< shapes of 1 to so many half waves are looked for
+    int max_half_waves = 1;                               ///< largest number of half waves to look for
     bool prove = true;      ///< of chains: whether error bounds and completeness are proved
-    long budget = 300'000;  ///< limit of looks at links for the proof of completeness, 1 to 2 microseconds each
+    long budget = 300'000;  ///< of the proof of completeness: links looked at, 1 to 2 microseconds each
 };
 
-/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves: these are counted
-/// about the line between the places of rest of the two ends, and ends on springs count as pins do. The first of each
-/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then brought to their
-/// radii and springs, then gravity grows. For a tension these are all shapes on that branch with this tension at the
-/// upper end. Then, of a chain, every other shape found. Each link points along the force on it, as threads do.
-/// `missing` lists the numbers of half waves for which there is none.
-/// `complete`: proved, no other shape has one of these numbers of half waves. Otherwise `undecided` gives the ranges of
-/// the lowest link's inclination (rad) with which others may begin. A cord has `complete` only at a span without
-/// gravity.
+/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, sorted by half waves. Half waves
+/// are counted about the line between the places of rest of the two ends; ends on springs count as pins do. The first
+/// shape of each number is reached from the nearly straight chain without gravity: the ends are drawn together, then
+/// brought to their radii and springs, then gravity grows. For a tension there follow all other shapes on that branch
+/// with this tension at the upper end. For a chain there follows every other shape found. Every link is in tension.
+/// `missing` lists the numbers of half waves for which no shape was found.
+/// `complete` true: it is proved that no other shape has one of these numbers of half waves. Otherwise `undecided`
+/// gives the ranges of the lowest link's inclination (rad) of possible other shapes. For a cord `complete` is true only
+/// at a span without gravity.
 ///
 /// `HeldShape` (finite/held/shape.hpp) and `HeldCordShape` (finite/held/cord.hpp) give forces times the conical height.
 /// Divide by `conical_height` for the unit of the weights; without gravity multiply by the square of the speed for
 /// newtons. A branch has a narrow range of tensions: those of the skipping rope lie between 1/(pi k)^2 and 1/(8 k^2) of
-/// mass times length times the speed squared, k the half waves. With gravity the tension is largest inside the branch,
-/// so that two spans have the same tension.
+/// mass times length times the speed squared, for k half waves. With gravity the tension has a maximum along the
+/// branch, so that two spans have the same tension.
 /// Method for chains: the two forces at the lower end are the unknowns of the upward sweep of Greenhill (1908) section
 /// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
 /// double-double, and Krawczyk's test in intervals of double-double proves the bound. The list is proved complete by
 /// splitting all pulls along the lowest link, and all its inclinations, until each part has one shape for certain or
-/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 99 of 108 lists of 3, 6 and 9 links with l <= a, one
-/// half wave; none of chains with l > a or with massless links between others, and seldom of two half waves or more.
-/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On arms and
-/// springs: all of 36 lists of 3 links and two half waves, 25 of 36 of 4 links and three; past the resonance of a
-/// carriage on its spring 8 of 24 of 3 links and three (tests/python/test_held_ends.py has part of them).
-/// For cords: power series of degree
-/// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
-/// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
-/// places of cords are within 1e-13 of the length, the bound an estimate. A tension is met to 1e-15 of it.
+/// none (finite/held/search.hpp). Lists proved complete (tests/cpp/held.cpp): 99 of 108 for 3, 6 and 9 links with
+/// l <= a and one half wave; none for chains with l > a or with massless links between others; few for two half waves
+/// or more. Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On
+/// arms and springs: all of 36 for 3 links and two half waves, 25 of 36 for 4 links and three; above the resonance of a
+/// carriage on its spring 8 of 24 for 3 links and three (tests/python/test_held_ends.py has part of them).
+/// Method for cords: power series of degree 24; without gravity the shape is that of section 5, y = b sn(K x/a).
+/// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, and their bound is mostly proved
+/// (tests/cpp/held.cpp). Places of cords are within 1e-13 of the length, and their bound is an estimate. The tension
+/// agrees with the one given to 1e-15, relative.
 /// Cost: about 100 sweeps of 0.1 microseconds a link, or 100 paths of 20 microseconds for a cord; for a tension the
-/// whole branch, some thousand sweeps. Completeness: 10 to 500 ms; with `budget` 0 it is not looked for.
+/// whole branch, some thousand sweeps. The proof of completeness takes 10 to 500 ms; `budget` 0 leaves it out.
 /// Throws InvalidArgument where the speed is not given as above or is not positive and finite, where g/n^2 leaves the
 /// range of double, for `max_half_waves` below 1, and for weights more than 1e123 apart.
 HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options = {});
@@ -151,7 +155,7 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
 /// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
 /// largest offset is 1, and that of the lowest pin that moves is positive; nodes are distances from the lower end.
-/// Shapes of finite amplitude begin at these heights, where the span is all but the length. Without gravity a height is
+/// Shapes of finite amplitude begin at these heights, where the span is nearly the length. Without gravity a height is
 /// `gravity` over the square of the speed, with the gravity of the options. Modes of a held cord: cord.hpp.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
@@ -178,47 +182,52 @@ struct HeldBranchesOptions {
 };
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 up to the last that has a
-/// shape at the greatest speed. Each begins there with the shape that is reached from the nearly straight one without
-/// gravity between firm ends on the axis (radii and the springs' compliances are then brought in), and is followed to
-/// slower speeds, through folds, until a link becomes slack or turns over (`slack`), the cord hangs folded along the
-/// axis (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths (`rest`: off
-/// the axis), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half waves is number k - 1 of
-/// these. Between ends off the axis there are two of each: modes 2 k - 1, whose lowest link first leads outwards, and
-/// 2 k, inwards. One that comes back to the greatest speed where another would begin stands for both.
+/// shape at the greatest speed. Each begins there, with the shape that is reached from the nearly straight one without
+/// gravity between firm ends on the axis (radii and the springs' compliances are then brought in). It is followed to
+/// slower speeds, through folds, until one of these happens: a link becomes slack or turns over (`slack`), the cord
+/// hangs folded along the axis (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000
+/// lengths (`rest`: off the axis), or 3000 steps are done (`budget`). There is no `branch` of one mode: the branch of k
+/// half waves is at index k - 1. Between ends off the axis there are two branches for each number: modes 2 k - 1, whose
+/// lowest link first leads outwards, and 2 k, inwards. A branch that comes back to the greatest speed where another
+/// would begin stands for both.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
 /// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
 /// none. Accuracy: 1e-15 rad where `condition` is moderate, an estimate. Cost: some hundred shapes of 10 sweeps each.
-/// Throws InvalidArgument for a tension, without gravity, unless exactly one of height and speed is given, positive and
-/// finite, and for a step not positive.
-/// A cord folds towards a slowest speed at which one of its two straight parts, hung from its end, begins to whirl; its
-/// offsets vanish there faster than any power of the distance, so that the last speed found is some percent above that.
+/// Throws InvalidArgument for a tension, without gravity, for a step not positive, and unless exactly one of height and
+/// speed is given, positive and finite.
+/// A cord folds as it approaches the slowest speed, at which one of its two straight parts, hung from its end, begins
+/// to whirl. Its offsets vanish there faster than any power of the difference of speeds, so the last speed found is
+/// some percent higher.
 std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options);
 std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options);
 
-/// Which shape of a branch: give one of the three after `mode`.
+/// Which shape of a branch. Give one of `conical_height`, `angular_speed` and `top_tension`.
 struct HeldShapeOptions {
-    int mode = 1;  ///< of the branch: half waves with which it begins; two for each off the axis, see `branches`
+    int mode = 1;  ///< number of half waves at the start of the branch; off the axis see `branches`
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s
     std::optional<double> top_tension{};    ///< at the upper end, in the unit of the weights
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// The shape of a chain or cord held at a span on the branch of `mode`: at a speed that which is reached from the
-/// nearly straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
-/// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
-/// `branches` does, for a mode below 1, a tension between springs, and where the branch does not reach what is given.
+/// The shape of a chain or cord held at a span on the branch of `mode`. At a speed it is the one reached from the
+/// nearly straight chain. With a tension at the upper end it is the fastest shape with this tension (its speed:
+/// `angular_speed()`). Accuracy: inclinations as of `steady_shapes`; the height for a tension to 1e-14. Throws
+/// InvalidArgument as `branches` does, for a mode below 1, a tension between springs, and where the branch does not
+/// reach what is given.
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
 HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options);
 
-/// Throws InvalidArgument: a held chain or cord cannot be tuned yet.
+/// Throws InvalidArgument: the C++ library cannot tune a held chain or cord yet. The Python function `tune` can.
 template <class System>
 Tuned tune(const Held<System>&, const TuneOptions&) {
-    detail::throw_invalid("tune", "a Held cannot be tuned yet; change its system and ask modes or steady_shapes again");
+    detail::throw_invalid("tune",
+                          "a Held cannot be tuned yet in C++ (Python's revchain.tune does it); change its system and "
+                          "call modes or steady_shapes again");
 }
 
-/// Throws InvalidArgument: there is one method for each question about a held chain or cord.
+/// Throws InvalidArgument: each question about a held chain or cord has one method only.
 template <class System>
 Explanation explain(const Held<System>&, const ModesOptions<double>& = {}) {
     detail::throw_invalid("explain", "modes of a Held have one method, bisection; there is no choice to explain");

@@ -8,7 +8,7 @@
 ///     revchain::hoop::tension(20.0);          // 40.7886 m of rim weigh as much as the tension at 20 m/s
 ///     revchain::hoop::speed(10000.0);         // 313.156 m/s: a rim with a breaking length of 10 km bursts
 ///
-/// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that weighs as much. Units: any consistent
+/// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that has this weight. Units: any consistent
 /// set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument unless every argument is positive and finite.
 namespace revchain::hoop {
 
@@ -20,7 +20,7 @@ T tension(const T& speed, const T& gravity = T(conical_pendulum::standard_gravit
 }
 
 /// v = sqrt(g h): the speed of a rim whose tension is h, and the speed of transverse waves relative to a string with
-/// that tension. With the breaking length for h it is the speed at which the rim bursts. §5 (3), (6)
+/// that tension. For h = breaking length it is the speed at which the rim bursts. §5 (3), (6)
 template <Real T>
 T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     using std::sqrt;
@@ -31,7 +31,7 @@ T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravit
 /// Speeds in space of the two waves on a rim.
 template <Real T>
 struct WaveSpeeds {
-    T standing;  ///< of the wave that runs against the rim: 0, so that it can be seen
+    T standing;  ///< of the wave that runs against the rim: 0, it stands still in space
     T running;   ///< of the wave that runs with the rim: twice its speed
 };
 

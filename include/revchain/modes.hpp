@@ -121,12 +121,12 @@ struct Modes {
 /// Results are bitwise the same whatever the number of threads.
 /// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
 /// Method: modes are counted in T at eight trial heights in one pass. A twisted factorization then gives a shape, and
-/// the shape a Rayleigh quotient in `Wide<T>`. Its residual or two counts prove the bound. A chain of floats is solved
-/// in double. In long double and wider scalars, heights come from bisection.
+/// the shape gives a Rayleigh quotient in `Wide<T>`. Its residual or two counts prove the bound. A chain of floats is
+/// solved in double. In long double and wider scalars, heights come from bisection.
 /// Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds eight at a time, shapes 0.006; one by one, as
 /// where weights need several units, 0.3. Memory O(N k) with shapes.
-/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window that is empty by its ends,
-/// numbers together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
+/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >= high, numbers
+/// together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});

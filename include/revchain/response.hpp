@@ -23,19 +23,19 @@ struct ResponseOptions {
     std::vector<double> conical_height{};      ///< of the speeds: give these or `angular_speed`
     std::vector<double> angular_speed{};       ///< rad/s; with a flywheel, negative ones turn the other way
     double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
-    std::optional<std::vector<Index>> pins{};  ///< only of these, in any order, 0 the free end; absent: of all
+    std::optional<std::vector<Index>> pins{};  ///< the pins wanted, in any order, 0 the free end; absent: all
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
     Index threads = 1;                                    ///< 0: all processors
     Progress* progress = nullptr;                         ///< read and cancelled from another thread
 };
 
-/// Steady forced motion of small amplitude; one row for each speed. To and fro along a line the numbers are the same,
-/// as amplitudes: offsets and forces then go with cos(n t).
+/// Steady forced motion of small amplitude; one row for each speed. For motion to and fro along a line the same numbers
+/// are amplitudes: offsets and forces are then these numbers times cos(n t).
 struct Response {
     std::vector<Index> pins;
-    Table<double> offset;          ///< (speeds, pins) towards where the support is; NaN at resonance
+    Table<double> offset;          ///< (speeds, pins) positive on the side of the support; NaN at resonance
     Vector<double> error_bound;    ///< of every offset of the chain, over the largest; infinite at resonance
-    Vector<Index> modes_below;     ///< modes slower than the drive, proved; at a resonance the resonant one left out
+    Vector<Index> modes_below;     ///< modes slower than the drive, proved; without the resonant one at a resonance
     std::vector<char> reversed;    ///< whether the free end is opposite to the support
     std::vector<char> resonant;    ///< whether the speed cannot be told from a resonance
     Vector<double> support_force;  ///< horizontal pull of the chain on what carries its support, outwards
@@ -45,12 +45,12 @@ struct Response {
 /// Forced motion of a chain whose support is carried round a circle of radius b, once free motions have died away:
 /// K y = M y / lambda with y = b at the support. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
 ///
-/// The dynamic stiffness of all that hangs below a pin is carried up in double-double, several speeds to a pass, with a
-/// bound of its error; ratios of neighbouring offsets lead down again. Speeds left in doubt, next to a resonance or
-/// where a pin is nearly a node, are done once more in interval arithmetic.
+/// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several speeds to a pass, with
+/// a bound of its error. Ratios of neighbouring offsets then give the offsets from the support down. Speeds in doubt,
+/// next to a resonance or where a pin is nearly a node, are computed once more in interval arithmetic.
 /// Accuracy: half an ulp of each offset until within about 1e-12 of a resonance; `error_bound` is proved for every
-/// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each resonance
-/// passed turns it round. Results are bitwise the same whatever the number of threads.
+/// chain. Counts of modes are proved too: below all resonances the chain is on the side of its support, and each
+/// resonance reverses it. Results are bitwise the same whatever the number of threads.
 /// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with two
 /// (bench/response.cpp); memory that of the result, less where `pins` asks for a few.
 /// Throws InvalidArgument where heights and speeds are both given; for heights, radius or gravity that are not positive

@@ -21,23 +21,23 @@
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
 /// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
-/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`,
-/// `branches`, `stability`, `response` and `sensitivity`.
-/// Greenhill (1908) sections 2, 7 and 8.
+/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`, `branches`, `stability`, `response` and
+/// `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
 namespace revchain {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
     double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
     double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
-    double radius = 0;           ///< radius of the circle in which the support's place of rest runs; 0 on the axis
+    double radius = 0;           ///< distance of the support's place of rest from the axis; 0 on the axis
 
     bool is_firm() const { return std::isinf(stiffness); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
-/// A pin that slides sideways on a spring, Greenhill (1908) §2 (7): for small amplitudes a thread of length W/E, W all
-/// that hangs from it. Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
+/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small amplitudes it acts as a
+/// thread of length W/E, where W is the weight of the chain. Throws InvalidArgument unless stiffness > 0 and carriage
+/// weight >= 0, both finite.
 inline Support horizontal_spring(double stiffness, double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness);
     detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
@@ -51,12 +51,13 @@ inline Support carried_round(double radius) {
     return {.radius = radius};
 }
 
-/// Angular momentum that a link carries along its own axis, positive from its lower pin to its upper one: for a hanging
-/// link the sense of a positive bodily rotation. One part is kept, the other turns with the link:
+/// Angular momentum that a link carries along its own axis, positive from its lower pin to its upper one. For a hanging
+/// link this is the direction of a rotation of the whole with n > 0. One part is constant, the other turns with the
+/// link:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
-    double momentum = 0;      ///< H, kept whatever the link does; weight times length times time, any sign
+    double momentum = 0;      ///< H, constant whatever the link does; weight times length times time, any sign
     double axial_moment = 0;  ///< C >= 0, weight times length squared (over g: a moment of inertia)
 
     friend bool operator==(const Flywheel&, const Flywheel&) = default;
@@ -70,7 +71,7 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
     require_positive(place, "gravity", gravity);
     const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
     if (!std::isfinite(moment) || !std::isfinite(momentum))
-        throw_invalid(place, "weight radius of gyration^2 spin / gravity must be finite; radius of gyration",
+        throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
                       radius_of_gyration);
     return {momentum, moment};
 }
@@ -83,8 +84,8 @@ inline Flywheel free_flywheel(double weight, double radius_of_gyration, double s
     return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
 }
 
-/// A wheel that a motor turns with `spin` rad/s relative to a link, which itself turns about its axis with the whole.
-/// Throws as free_flywheel does.
+/// A wheel that a motor turns with `spin` rad/s relative to its link. The link itself turns about its axis with the
+/// whole chain. Throws as free_flywheel does.
 inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
                                 double gravity = conical_pendulum::standard_gravity) {
     return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
@@ -96,9 +97,9 @@ enum class Fluid { still, turning };
 /// The fluid that a link displaces. Centre of buoyancy and radius of gyration are those of the fluid in its place.
 struct Displaced {
     double weight = 0;                 ///< B >= 0, of the fluid displaced
-    double centroid = 0;               ///< centre of buoyancy, from the upper pin, positive towards the lower
+    double centroid = 0;               ///< centre of buoyancy, from the upper pin, positive towards the lower pin
     Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / length of the link)^2, about that centroid
-    double added_weight = 0;           ///< fluid at rest that has to move with the link; spread as B is
+    double added_weight = 0;           ///< of the still fluid that moves with the link; distributed as B is
 
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
@@ -111,7 +112,7 @@ inline Displaced displaced_by(const Link<double>& link, double weight, double ad
 /// The rigging of a chain. Each list has one entry for each link, lowest first, or is empty.
 struct Rigging {
     Support support{};
-    std::vector<Posture> posture{};  ///< in which the straight chain balances
+    std::vector<Posture> posture{};  ///< of each link in the straight chain; empty: all hang
     std::vector<Flywheel> flywheels{};
     Fluid fluid = Fluid::still;
     std::vector<Displaced> displaced{};
@@ -120,7 +121,7 @@ struct Rigging {
 };
 
 /// A chain and its rigging: a support that yields or is carried round, links that stand, flywheels, a fluid that bears
-/// part of the weight. A chain without rigging is a `Chain` and has no cost from it.
+/// part of the weight. Use a `Chain` where there is no rigging: it costs less.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
 /// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or
@@ -147,14 +148,14 @@ class Rig {
         const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
-    /// Whether what link m displaces, if anything, is spread as the link itself.
+    /// Whether the fluid that link m displaces, if any, is distributed as the link's own weight.
     bool fills_its_link(Index m) const {
         const Displaced fluid = displaced(m);
         const Link<double> link = chain_.link(m);
         return (fluid.weight == 0 && fluid.added_weight == 0) ||
                (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
     }
-    /// Whether any link's angular momentum is its own, so that the two senses of rotation differ.
+    /// Whether any link has a momentum of its own, so that the two directions of rotation differ.
     bool has_momentum() const {
         return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
                            [](const Flywheel& wheel) { return wheel.momentum != 0; });
@@ -207,9 +208,10 @@ inline void Rig::check() const {
 
 /// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`.
 ///
-/// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it
-/// adds). At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link
-/// hung vertically over the distance between the pins, n the speed and lambda = g/n^2:
+/// Greenhill (1908) §8 with two weights for each body: the one that bears (less the buoyancy) and the one that moves
+/// (with the added weight of the fluid). At any inclination, with the offsets y, the tangent t and sine s of the
+/// inclination, the speed n, lambda = g/n^2, and R the moment about the upper pin, as if the link hung vertically,
+/// divided by the distance between the pins:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
 /// For small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
@@ -217,22 +219,22 @@ inline void Rig::check() const {
 struct RigLink {
     using S = Wide<double>;
     S length;   ///< a
-    S tension;  ///< (W h + a S)/a of the weights that bear; of a standing link a thrust
+    S tension;  ///< (W h + a S)/a of the weights that bear; in a standing link a thrust
     S spin;     ///< momentum over length
     S moment;   ///< W h/a of the weights that move
-    S rest;     ///< W (a - h)/a of them
+    S rest;     ///< W (a - h)/a of the weights that move
     S cross;    ///< X
     S lower, upper;
     S hung;  ///< weight that bears on the upper pin, of this link and all below
-    /// Sums of the sizes of the terms of each: a number is within `error_part` of that sum of the exact one.
+    /// For each number the sum of the sizes of its terms. Its error is at most `error_part` times that sum.
     struct Sizes {
         double tension, lower, upper, cross, hung;
     } size;
     static constexpr double error_part = 64 * operation_error<S>();
 };
 
-/// The numbers of a rig's links, lowest first, in `Wide<double>`, each as near as `RigLink::error_part` says: three
-/// operations for a body's share, a few for their sum, and weights hung below in a sum that carries its own rounding.
+/// The numbers of a rig's links, lowest first, in `Wide<double>`. `RigLink::error_part` bounds their errors: three
+/// operations for the share of a body, a few for the sum of shares, and a compensated sum for the weights hung below.
 /// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
@@ -252,7 +254,7 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
         const Flywheel wheel = rig.flywheel(m);
         const S a(in_lengths(link.length)), none(0.0), below = hung.value();
         RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
-        /// A body of the link: bearing (or borne, if less than 0) by one weight, moving by another.
+        /// Adds a body of the link: `bears` is its weight (negative for buoyancy), `moves` the weight that moves.
         const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
             const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
             hung.add(bears);
@@ -275,7 +277,7 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
             add(weight, weight, link.centroid, link.gyration_ratio);
             add(-borne, carried, fluid.centroid, fluid.gyration_ratio);
         }
-        if (wheel.axial_moment != 0) {  // turning with the link it lessens what a body resists turning with
+        if (wheel.axial_moment != 0) {  // turning with the link, it reduces the link's inertia across the axis
             const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);
             result.cross = result.cross + turning;
             result.lower = result.lower - turning, result.upper = result.upper - turning;

@@ -20,15 +20,15 @@
 ///     m.forward.shape(0);              // offsets of the pins, free end first
 namespace revchain {
 
-/// Whirl modes of a rig in one sense of rotation, slowest first. Mode k of `available` is at index k - first.
+/// Whirl modes of a rig in one direction of rotation, slowest first. Mode k of `available` is at index k - first.
 struct WhirlModes {
     Index first = 1;
-    Index available = 0;                 ///< number of modes of this sense, found or not
+    Index available = 0;                 ///< number of modes in this direction, found or not
     Vector<double> conical_height{};     ///< (k,) lambda = g/n^2, descending, in the chain's unit of length
     Vector<double> error_bound{};        ///< (k,) of it, relative to the exact one of the stored numbers; proved
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
-    Certificate<double> certificate{};   ///< of the conical heights, with counts of this sense; empty unless asked for
+    Certificate<double> certificate{};   ///< of the conical heights, with counts in this direction; if asked for
     detail::LazyModeShapes<double> lazy_shapes{};  ///< behind the next four
 
     Index size() const { return conical_height.size(); }
@@ -40,8 +40,8 @@ struct WhirlModes {
     Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
 };
 
-/// A solution that is no steady motion: its conical height is negative or complex, or its speed is complex. The height
-/// is infinite and the speed 0 where no force acts on a coordinate: it stays at rest wherever it is put.
+/// A solution that is not a steady motion: its conical height is negative or complex, or its speed is complex. If no
+/// force acts on a coordinate, it stays at rest anywhere: the height is then infinite and the speed 0.
 struct OtherMode {
     std::complex<double> conical_height;  ///< lambda
     std::complex<double>
@@ -53,7 +53,7 @@ struct OtherMode {
 /// A link whose effective tension, tension + n momentum/length, vanishes at a speed and is a thrust beyond it.
 struct SlackLink {
     Index link = 0;            ///< from 0, lowest first
-    double angular_speed = 0;  ///< n, negative against the sense of a positive momentum
+    double angular_speed = 0;  ///< n, negative if opposite to the rotation of a wheel with positive momentum
 };
 
 /// Whirl modes of a rig.
@@ -61,7 +61,7 @@ struct RigModes {
     bool has_momentum = false;     ///< whether a flywheel has momentum of its own
     WhirlModes forward;            ///< n > 0; without such momentum both directions are alike, and all modes are here
     WhirlModes backward;           ///< n < 0; empty without such momentum
-    Index other_available = 0;     ///< number of solutions that are no steady motion, listed or not
+    Index other_available = 0;     ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< these, unless the option `other` is false and method is not "discs"
     std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
     /// Whether `forward.available`, `backward.available` and `other_available` are proved to be all there are.
@@ -71,10 +71,10 @@ struct RigModes {
 };
 
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
-/// flywheels. The radius of a support that is carried round plays no part.
+/// flywheels. The radius of a support that is carried round has no effect.
 ///
-/// Options mean what they do for a chain. With momentum `first`, `count` and windows are those of each sense, a window
-/// of speeds being one of |n|; mode numbers beyond those available give no modes. Speeds are found to full accuracy,
+/// Options mean what they do for a chain. With momentum `first`, `count` and windows apply to each direction, a window
+/// of speeds to |n|; mode numbers beyond those available give no modes. Speeds are found to full accuracy,
 /// whatever `rtol`; `method` is ignored.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
@@ -88,8 +88,8 @@ struct RigModes {
 /// is solved as a chain.
 /// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is positive and no mass is
 /// negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2, with momentum 0.3 (5000 links 7 s).
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window that is empty by its ends,
-/// numbers together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers
+/// together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
 /// status `tolerance_not_met`.
 RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
 
@@ -98,7 +98,7 @@ class RigRoots;
 }
 
 /// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once; each count is one
-/// O(N) pass. By discs, see `modes`, all roots are found when the counter is made.
+/// O(N) pass. For a rig that needs discs (see `modes`), all roots are found when the counter is made.
 ///
 /// Counts are proved as those of `ModeCounter`, and ties are decided in the same way.
 class RigModeCounter {
@@ -106,13 +106,13 @@ class RigModeCounter {
     /// Throws InvalidArgument as `modes` does.
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
-    /// How many conical heights exceed `height`, of both senses where there is momentum. Throws InvalidArgument unless
-    /// it is positive and finite, and where rounding leaves the number in doubt.
+    /// How many conical heights exceed `height`, in both directions together where there is momentum. Throws
+    /// InvalidArgument unless it is positive and finite, and where rounding leaves the number in doubt.
     Index above_height(double height) const;
 
-    /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. Where there is momentum its sign is the sense;
-    /// else both are alike. Throws InvalidArgument unless it is finite and not 0, and where rounding leaves the number
-    /// in doubt.
+    /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. With momentum its sign is the direction of
+    /// rotation; without, both directions are alike. Throws InvalidArgument unless it is finite and not 0, and where
+    /// rounding leaves the number in doubt.
     Index below_speed(double angular_speed) const;
 
    private:

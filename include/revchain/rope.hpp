@@ -15,12 +15,12 @@
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
 /// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical height, and
-/// a tension is given as the length h of rope that weighs as much. The shape depends on lambda h alone.
+/// a tension is given as the length h of rope that has this weight. The shape depends on lambda h alone.
 namespace revchain::analytic {
 
-/// The data of a skipping rope: exactly two of span, length, slack, sag, and tension together with angular speed. In
-/// addition, one of tension and angular speed may be given with two of the others. Give slack where span and length
-/// nearly agree.
+/// The data of a skipping rope. Give exactly two of these: span, length, slack, sag, and the pair of tension and
+/// angular speed. With two of the first four, tension or angular speed may be given as well. Give slack where span and
+/// length nearly agree.
 struct RopeGiven {
     std::optional<double> span{}, length{}, slack{};  ///< of the whole rope; slack = length - span
     std::optional<double> sag{};                      ///< the largest offset

@@ -18,9 +18,9 @@
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
 namespace revchain {
 
-/// The data of a link. While one of them changes, all the others are held, of this link and of all. `length` moves the
-/// lower pin: centre of gravity and radius of gyration stay where they are, in units of length. `length_in_proportion`
-/// takes both with it, as a plummet's thread and a rod's length do.
+/// The data of a link. While one of them changes, all other data of this link and of all links are constant. `length`
+/// moves the lower pin: the centroid and the radius of gyration do not change. `length_in_proportion` changes both in
+/// proportion, as the length of a plummet's thread or of a rod does.
 enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
 
 inline constexpr std::array<std::string_view, 5> datum_names{"weight", "length", "centroid", "radius_of_gyration",
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 5> datum_names{"weight", "length",
 template <Real T>
 struct Derivatives {
     Table<T> value;        ///< (k, N)
-    Table<T> error_bound;  ///< (k, N), absolute; proved. Infinite where a mode could not be told from its neighbour
+    Table<T> error_bound;  ///< (k, N), absolute; proved. Infinite where a mode cannot be separated from its neighbour
 };
 
 /// d(conical height)/d(datum) for modes number `first`, `first + 1`, ...
@@ -49,21 +49,24 @@ struct Sensitivity {
     Index size() const { return weight().value.rows(); }
 };
 
-/// How every datum of every link moves conical heights of `modes`, which has to be of this chain: the derivative of
-/// lambda = y^T M y / y^T K y at the exact shape, where the shape's own change does not matter,
-///     (y^T dM y - lambda y^T dK y) / y^T K y,
-/// link by link from offset and slope, and of weights the sum of a s^2 over the links above, on which they bear.
-/// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda; of it a link's part, a times
-/// `length_in_proportion`, is its share of y^T K y, so that no link made longer as a whole lowers a height.
-/// Accuracy: every entry within its error bound, which is proved; measured 0.51 ulp of the entry, but of entries small
-/// beside the largest 1e-28 of that (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
+/// Derivatives of the conical heights of `modes`, which must be those of this chain, with respect to every datum of
+/// every link. They are the derivatives of lambda = y^T M y / y^T K y at the exact shape, where a change of the shape
+/// has no effect of first order:
+///     (y^T dM y - lambda y^T dK y) / y^T K y.
+/// Each is formed from offset and slope of its link; that of a weight also has the sum of a s^2 over the links above,
+/// which carry it.
+/// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda. A link's part of this sum, a times
+/// `length_in_proportion`, is its share of y^T K y. So a longer link, in proportion, never lowers a height.
+/// Accuracy: every entry is within its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of the
+/// largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
 /// Cost: 1.5 microseconds a link and mode; O(N k) memory.
 /// Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 template <Real T>
 Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
-/// How uncertain one datum is: one standard deviation for every link, one for each (N), or a covariance (N, N).
-/// Deviations of different links are independent unless a covariance says otherwise; those of different data always.
+/// How uncertain one datum is: one standard deviation for all links, one for each (N), or a covariance (N, N).
+/// Deviations of different links are independent unless a covariance is given. Those of different data are always
+/// independent.
 template <Real T>
 struct Deviation {
     Vector<T> standard{};  ///< (1) or (N); empty where a covariance is given
@@ -79,14 +82,14 @@ template <Real T>
 struct Uncertainty {
     Vector<T> conical_height;                        ///< (k,) standard deviations, in the unit of the heights
     Vector<T> relative;                              ///< (k,) over the heights; of speeds and periods half as much
-    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) each, of the variance; all of a mode add up to 1
-    std::vector<Datum> datum;                        ///< (k,) what contributes most, and of which link (from 0)
-    std::vector<Index> link;
+    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) each, of the variance; those of a mode add up to 1
+    std::vector<Datum> datum;                        ///< (k,) the datum that contributes most
+    std::vector<Index> link;                         ///< (k,) the link of that datum, from 0
 };
 
-/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2 var x, with a
-/// covariance C of one datum d^T C d. What is left out is of second order: the variance's relative error is some
-/// (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, large where a derivative is all but 0.
+/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2 var x, or d^T C d
+/// for a datum with a covariance C. The error is of second order: the relative error of the variance is some
+/// (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large where a derivative is nearly 0.
 /// Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for lists that are neither of one number nor of N,
 /// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
 /// not as many as the sensitivity's.
@@ -94,8 +97,8 @@ template <Real T>
 Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
                            const Deviations<T>& deviations);
 
-/// d(whirl speed)/d(datum) of one mode of a rig; everything else held. Speeds may have either sign. The first five are
-/// of the links' own data as `Datum` has them: flywheels keep their momentum, what is displaced its place and size.
+/// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have either sign. The first
+/// five are for the links' own data, as in `Datum`; flywheels keep their momentum, and the displaced fluid its data.
 struct RigSensitivity {
     Vector<double> weight;                ///< (N,)
     Vector<double> length;                ///< (N,) the lower pin moved; 0 of the lowest link
@@ -104,37 +107,36 @@ struct RigSensitivity {
     Vector<double> length_in_proportion;  ///< (N,) (a d/da + h d/dh + rho d/drho)/a
     Vector<double> momentum;              ///< (N,) of each flywheel's H, per weight times length times time
     Vector<double> displaced_weight;      ///< (N,) of the weight of the fluid displaced
-    Vector<double> added_weight;          ///< (N,) of what has to move with the link in still fluid
+    Vector<double> added_weight;          ///< (N,) of the still fluid that moves with the link
     double stiffness;                     ///< of the support; 0 where it is firm
     double carriage_weight;               ///< 0 where the support is firm
 };
 
-/// How what a chain is rigged with moves whirl speed n of a mode whose pins have these offsets (free end first, N + 1;
-/// the last that of the support's pin). From y^T (K + n G - n^2 M/g) y = 0, quadratic in n and stationary in y,
+/// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the support's pin last). They
+/// follow from y^T (K + n G - n^2 M/g) y = 0, which is quadratic in n and stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
-/// With s a link's slope, dG of H is s^2 over links that hang, -s^2 over those that stand. Formed in double-double: the
-/// error is that of the offsets, some 4 e (|K| + |n G| + n^2 |M|/g) over the denominator for offsets within e of the
-/// largest.
+/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. Formed in double-double.
+/// The error comes from the offsets: if these are within e of the largest offset, it is some 4 e (|K| + |n G| + n^2
+/// |M|/g) over the denominator.
 /// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, offsets not N + 1.
 RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
                            double gravity = conical_pendulum::standard_gravity);
 
-/// The momentum of the flywheel of the link at index `link`, all else held, with which
-/// `angular_speed` is a whirl speed, of whichever mode. There is one: momentum adds to the tension, and what hangs
-/// below and what holds above are springs at the link's pins at that speed. Formed in double-double:
-/// relative error 1e-15 beside the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link that is none, and where no
-/// finite momentum has that effect.
+/// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl speed of some mode,
+/// all else constant. It is unique: momentum adds to the tension, and at that speed the parts below and above the link
+/// act as springs at its pins. Formed in double-double: error 1e-15, relative to the tension
+/// (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of range, and
+/// where no finite momentum has that effect.
 double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                           double gravity = conical_pendulum::standard_gravity);
 
-/// The stiffness of the support's spring, all else held, with which `angular_speed` is a whirl speed, of any mode: the
-/// chain and what moves with its support act on the spring as one more spring at that speed. Formed in
-/// double-double, as `momentum_for_speed` is. Cost O(N).
+/// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode, all else constant.
+/// At that speed the chain and the carriage act on the spring as one more spring. Formed in double-double, as
+/// `momentum_for_speed` is. Cost O(N).
 /// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, and where no positive finite
 /// stiffness has that effect.
-double stiffness_for_speed(const Rig& rig, double angular_speed,
-                           double gravity = conical_pendulum::standard_gravity);
+double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity = conical_pendulum::standard_gravity);
 
 }  // namespace revchain
 

@@ -17,7 +17,7 @@
 ///     windows[1].height_from;                                        // 0.135704 m: the conical height of the edge
 namespace revchain {
 
-/// A part of a branch throughout which a small disturbance is seen to fare alike.
+/// A part of a branch in which all sampled shapes have the same verdict.
 struct StabilityWindow {
     double arc_from, arc_to;
     double height_from, height_to;  ///< conical heights there; `from` is nearer to where the branch begins
@@ -42,7 +42,7 @@ struct StabilityWindowsOptions {
 std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 
-/// The same of a branch of a rig, in the direction of rotation of the branch.
+/// The same for a branch of a rig, in the direction of rotation of the branch.
 std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 

@@ -39,14 +39,14 @@ struct ForceDiagram {
     double conical_height = 0;
 };
 
-/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from inclinations; that
-/// they are parallel to the links proves the figure. It holds to 5 ulp of the sum of all loads' magnitudes
+/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from inclinations, so that
+/// comparing them with the links checks the shape: they are parallel to 5 ulp of the sum of all loads' magnitudes
 /// (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument unless the shape has as many links as the chain.
 ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
-/// The straight chain whose links are as long as the shape's links are high: all weights moved to the axis, at their
-/// levels. Its mode at the shape's conical height is the shape: offsets agree at any inclination and for links of any
-/// kind. Its stiffness is also the shape's stiffness perpendicular to the turning plane.
+/// The straight chain with the weights of the shape moved to the axis at their levels: its links are as long as those
+/// of the shape are high. Its mode at the shape's conical height has the offsets of the shape, at any inclination and
+/// for links of any kind. Its stiffness is also the shape's stiffness perpendicular to the turning plane.
 /// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
 Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape);
 

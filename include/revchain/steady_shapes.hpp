@@ -29,9 +29,9 @@ struct SteadyShape {
     double residual = 0;                  ///< largest unbalanced moment over (total weight times total length)
     double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
     /// Condition number, rad: if each force changes by a fraction e of itself, with any signs, no inclination changes
-    /// by more than e times this (if links stand or have several inclinations: each moment about a link's upper pin).
-    /// On a branch, if another number than the height is given, it is an estimate: the largest change for a few
-    /// patterns of signs, and for a change of the given number by a fraction e.
+    /// by more than e times this. (If links stand or have several inclinations, the moments about the upper pins change
+    /// instead.) On a branch, if another number than the height is given, it is an estimate: the largest change for a
+    /// few patterns of signs, and for a change of the given number by a fraction e.
     double condition = 0;
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
@@ -67,7 +67,7 @@ struct SteadyShapes {
     std::vector<SteadyShape> shapes;          ///< by half waves, then inclination of the lowest link
     std::vector<InclinationRange> undecided;  ///< where there may be others; empty if the list is complete
     bool complete = false;                    ///< proved: no shape is missing
-    long cells = 0;                           ///< looked at
+    long cells = 0;                           ///< number of parts of the range that were examined
 };
 
 /// All steady shapes (relative equilibria) of a chain that whirls at a given speed: with `hanging_only` those in which
@@ -82,12 +82,12 @@ struct SteadyShapes {
 /// followed along each inclination. Krawczyk's test then decides boxes of the tangents of all links.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links stand); measured
 /// errors are at most 2 ulp of the inclination. `complete` is proved too. If it is false, `undecided` says where shapes
-/// may be missing: at exactly a critical speed or a fold, or where the budget ends, as for chains of 20 plummets and
-/// more at heights of some 1/1000 of their length. If links hang at one inclination, a scan looks there too, and the
-/// shapes it finds are in the list.
+/// may be missing: at exactly a critical speed or a fold, or where the budget runs out, as for chains of 20 plummets
+/// and more at heights of some 1/1000 of their length. If each link has one inclination for its load, a scan searches
+/// there too, and the shapes it finds are in the list.
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete`
-/// is false: a sideways pull is an offset over the height, and double-double holds offsets to 2^-104 of that length.
-/// Below that, tensions would lose their digits.
+/// is false. Double-double holds offsets to 2^-104 of that length, and a sideways pull is an offset over the height, so
+/// tensions would lose their digits.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 12 ms, 6466 of twelve 1 s, the first of 1000
 /// plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. In any posture, heights down to 1e-3 of the
 /// length: all shapes of three links 1 to 5 ms, of four (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s,
@@ -101,24 +101,25 @@ struct SteadyShapes {
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
 SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options);
 
-/// All steady shapes of a rig that whirls at a given speed, in its posture or in any: as of a chain, with a support
-/// that yields or is carried round, flywheels, links in a fluid.
+/// All steady shapes of a rig that whirls at a given speed, in its posture or in any posture: as of a chain, with a
+/// support that yields or is carried round, flywheels, links in a fluid.
 ///
-/// A support on the axis: straight shapes are left out, and of two mirror images that whose free end is at a negative
-/// offset. A support carried round (a swing carousel) at radius b: every shape, outwards positive.
-/// Method: that of chains. The sweep ends in  y - b - (H + W y)/(lambda E), which has to be 0: y is the offset of the
+/// For a support on the axis straight shapes are left out, and of two mirror images the one whose free end is at a
+/// negative offset. For a support carried round at radius b (a swing carousel) every shape is listed, outwards
+/// positive.
+/// Method: that of chains. The sweep ends in  y - b - (H + W y)/(lambda E), which must be 0: y is the offset of the
 /// topmost pin, H/lambda its sideways pull, W the carriage's weight, E the spring's stiffness. With b > 0 tangents of
 /// both signs are searched. The pull of a link is tension + n momentum/length. Where it is negative (a wheel against
-/// the rotation, a float), the link leans against its load. It is followed along each inclination, as links are that
-/// may have several.
+/// the rotation, a float), the link leans against its load. It is then followed along each inclination, as a link with
+/// several inclinations is.
 /// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with
 /// b > 0.
-/// `complete` is also false if the rig has more than some 160 links and one of them is such a link, or if lambda E
-/// equals the total moving weight, to rounding. Pins may then be at any distance: the search covers only about a
-/// million times the chain's reach.
+/// `complete` is also false if the rig has more than some 160 links and one of them leans against its load, or if
+/// lambda E equals the total moving weight, to rounding. Pins may then be at any distance: the search covers only about
+/// a million times the chain's reach.
 /// Throws InvalidArgument unless exactly one of height and speed is given, for a height or gravity not positive and
-/// finite, a direction not 1 or -1, an effective tension that vanishes, and weights that move so that the lowest link
-/// balances about its pin.
+/// finite, a direction not 1 or -1, an effective tension that vanishes, and a lowest link whose moving weights balance
+/// about its pin.
 SteadyShapes steady_shapes(const Rig& rig, const SteadyShapesOptions& options);
 
 }  // namespace revchain

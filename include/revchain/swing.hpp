@@ -20,7 +20,7 @@
 ///     s.angular_frequency[0];                  // 3.80868 rad/s, as of `modes`
 namespace revchain {
 
-/// How the chain starts, and when it is looked at.
+/// The start of the chain, and the times of the results.
 struct SwingOptions {
     Vector<double> offset{};       ///< (N) or (N + 1) of the pins at time 0, free end first; empty: on the axis
     Vector<double> velocity{};     ///< the same at time 0; empty: at rest
@@ -38,8 +38,8 @@ struct Swing {
     Vector<double> energy;             ///< (k,) of each mode, weight times length; it stays in the mode
     Table<double> shape;               ///< (k, N+1) as those of `modes`
     Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
-    Vector<double> start;              ///< (N+1) offsets at time 0: those given, but for pins without inertia
-    bool projected = false;            ///< whether `start` differs from what was given
+    Vector<double> start;              ///< (N+1) offsets at time 0: those given, except for pins without inertia
+    bool projected = false;            ///< whether `start` differs from the given offsets
     double energy_left_out = 0;        ///< bound of the energy outside the first `count` modes, weight times length
     Vector<double> truncation_error;   ///< (N+1) bound, at any time, of the part of each offset in those other modes
     Vector<double> error_bound;        ///< (times,) of every offset, a length, without `truncation_error`
@@ -48,9 +48,9 @@ struct Swing {
 /// Small oscillations of a hanging chain in a plane, superposed from its modes: their conical heights lambda are those
 /// of whirling, the frequencies sqrt(g / lambda).
 ///
-/// A pin without inertia (between massless threads) has no start of its own: it goes at once to where its neighbours
-/// pull it. `start` holds the offsets of least potential energy with the same momenta; `projected` is true if they
-/// differ from those given.
+/// The start of a pin without inertia (between massless threads) is not free: it goes at once where its neighbours pull
+/// it. `start` holds the offsets of least potential energy with the same momenta; `projected` is true if they differ
+/// from those given.
 ///
 /// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with compensation. Two bounds
 /// hold for every offset at every time, both proved (docs/accuracy.md, "Small oscillations"): `truncation_error`, from
@@ -62,14 +62,14 @@ struct Swing {
 /// more modes than there are, gravity not positive, times not finite, and weights more than 1e123 apart.
 Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
-/// Small oscillations in a plane of a rig that is let go: a support that yields, with its carriage, still fluid that
-/// bears and has to be moved, standing links as long as the rest holds them. The support's offset and velocity, last
-/// in each start, may be given where it yields; a carriage without weight goes where the chain pulls it.
+/// Small oscillations in a plane of a rig after release. The rig may have a support that yields, with its carriage,
+/// still fluid with buoyancy and added mass, and standing links if it is stable at rest. Where the support yields, its
+/// offset and velocity may be given, last in each start; a carriage without weight goes where the chain pulls it.
 ///
-/// Links do not turn about their own axes: axial moments of wheels play no part. Accuracy, bounds and cost as above.
+/// Links do not turn about their own axes: axial moments of wheels have no effect. Accuracy, bounds and cost as above.
 /// Throws InvalidArgument as above; where a flywheel has momentum of its own, which turns the plane of the swing
 /// (`whirl_swing`); for a support that is carried round (`response`); for a fluid that turns; where the straight rig is
-/// unstable or in neutral balance, with how fast it falls; for lowest links that nothing moves.
+/// unstable or in neutral balance (the message says how fast it falls); for lowest links without any inertia.
 Swing swing(const Rig& rig, const SwingOptions& options);
 
 /// How a rig with flywheels starts. Offsets are x + i y, in the two level directions.
@@ -77,12 +77,12 @@ struct WhirlSwingOptions {
     Vector<std::complex<double>> offset{};    ///< (N) or (N + 1) of the pins at time 0, free end first; empty: 0
     Vector<std::complex<double>> velocity{};  ///< the same at time 0; empty: at rest
     std::vector<double> time{};               ///< of either sign, in any order
-    std::optional<Index> count{};             ///< of the slowest whirls of both senses; absent: all
+    std::optional<Index> count{};             ///< of the slowest whirls in both directions; absent: all
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;
 };
 
-/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, each a rigid figure turning at its speed.
+/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, each a rigid shape turning at its speed.
 struct WhirlSwing {
     Table<std::complex<double>> offset;      ///< (times, N+1) of the pins, free end first, the support last
     Table<std::complex<double>> velocity;    ///< (times, N+1)
@@ -96,17 +96,17 @@ struct WhirlSwing {
 };
 
 /// Small oscillations of a rig with flywheels: (1/g) M u'' - i G u' + K u = 0, u = x + i y, G their momenta on the
-/// links. Whirls u = y exp(i n t) have the speeds and shapes of `modes`, of both senses; each link keeps the angular
-/// momentum about its own axis and does not turn about it, so that axial moments play no part. A start (u, u') has of
-/// whirl j, by y_j^T (G - (n_j + n_k) M/g) y_k = 0 of any two,
+/// links. Whirls u = y exp(i n t) have the speeds and shapes of `modes`, in both directions. Each link keeps the
+/// angular momentum about its own axis and does not turn about it, so axial moments have no effect. Any two whirls
+/// satisfy y_j^T (G - (n_j + n_k) M/g) y_k = 0. So the coefficient of whirl j in a start (u, u') is
 ///     c_j = y_j^T [(n_j M/g - G) u - i M/g u'] / y_j^T (2 n_j M/g - G) y_j.
 ///
-/// Bounds as of `swing`, proved where every link hangs in tension at rest; else, where the momenta alone keep links
-/// that stand from falling, they are infinite.
+/// Bounds as of `swing`, proved where every link hangs in tension at rest. Where only the momenta keep standing links
+/// from falling, the bounds are infinite.
 /// Accuracy measured (tests/cpp/whirl_swing.cpp): 1e-15 of the sum of the amplitudes.
 /// Cost: 4 microseconds for each link and whirl, then 4 ns for each link, whirl and time.
-/// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable, with how fast it falls; for pins
-/// without inertia.
+/// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says how fast it falls);
+/// for pins without inertia.
 WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 
 }  // namespace revchain

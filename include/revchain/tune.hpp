@@ -20,7 +20,7 @@
 ///     t.chain;        // the chain with that length
 namespace revchain {
 
-/// Mode `mode` is to have this conical height or this whirl speed, by one datum of one link, between `low` and `high`.
+/// The mode, the height or speed that it is to have, the datum to change, and the range of its values.
 struct TuneOptions {
     Index mode = 1;                                       ///< from 1 for the slowest
     Index link = 0;                                       ///< from 0, the lowest
@@ -28,15 +28,15 @@ struct TuneOptions {
     std::optional<double> conical_height{};               ///< give this or `angular_speed`
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
-    /// The range searched. Absent: for a weight or length, the present value / 1000 and times 1000 (for a massless
-    /// link, the whole chain's weight instead); for a centroid or radius of gyration, 0 and the link's length, extended
+    /// The range searched. Absent: for a weight or length, from 1/1000 to 1000 times the present value (for a massless
+    /// link, of the whole chain's weight); for a centroid or radius of gyration, from 0 to the link's length, extended
     /// to the present value if that is outside.
     std::optional<double> low{}, high{};
 };
 
 enum class TuneStatus {
-    found,      ///< `value` gives the mode its height
-    no_value,   ///< proved: no value between `low` and `high` does
+    found,      ///< `value` gives the mode the wanted height
+    no_value,   ///< proved: no value between `low` and `high` gives it
     undecided,  ///< no value was found, but it is not proved that there is none
 };
 
@@ -47,10 +47,10 @@ inline std::string_view to_string(TuneStatus status) {
 struct Tuned {
     TuneStatus status = TuneStatus::undecided;
     double present{};                                         ///< the datum of the chain given
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< the one of `values` nearest to `present`; else NaN
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< the one of `values` nearest to `present`, or NaN
     /// Absolute error bound of `value`: proved counts of modes at this distance on either side of it differ.
     double error_bound = std::numeric_limits<double>::infinity();
-    std::vector<double> values{};  ///< those found, ascending
+    std::vector<double> values{};  ///< all values found, ascending
     /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of the quadratic to a
     /// mode. Always false for a weight: the search finds only the nearest solution on each side of the present value.
     bool complete = false;
@@ -61,12 +61,12 @@ struct Tuned {
     std::optional<Chain<double>> chain{};  ///< with `value` in place
 };
 
-/// Which value of a datum gives a mode a conical height or whirl speed.
+/// The value of a datum that gives a mode a conical height or whirl speed.
 ///
 /// At a given height the chain below and above a link acts as a spring at each of its pins. A length, a centroid or a
 /// radius of gyration that gives any mode this height is then a root of an equation of degree 1 or 2. Proved counts on
 /// each side of a root tell whether it belongs to this mode, and bound its error. A weight loads all links above; its
-/// nearest value on each side is approached in steps that provably pass none.
+/// nearest value on each side is approached in steps that provably skip no value.
 /// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not small, measured
 /// (tests/cpp/tune.cpp). Where no value is found, the extremes of the heights are those seen at 33 places.
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
@@ -74,7 +74,7 @@ struct Tuned {
 /// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
 Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
-/// Throws InvalidArgument: a rig cannot be tuned yet.
+/// Throws InvalidArgument: the C++ library cannot tune a rig yet. The Python function `tune` can.
 Tuned tune(const Rig& rig, const TuneOptions& options);
 
 }  // namespace revchain

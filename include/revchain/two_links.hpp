@@ -77,15 +77,16 @@ HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_thread", "thread", thread, link);
 }
 
-/// Both heights of a compound link whose support yields sideways on a spring: those on a thread as long as the
-/// deflection of the spring. The paper's lambda = l + c is the first order for a plummet. Accuracy: 4 ulp.
+/// Both heights of a compound link whose support yields sideways on a spring. They are those on a thread as long as the
+/// deflection of the spring. The paper's lambda = l + c is exact for a plummet, and for a plummet only. Accuracy: 4
+/// ulp.
 template <Real T>
 HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_spring", "deflection", deflection, link);
 }
 
-/// Deflection W/E of a spring with stiffness E under the weight W hung from it. The spring moves as a thread of that
-/// length does, §2 (7).
+/// Deflection W/E of a spring with stiffness E under the weight W. A weight on the spring moves as on a thread of that
+/// length, §2 (7).
 template <Real T>
 T spring_deflection(const T& weight, const T& stiffness) {
     detail::require_positive("spring_deflection", "weight", weight, "stiffness", stiffness);
@@ -285,7 +286,7 @@ T joint_without_bending(const T& length, const T& pin) {
     detail::require_positive(place, "length", length);
     const T above = length / T(2) - pin;  // CA
     if (!(above > T(0) && pin > length / T(6)))
-        detail::throw_invalid(place, "the pin must lie outside the middle third of the rod and within the rod", pin);
+        detail::throw_invalid(place, "pin must be more than length/6 and less than length/2", pin);
     return above / pin * above;
 }
 

@@ -93,8 +93,8 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const
     return result;
 }
 
-/// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in given units: the load
-/// resolved along the link. Load over cosine would lose the digits of a link that lies nearly level.
+/// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in the given units: the
+/// load resolved along the link. Load over cosine would lose the digits of a link that lies nearly level.
 template <class Shape>
 std::vector<double> pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units,
                           double H = 0, double tau = 0) {
