@@ -46,8 +46,8 @@ class Held(System):
     Notes
     -----
     With a span the chain is bent at every speed: use `steady_shapes`. With a tension greater than its weight (without
-    gravity, with any tension) the chain can also hang straight; `modes` returns its critical speeds. Cost: O(1).
-    Source: Greenhill (1908), sections 3 and 5, for weights on a string and the uniform cord.
+    gravity, with any tension) the chain can also be straight; `modes` returns its critical speeds. Cost: O(1). Source:
+    Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
 
     Examples
     --------

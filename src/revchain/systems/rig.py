@@ -278,7 +278,7 @@ class Displaced(_Fitting):
 
     Notes
     -----
-    Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2, for Stokes's float.
+    Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
     --------
