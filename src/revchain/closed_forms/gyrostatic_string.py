@@ -252,7 +252,7 @@ class GyrostaticString:
         return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))
 
 
-GyrostaticString.__slots__ = {  # `help` reads the words of a slot here
+GyrostaticString.__slots__ = {  # type: ignore[assignment]  # `help` reads them here
     "weight": "Weight of a link with its wheel.",
     "length": "Distance between the pins of a link.",
     "tension": "Tension of the string.",
