@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A bell and its clapper: when they swing as one piece, and what to change about it."""
+"""A bell and its clapper: when they swing as one piece, and which data to change."""
 
 from __future__ import annotations
 
@@ -22,10 +22,18 @@ if TYPE_CHECKING:
 class Strike(NamedTuple):
     """The first blow of a clapper in one swing of its bell; see `BellAndClapper.first_strike`.
 
-    `strikes`: whether there is one. `side`: ``"leading"``, the side of the bell that goes ahead as the bell rises (it
-    rings right, the clapper has flown ahead), or ``"trailing"`` (the clapper falls behind). `bell_angle`: how far the bell
-    has risen past its lowest place, rad; `relative_speed`: of the clapper in the bell, rad/s, positive towards the leading
-    side; `time`: after the start, s. All three are nan where there is no blow.
+    `strikes`: whether the clapper strikes. `side`: ``"leading"`` if the clapper has flown ahead of the rising bell (the
+    bell rings right), ``"trailing"`` if it has fallen behind. `bell_angle`: angle of the bell past its lowest place, rad.
+    `relative_speed`: speed of the clapper in the bell, rad/s, positive towards the leading side. `time`: time after the
+    start, s. The three numbers are NaN if the clapper does not strike.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
+    >>> blow = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3])).first_strike("27 deg")
+    >>> blow.strikes, blow.side, round(blow.time, 1)
+    (True, 'leading', 3.0)
     """
 
     strikes: bool
@@ -36,7 +44,7 @@ class Strike(NamedTuple):
 
 
 class BellAndClapper(Result):
-    """Both modes of a bell and its clapper, and how far they are from swinging as one piece; see `bell_and_clapper`.
+    """Both modes of a bell and its clapper, and their distance from swinging as one piece; see `bell_and_clapper`.
 
     Examples
     --------
@@ -57,43 +65,43 @@ class BellAndClapper(Result):
         lambda b: _core.conical_pendulum_angular_speed(np.asarray(b.conical_height), np.asarray(b.gravity)),
     )
     conical_height: Field[Floats] = Field(
-        "Of the slower mode, in which they lean the same way, and of the faster one, in which they lean opposite ways, "
-        "m, shape (2,).",
+        "Conical height of the slower mode, in which both lean the same way, and of the faster mode, in which they lean "
+        "opposite ways, m, shape (2,).",
         part=True,
     )
     inclination_ratio: Field[Floats] = Field(
-        "Inclination of the clapper over that of the bell in each mode, shape (2,). They are one piece, and the bell "
-        "is silent, in the slower mode where the first is 1; in the faster mode they never are.",
+        "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
+        "as one piece in the slower mode and the bell is silent. In the faster mode they never swing as one piece.",
         part=True,
     )
     silent_height: Field[float] = Field(
-        "Conical height of the slower mode where they are one piece, m: the sum of the pendulum length of the clapper "
-        "and the joint.",
+        "Conical height of the slower mode if both swing as one piece, m: the pendulum length of the clapper plus the "
+        "joint.",
         part=True,
     )
-    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 where they are one piece.", part=True)
+    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.", part=True)
     present: Field[dict[str, float]] = Field(
         "The data: ``clapper_weight``, ``clapper_centroid``, ``clapper_radius_of_gyration``, ``bell_weight``, "
         "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, ``bell_radius_of_gyration``.",
         part=True,
     )
     derivative: Field[dict[str, float]] = Field(
-        "Derivative of the first inclination ratio by each of the data, the others constant.", part=True
+        "Derivative of the first inclination ratio with respect to each datum, the others constant.", part=True
     )
 
     def with_ratio(self, ratio: float) -> dict[str, float]:
-        """Return for each datum the value that gives the slower mode another ratio of inclinations.
+        """Return the value of each datum that gives the slower mode a wanted ratio of inclinations.
 
         Parameters
         ----------
         ratio : float
-            Inclination of the clapper over that of the bell, positive. With 1 the bell is silent; to keep it ringing,
-            ask for a ratio far enough from 1.
+            Inclination of the clapper divided by that of the bell, positive. With 1 the bell is silent. To keep it
+            ringing, choose a ratio far enough from 1.
 
         Returns
         -------
         dict
-            The values nearest to the present ones, each with the other data constant; NaN where there is none.
+            The values nearest to the present ones, each with the other data constant; NaN if no value gives the ratio.
 
         Raises
         ------
@@ -102,7 +110,7 @@ class BellAndClapper(Result):
 
         Examples
         --------
-        How far below the axle must the clapper be hung to swing half as far again as its bell?
+        How far below the axle must the pin of the clapper be, so that the clapper swings 1.5 times as far as the bell?
 
         >>> import revchain as rc
         >>> links = {"weight": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
@@ -115,23 +123,23 @@ class BellAndClapper(Result):
         return dict(zip(_core.BELL_DATA, values, strict=True))
 
     def strike_amplitude(self, clearance: float) -> float:
-        """Return how far the bell must swing before the clapper reaches its side, where the swing is small.
+        """Return the smallest amplitude of the bell at which the clapper reaches its side, for small swings.
 
         Parameters
         ----------
         clearance : float
-            Angle in the bell from the clapper in the middle to where it touches, rad (or ``"25 deg"``), below pi/2.
+            Angle of the clapper in the bell from the middle to the contact, rad (or ``"25 deg"``), below pi/2.
 
         Returns
         -------
         float
-            ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite where bell and clapper are one piece. Exact in
-            the limit of small swings in the slower mode; from half a radian on ask `first_strike`.
+            ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite if both swing as one piece. It is exact in the
+            limit of small swings in the slower mode; above half a radian use `first_strike`.
 
         Raises
         ------
         ValueError
-            For a clearance that is not between 0 and pi / 2.
+            If the clearance is not between 0 and pi / 2.
 
         Examples
         --------
@@ -146,37 +154,38 @@ class BellAndClapper(Result):
         return gap / apart if apart else math.inf
 
     def first_strike(self, clearance: float, *, amplitude: float | None = None) -> Strike:
-        """Return where in a swing the clapper first strikes the bell; needs SciPy.
+        """Return the first blow of the clapper in a swing of the bell; needs SciPy.
 
         Parameters
         ----------
         clearance : float
-            Angle in the bell from the clapper in the middle to where it touches, rad (or ``"25 deg"``), below pi/2.
+            Angle of the clapper in the bell from the middle to the contact, rad (or ``"25 deg"``), below pi/2.
         amplitude : float, optional
-            Angle from which the bell falls, rad, up to pi: let go at rest, the clapper hanging free or resting on the
-            lower side. Left out: full circle, as church bells are rung in England: it falls from the balance, mouth up,
-            the clapper on the side that trails.
+            Angle from which the bell is released at rest, rad, up to pi; the clapper hangs free or rests on the lower
+            side. If left out, the bell is rung full circle, as in English towers: it falls from the balance, mouth up,
+            with the clapper on the trailing side.
 
         Returns
         -------
         Strike
-            Up to the next turn of the bell. Angles and speeds to 1e-8 of their size, by integration.
+            The first blow up to the next turn of the bell. Accuracy: angles and speeds to 1e-8 of their size, by
+            integration.
 
         Raises
         ------
         ValueError
-            For a clearance that is not between 0 and pi / 2, and an amplitude that is not between 0 and pi.
+            If the clearance is not between 0 and pi / 2, or the amplitude not between 0 and pi.
         ImportError
             If SciPy is not installed; the message says how to install it.
 
         Notes
         -----
         Bell and clapper are a double pendulum in a plane, without friction, rope or stay; the headstock is stiff. The
-        clapper rests on the side of the bell as long as that has to push, then flies free; what bounces do after the first
-        blow is not followed, for it depends on the two metals. The same model, with the bell many times heavier than
-        its clapper, is behind the design charts of Woodhouse et al. (2012), doi:10.1155/2012/681787: there two ratios of
-        lengths decide, ``joint / l1`` and ``l2 / l1``. Where ``l2 = l1 + joint`` a clapper that hangs in the middle stays
-        there; for any weights that is Greenhill (1908), section 8 (16): `mismatch` = 0.
+        clapper rests on the side of the bell while the bell pushes it, then flies free. Bounces after the first blow are
+        not computed, because they depend on the metals. The design charts of Woodhouse et al. (2012),
+        doi:10.1155/2012/681787, use the same model for a bell much heavier than its clapper: the result then depends on
+        ``joint / l1`` and ``l2 / l1`` only. If ``l2 = l1 + joint``, a clapper that hangs in the middle stays there. For
+        any weights that condition is `mismatch` = 0, Greenhill (1908), section 8 (16).
 
         Examples
         --------
@@ -203,13 +212,13 @@ class BellAndClapper(Result):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside them. The outline of
-            the bell is a picture only: its data say nothing of its shape but the radius of gyration.
+            The drawing: the axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside them.
+            The outline of the bell is only an illustration: the data do not define it.
 
         Examples
         --------
@@ -242,15 +251,15 @@ def _clearance(place: str, clearance: float) -> float:
 
 
 def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
-    """Return how far a bell and its clapper are from swinging as one piece.
+    """Return the modes of a bell and its clapper, and their distance from swinging as one piece.
 
     Parameters
     ----------
     chain : Chain
-        Two links, both with weight: the clapper, and above it the bell, whose length is the distance from its axle to
-        the pin of the clapper. The length of the clapper does not matter.
+        Two links, both with weight: the clapper, and above it the bell. The length of the bell is the distance from its
+        axle to the pin of the clapper; the length of the clapper has no effect.
     gravity : float, optional
-        Positive; standard gravity in m/s^2 if left out.
+        Acceleration of gravity, positive; standard gravity in m/s^2 if left out.
 
     Returns
     -------
@@ -260,19 +269,20 @@ def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> Bell
     Raises
     ------
     ValueError
-        Unless there are two links with weight, and `gravity` is positive.
+        If the chain does not have two links with weight, or `gravity` is not positive.
     TypeError
         If `chain` is not a `Chain`.
 
     Notes
     -----
-    With r the inclination of the clapper over that of the bell,
-    ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0`` and the conical height ``l1 + a2 / r``: one positive root,
-    one negative. Small inclinations; where they are one piece, at any. Greenhill (1908), section 8 (14)-(16).
+    The ratio r of the inclination of the clapper to that of the bell is a root of
+    ``h1 r^2 - ((m + 1) l1 - m l2 - a2) r - (m + 1) a2 = 0``, one positive and one negative. The conical height is
+    ``l1 + a2 / r``. This holds for small inclinations, and for any inclination if both swing as one piece. Source:
+    Greenhill (1908), section 8 (14)-(16).
 
     Examples
     --------
-    The ratio grows where the bell is hung higher above its centre of gravity:
+    The ratio grows with the distance of the centre of gravity of the bell below the axle:
 
     >>> import revchain as rc
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])

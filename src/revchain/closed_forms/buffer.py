@@ -17,7 +17,7 @@ __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
 
 class Blow(NamedTuple):
-    """One contact with the buffer: its start and end, and the momentum that the buffer takes up."""
+    """One contact with the buffer: start, end, and the momentum that the buffer absorbs."""
 
     start: float
     end: float
@@ -25,7 +25,7 @@ class Blow(NamedTuple):
 
 
 class CarriageState(NamedTuple):
-    """Positions of the carriages, towards the buffer from those at time 0, speeds, force of the buffer (0 if apart)."""
+    """Displacements of both carriages towards the buffer since time 0, their speeds, and the buffer force (0 if apart)."""
 
     front: Any
     rear: Any
@@ -37,29 +37,29 @@ class CarriageState(NamedTuple):
 class BufferImpact(Solved):
     """The motion of two carriages that run against a buffer stop.
 
-    In contact they swing as a double pendulum of two point masses does; the buffer pushes and never pulls. In any
-    consistent units.
+    In contact, the carriages oscillate as a double pendulum of two point masses does. The buffer pushes and never
+    pulls. Units: any consistent set.
 
     Parameters
     ----------
     front_mass, rear_mass : float
-        Positive.
+        Masses of the carriages, positive.
     buffer_stiffness, coupling_stiffness : float
-        Of the springs, positive; the coupling is slack at first, and pulls and pushes.
+        Stiffnesses of the springs, positive. The coupling pulls and pushes; it is without force at first.
     speed : float
-        Of both towards the buffer at time 0, when the front one touches it; positive.
+        Speed of both carriages towards the buffer at time 0, when the front one touches it; positive.
 
     Raises
     ------
     ValueError
-        If a number is not positive and finite, or for more than 100,000 blows.
+        If a number is not positive and finite, or there are more than 100,000 blows.
 
     Notes
     -----
-    Accuracy, measured against integration, where no blow only grazes: positions to 1e-13 of speed times time, speeds to
-    1e-13 of the speed and of acceleration times time, times to 1e-13 of the last. Cost: 2 microseconds a blow, 0.1 for
-    a state. Carriages of about equal mass deal one to three blows, a heavy one behind a light one hundreds. Greenhill
-    (1908) section 2, text after (7).
+    Accuracy, measured against integration, if no blow only grazes the buffer: positions to 1e-13 of speed times time,
+    speeds to 1e-13 of the speed and of acceleration times time, times to 1e-13 of the last time. Cost: 2 microseconds
+    for each blow, 0.1 for a state. Carriages of about equal mass give one to three blows; a heavy one behind a light one
+    gives hundreds. Source: Greenhill (1908), section 2, text after (7).
 
     Examples
     --------
@@ -92,12 +92,12 @@ class BufferImpact(Solved):
         Parameters
         ----------
         time : array_like
-            Finite and not negative, any shape.
+            Times, finite and not negative, any shape.
 
         Returns
         -------
         CarriageState
-            Each of the shape of `time`.
+            Arrays with the shape of `time`.
 
         Examples
         --------

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The conical pendulum: height, speed, period and gravity, each from the others.
+"""The conical pendulum: height, speed, period and gravity from one another.
 
-The conical height is ``gravity / angular_speed**2``: how far the circling weight hangs below its support, whatever the
-length of the thread. All functions broadcast; single numbers give a single number; cost O(1) a number. A number that is
-not positive and finite raises a ValueError. `gravity` is in the unit of length of the heights per s^2, and the standard
-gravity in m/s^2 if left out. Source: Greenhill (1908), section 1; its equations in brackets.
+The conical height is ``gravity / angular_speed**2``: the depth of the circling weight below its support, for a thread of
+any greater length. All functions broadcast; single numbers give a single number. Cost: O(1) for each number. A number
+that is not positive and finite raises a ValueError. `gravity` is in the unit of length of the heights per s^2; standard
+gravity in m/s^2 if left out. Source: Greenhill (1908), section 1; numbers in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -137,12 +137,12 @@ def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY)
 
 
 def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike) -> Any:
-    """Return the conical height of a period without gravity, ``seconds_pendulum * period**2 / 4`` (7).
+    """Return the conical height of a period from the seconds pendulum, ``seconds_pendulum * period**2 / 4`` (7).
 
     Parameters
     ----------
     seconds_pendulum, period : array_like
-        Length of the simple pendulum that beats seconds at the place; time of one turn in seconds; positive.
+        Length of the simple pendulum that beats seconds at the place, and time of one turn in seconds; positive.
 
     Returns
     -------
@@ -161,13 +161,13 @@ def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike)
 
 
 def gravity(length: ArrayLike, period: ArrayLike = 2.0) -> Any:
-    """Return the gravity under which a simple pendulum has a period, ``4 pi**2 length / period**2`` (4)-(6).
+    """Return the gravity that gives a simple pendulum its period, ``4 pi**2 length / period**2`` (4)-(6).
 
     Parameters
     ----------
     length, period : array_like
-        Its length, and the time of a small swing there and back in seconds, positive; 2 s if left out: the pendulum
-        that beats seconds, which the paper finds 39.1396 inches long at London.
+        Length of the pendulum, and period of small swings (there and back) in seconds; positive. The period is 2 s if
+        left out: such a pendulum beats seconds, and the paper gives its length in London as 39.1396 inches.
 
     Returns
     -------

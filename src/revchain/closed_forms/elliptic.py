@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Elliptic integrals and functions that take the modulus or its complement, whichever is known.
+"""Elliptic integrals and functions of the modulus or of the complementary modulus.
 
-Next to ``modulus = 1`` everything depends on ``complementary_modulus = sqrt(1 - modulus**2)``, which cannot be computed
-from the modulus. Every function takes exactly one of the two, from 0 to 1: the modulus, not the parameter
-``m = modulus**2`` of scipy. Below, ``Delta = sqrt(1 - modulus**2 sin**2)``. All functions broadcast, `jacobi` over
-``u`` for one modulus; single numbers give single numbers. A number out of its range raises a ValueError.
+Every function takes exactly one of ``modulus`` and ``complementary_modulus = sqrt(1 - modulus**2)``, from 0 to 1. Near
+``modulus = 1`` give the complementary modulus: it cannot be computed accurately from a rounded modulus. Note that scipy
+takes the parameter ``m = modulus**2`` instead. Below, ``Delta = sqrt(1 - modulus**2 sin**2)``. All functions broadcast,
+`jacobi` over ``u`` for one modulus; single numbers give single numbers. A number out of its range raises a ValueError.
 """
 
 from __future__ import annotations
@@ -24,7 +24,14 @@ MODULI = ("modulus", "complementary_modulus")
 
 
 class Jacobi(NamedTuple):
-    """Jacobi's functions of ``u``: am u, sn, cn, dn, and `epsilon`, the integral of dn**2 from 0 to u, E(am u)."""
+    """Jacobi's functions of ``u``: `amplitude` am u, `sn`, `cn`, `dn`, and `epsilon`, the integral of dn**2 from 0 to u.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.elliptic.jacobi(1.0, modulus=0.6).amplitude), 12)
+    0.951162931829
+    """
 
     amplitude: Any
     sn: Any
@@ -34,7 +41,14 @@ class Jacobi(NamedTuple):
 
 
 class Complete(NamedTuple):
-    """The integrals over a quarter turn of 1 / Delta (K), Delta (E), sin**2 / Delta (D) and cos**2 / Delta (B)."""
+    """The integrals over a quarter turn of 1 / Delta (K), Delta (E), sin**2 / Delta (D) and cos**2 / Delta (B).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.elliptic.complete(modulus=0.6).E), 12)
+    1.418083394449
+    """
 
     K: Any
     E: Any
@@ -43,7 +57,14 @@ class Complete(NamedTuple):
 
 
 class Incomplete(NamedTuple):
-    """Legendre's integrals up to an amplitude of 1 / Delta (F), Delta (E) and sin**2 / Delta (D)."""
+    """Legendre's integrals from 0 to an amplitude of 1 / Delta (F), Delta (E) and sin**2 / Delta (D).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.elliptic.incomplete(1.0, modulus=0.6).E), 12)
+    0.948689940604
+    """
 
     F: Any
     E: Any
@@ -51,7 +72,7 @@ class Incomplete(NamedTuple):
 
 
 def _checked(function: str, given: dict[str, Any]) -> list[Floats]:
-    """All parameters of a function of this module, nan for the modulus not given, broadcast to one shape."""
+    """All arguments of a function of this module, broadcast to one shape; NaN for the modulus not given."""
     place = f"revchain.elliptic.{function}"
     absent = [name for name in MODULI if given[name] is None]
     if len(absent) != 1:
@@ -76,14 +97,14 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     u : array_like
         Argument, finite, any shape.
     modulus, complementary_modulus : float
-        One of them.
+        Exactly one of the two.
 
     Returns
     -------
     Jacobi
-        Each of the shape of `u`, with an error of at most ``1e-15 * (|f| + |u df/du|)`` for complementary moduli from
-        1e-150 to 1. Where ``abs(u)`` exceeds 1e15, no digit of sn, cn and dn is left: they belong to some argument.
-        Theta series of the smaller nome, DLMF 20.2, 22.2. Cost 0.1 microseconds a number.
+        Arrays with the shape of `u`. For complementary moduli from 1e-150 to 1 the error is at most
+        ``1e-15 * (|f| + |u df/du|)``. If ``abs(u)`` exceeds 1e15, no digit of sn, cn and dn is correct. Method: theta
+        series of the smaller nome, DLMF 20.2, 22.2. Cost: 0.1 microseconds for each number.
 
     Examples
     --------
@@ -104,14 +125,14 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     Parameters
     ----------
     modulus, complementary_modulus : array_like
-        One of them.
+        Exactly one of the two.
 
     Returns
     -------
     Complete
-        Each of the shape given, within 1.5e-15 relative; `K` and `D` infinite for modulus 1.
-        ``D = (K - E) / modulus**2`` and ``B = K - D`` are found without the difference. Bulirsch's cel,
-        doi:10.1007/BF02165405. Cost 0.2 microseconds a number.
+        Arrays with the shape given, within 1.5e-15 relative; `K` and `D` are infinite for modulus 1.
+        ``D = (K - E) / modulus**2`` and ``B = K - D`` are computed without these differences. Method: Bulirsch's cel,
+        doi:10.1007/BF02165405. Cost: 0.2 microseconds for each number.
 
     Examples
     --------
@@ -130,15 +151,15 @@ def incomplete(
     Parameters
     ----------
     amplitude : array_like
-        In rad, finite.
+        Upper limit of the integrals, rad, finite.
     modulus, complementary_modulus : array_like
-        One of them.
+        Exactly one of the two.
 
     Returns
     -------
     Incomplete
-        Each of the broadcast shape, within 2e-15 relative. Carlson's forms, doi:10.1007/BF02198293; DLMF 19.25. Cost
-        0.5 microseconds a number.
+        Arrays with the broadcast shape, within 2e-15 relative. Method: Carlson's forms, doi:10.1007/BF02198293;
+        DLMF 19.25. Cost: 0.5 microseconds for each number.
 
     Examples
     --------
@@ -152,19 +173,19 @@ def incomplete(
 def complete_pi(
     characteristic: ArrayLike, *, modulus: ArrayLike | None = None, complementary_modulus: ArrayLike | None = None
 ) -> Any:
-    """Return the complete integral of the third kind, of ``1 / ((1 - characteristic sin**2) Delta)``.
+    """Return the complete elliptic integral of the third kind, of ``1 / ((1 - characteristic sin**2) Delta)``.
 
     Parameters
     ----------
     characteristic : array_like
-        Less than 1, of either sign; its sign as in DLMF 19.2.7.
+        Less than 1, positive or negative, with the sign convention of DLMF 19.2.7.
     modulus, complementary_modulus : array_like
-        One of them.
+        Exactly one of the two.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 1.5e-15 relative; infinite for modulus 1. Cost 0.1 microseconds a number.
+        Broadcast shape, within 1.5e-15 relative; infinite for modulus 1. Cost: 0.1 microseconds for each number.
 
     Examples
     --------
@@ -179,19 +200,19 @@ def incomplete_pi(
     characteristic: ArrayLike, amplitude: ArrayLike, *, modulus: ArrayLike | None = None,
     complementary_modulus: ArrayLike | None = None,
 ) -> Any:
-    """Return the integral of the third kind up to an amplitude.
+    """Return the elliptic integral of the third kind from 0 to an amplitude.
 
     Parameters
     ----------
     characteristic, amplitude : array_like
-        As in `complete_pi`, and in rad, finite.
+        Characteristic as in `complete_pi`; amplitude in rad, finite.
     modulus, complementary_modulus : array_like
-        One of them.
+        Exactly one of the two.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 3e-15 relative. Cost 0.7 microseconds a number.
+        Broadcast shape, within 3e-15 relative. Cost: 0.7 microseconds for each number.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The governor: a rigid link hinged on an axis that is made to turn, free to swing in its turning plane.
+"""The governor: a rigid link hinged on a driven axis, free to swing in the plane that turns with the axis.
 
-``theta'' = n**2 sin(theta) cos(theta) - (g/l) sin(theta)`` in closed form, from any start. Angles are in radians from
-the downward vertical. Source: Greenhill (1908), section 7.
+The closed form solves ``theta'' = n**2 sin(theta) cos(theta) - (g/l) sin(theta)`` from any start. Angles are in radians
+from the downward vertical. Source: Greenhill (1908), section 7.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ __all__ = ["GovernorMotion", "GovernorState"]
 
 
 class GovernorState(NamedTuple):
-    """Angle in rad, whole turns counted, and its rate in rad/s."""
+    """Angle in rad (whole turns included) and its rate in rad/s."""
 
     angle: Any
     angle_rate: Any
@@ -35,28 +35,28 @@ class GovernorMotion(Solved):
     Parameters
     ----------
     angular_speed : float
-        Speed of the axis, rad/s; 0 for a pendulum whose axis stands still.
+        Speed of the axis, rad/s; 0 for a pendulum that does not turn.
     pendulum_length : float
         Length of the equivalent simple pendulum about the hinge, positive.
     angle, angle_rate : float
         Angle of the link and its rate at time 0.
     gravity : float
-        Negative: the axis upside down.
+        Acceleration of gravity; negative for an inverted axis.
     axial_inertia : float
-        Moment of inertia about the line of the link over that about the hinge across it, 0 to 1.
+        Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1.
 
     Raises
     ------
     ValueError
-        If a number is not finite, `pendulum_length` not positive, or `axial_inertia` outside 0 to 1; if numbers are so
-        far apart (a factor of 1e150) that the motion has no digits.
+        If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if numbers
+        differ by a factor of 1e150 or more, so that no digit of the motion is correct.
 
     Notes
     -----
-    Accuracy, measured against integration in quadruple precision: of angles 1e-13 of the greatest and of ``t`` times
-    the greatest rate, of rates 1e-13 of the greatest and of ``t`` times the greatest acceleration; after 1e13 periods
-    no digit is left. Next to motions that take infinitely long, only as far as the start, rounded to double, says on
-    which side of them it is. Cost: 2 microseconds, and 0.2 for each time. Equations (1)-(13) of the source.
+    Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of ``t``
+    times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest acceleration. After 1e13
+    periods no digit is correct. Close to a motion that never returns, the rounding of the start to double limits the
+    accuracy. Cost: 2 microseconds, and 0.2 for each time. Source: Greenhill (1908), section 7 (1)-(13).
 
     Examples
     --------
@@ -71,12 +71,14 @@ class GovernorMotion(Solved):
         "``'rest'``, ``'aside'`` (dn), ``'asymptotic'`` (sech, sinh), ``'through'`` (cn) or ``'revolutions'`` (tn)."
     )
     period: Field[float] = Field(
-        "Period of the motion, of one turn where it revolves, s; infinite where it never returns, 0 at rest."
+        "Period of the motion (of one turn if it revolves), s; infinite if it never returns, 0 at rest."
     )
-    least_angle: Field[float] = Field("Turning angle, rad; minus infinity where it revolves.")
-    greatest_angle: Field[float] = Field("Turning angle, rad; infinity where it revolves.")
+    least_angle: Field[float] = Field("Smallest angle of the motion, rad; minus infinity if it revolves.")
+    greatest_angle: Field[float] = Field("Largest angle of the motion, rad; infinity if it revolves.")
     modulus: Field[float] = Field("Modulus of the elliptic functions.")
-    complementary_modulus: Field[float] = Field("Its complement, more exact next to motions that never return.")
+    complementary_modulus: Field[float] = Field(
+        "Complementary modulus; it is more accurate than the modulus near motions that never return."
+    )
     _solver = _core.GovernorMotion
     _row = "motion"
 
@@ -94,12 +96,12 @@ class GovernorMotion(Solved):
         Parameters
         ----------
         time : array_like
-            In seconds, finite, any shape.
+            Times in s, finite, any shape.
 
         Returns
         -------
         GovernorState
-            Each of the shape of `time`.
+            Arrays with the shape of `time`.
 
         Examples
         --------
@@ -111,23 +113,24 @@ class GovernorMotion(Solved):
         return GovernorState(*numbers(self._found().state(floats("revchain.GovernorMotion.state", "time", time))))
 
     def plot(self, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
-        """Draw the angle against time, and the turning angles; needs matplotlib.
+        """Draw the angle against time, with its smallest and largest values; needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         duration : float, optional
-            In seconds; two periods if left out.
+            Length of the time axis in s; two periods if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If the motion never returns and no `duration` is given, or it is not positive and finite.
+            If the motion never returns and no `duration` is given, or if `duration` is not positive and finite.
 
         Examples
         --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thomson's gyrostatic string: a row of spinning links under tension, in which the plane of vibration turns."""
+"""Thomson's gyrostatic string: a row of links with flywheels under tension, in which the plane of vibration turns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,17 @@ if TYPE_CHECKING:
 
 
 class WaveSpeeds(NamedTuple):
-    """Speeds of the two circular waves in rad/s: in the direction of a positive momentum, and against it, negative."""
+    """Speeds of the two circular waves in rad/s: `forward`, in the direction of a positive momentum, and `backward`.
+
+    The backward speed is negative.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
+    >>> float(string.angular_speeds(0.5).backward.round(4))
+    -4.8272
+    """
 
     forward: Any
     backward: Any
@@ -26,37 +36,37 @@ class WaveSpeeds(NamedTuple):
 class GyrostaticString:
     """Equal links jointed in a row under tension, each with a flywheel about its own axis.
 
-    In a circular wave every pin runs round the line with speed n, each a phase behind its neighbour:
+    In a circular wave every pin circles about the line with speed n, and each lags its neighbour by a phase:
     ``(T/a + n H/a^2) 4 sin^2(phase/2) = (n^2/g) (W - 4 X sin^2(phase/2))``, where ``X`` is
     ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer in one direction of rotation and softer in the
-    other. A planar vibration is the sum of two circular waves, so its plane turns along the string, as that of light
-    does in a magnetised body.
+    other. A planar vibration is the sum of two circular waves. Its plane therefore turns along the string, as the plane
+    of polarized light does in a magnetized body.
 
     Parameters
     ----------
     weight, length : float
-        Of a link with its wheel, and between its pins; positive.
+        Weight of a link with its wheel, and distance between its pins; positive.
     tension : float
-        Positive.
+        Tension of the string, positive.
     momentum : float
-        Angular momentum that each wheel keeps, force times length times time: its moment of inertia times its spin.
+        Constant angular momentum of each wheel (moment of inertia times spin), in force times length times time.
     centroid : float, optional
-        Of a link, from a pin; the middle if left out.
+        Distance of the centre of gravity of a link from a pin; the middle if left out.
     radius_of_gyration : float
-        Of a link, across the line, about its centre of gravity; not negative.
+        Radius of gyration of a link about an axis across the line through its centre of gravity; not negative.
     gravity : float
-        Relates `weight` to mass, positive; standard gravity in m/s^2 if left out.
+        Acceleration of gravity, which relates `weight` to mass; positive; standard gravity in m/s^2 if left out.
 
     Raises
     ------
     ValueError
-        For numbers out of their range or not finite.
+        If a number is out of its range or not finite.
 
     Notes
     -----
-    Small offsets; the weight of the links counts in their inertia alone. Accuracy, where the terms of the balance do
-    not cancel: speeds 4 ulp, phases 4 ulp and rotations 8 ulp over the cosine of half the phase, however small the
-    momentum. Greenhill (1908), section 8, and Thomson (Lord Kelvin), whose string it is.
+    The model is for small offsets; the weight of the links acts only as inertia. Accuracy, if the terms of the balance
+    do not cancel: speeds 4 ulp; phases 4 ulp and rotations 8 ulp, divided by the cosine of half the phase, for any
+    momentum. Cost: O(1) for each number. Source: Greenhill (1908), section 8, after Thomson (Lord Kelvin).
 
     Examples
     --------
@@ -80,20 +90,20 @@ class GyrostaticString:
             checked = one_positive if name in ("weight", "length", "tension", "gravity") else real
             given = self.length / 2 if name == "centroid" and value is None else value
             object.__setattr__(self, name, checked("revchain.GyrostaticString", name, given))
-        self.phase(0.0)  # what else is wrong with them
+        self.phase(0.0)  # the compiled function checks the rest
 
     def phase(self, angular_speed: ArrayLike) -> Any:
-        """Return the phase by which each pin of a circular wave is behind its neighbour.
+        """Return the phase by which each pin of a circular wave lags its neighbour.
 
         Parameters
         ----------
         angular_speed : array_like
-            rad/s, finite, of either sign.
+            Speeds in rad/s, finite, positive or negative.
 
         Returns
         -------
         float or ndarray
-            rad, 0 to pi.
+            Phase in rad, from 0 to pi.
 
         Examples
         --------
@@ -105,17 +115,17 @@ class GyrostaticString:
         return self._at("phase", "angular_speed", angular_speed, _core.gyrostatic_string_phase)[0]
 
     def attenuation(self, angular_speed: ArrayLike) -> Any:
-        """Return the decrease of the logarithm of a circular wave from link to link.
+        """Return the logarithmic decrease of the amplitude of a circular wave from link to link.
 
         Parameters
         ----------
         angular_speed : array_like
-            rad/s, finite, of either sign.
+            Speeds in rad/s, finite, positive or negative.
 
         Returns
         -------
         float or ndarray
-            0 where the wave passes.
+            Decrease; 0 if the wave passes without loss.
 
         Examples
         --------
@@ -127,17 +137,17 @@ class GyrostaticString:
         return self._at("attenuation", "angular_speed", angular_speed, _core.gyrostatic_string_phase)[1]
 
     def angular_speeds(self, phase: ArrayLike) -> WaveSpeeds:
-        """Return the speeds of the two circular waves with a phase from link to link.
+        """Return the speeds of the two circular waves with a given phase from link to link.
 
         Parameters
         ----------
         phase : array_like
-            rad, above 0, not above pi; a ValueError elsewhere.
+            Phase in rad, above 0 and at most pi; other values raise a ValueError.
 
         Returns
         -------
         WaveSpeeds
-            Each of the shape of `phase`.
+            Arrays with the shape of `phase`.
 
         Examples
         --------
@@ -155,13 +165,13 @@ class GyrostaticString:
         Parameters
         ----------
         angular_speed : array_like
-            Angular frequency of the vibration, rad/s, positive and finite; a ValueError for others.
+            Angular frequency of the vibration, rad/s, positive and finite; other values raise a ValueError.
 
         Returns
         -------
         float or ndarray
-            rad, in the direction of a positive momentum, for waves that run either way. NaN where one of the two
-            circular waves does not pass.
+            Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and NaN if
+            one of the two circular waves does not pass.
 
         Examples
         --------
@@ -181,11 +191,12 @@ class GyrostaticString:
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Examples
         --------
@@ -199,20 +210,21 @@ class GyrostaticString:
         return plot_waves(self, ax)
 
     def plot_vibration(self, angular_speed: float, links: int = 60, ax: Axes | None = None) -> Axes:
-        """Draw how the plane of a vibration turns along the string, from the side and end on; needs matplotlib.
+        """Draw the turning plane of a vibration along the string, from the side and from the end; needs matplotlib.
 
         Parameters
         ----------
         angular_speed : float
-            Of the vibration, positive.
+            Angular frequency of the vibration, rad/s, positive.
         links : int
-            How many.
+            Number of links to draw.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
@@ -238,3 +250,14 @@ class GyrostaticString:
 
     def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[Any, ...]:
         return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))
+
+
+GyrostaticString.__slots__ = {  # type: ignore[assignment]  # `help` reads them here
+    "weight": "Weight of a link with its wheel.",
+    "length": "Distance between the pins of a link.",
+    "tension": "Tension of the string.",
+    "momentum": "Constant angular momentum of each wheel.",
+    "centroid": "Distance of the centre of gravity of a link from a pin.",
+    "radius_of_gyration": "Radius of gyration of a link about an axis across the line through its centre of gravity.",
+    "gravity": "Acceleration of gravity, which relates weight to mass.",
+}

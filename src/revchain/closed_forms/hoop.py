@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An endless chain that runs round in a circle, the rim of a wheel, a tyre; the nearly straight whirling string.
+"""An endless chain that runs in a circle (the rim of a wheel, a tyre), and the nearly straight whirling string.
 
-Tensions are given as the length of chain that weighs as much; `gravity` is in that unit per s^2, and the standard
-gravity in m/s^2 if left out. All functions broadcast; single numbers give a single number. A number that is not
-positive and finite raises a ValueError. Source: Greenhill (1908), section 5; its equations in brackets.
+A tension is given as the length of chain of equal weight. `gravity` is in that unit of length per s^2; standard gravity
+in m/s^2 if left out. All functions broadcast; single numbers give a single number. Cost: O(1) for each number. A number
+that is not positive and finite raises a ValueError. Source: Greenhill (1908), section 5; numbers in brackets are its
+equations.
 """
 
 from __future__ import annotations
@@ -19,24 +20,31 @@ __all__ = ["WaveSpeeds", "speed", "string_revolutions_per_second", "tension", "w
 
 
 class WaveSpeeds(NamedTuple):
-    """Speeds in space of the waves against the rim, 0: they are seen standing; and with it: twice its speed."""
+    """Speeds in space of the two waves on a rim: `standing`, against the rim, is 0; `running`, with it, is twice its speed.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.hoop.wave_speeds(20.0).standing)
+    0.0
+    """
 
     standing: Any
     running: Any
 
 
 def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the tension of a rim, ``speed**2 / gravity``, whatever the circle (6).
+    """Return the tension of a rim, ``speed**2 / gravity``, for a circle of any radius (6).
 
     Parameters
     ----------
     speed, gravity : array_like
-        Positive; the speed along the rim.
+        Speed along the rim, and gravity; positive.
 
     Returns
     -------
     float or ndarray
-        A length, broadcast shape, within 3 ulp.
+        Tension as a length, broadcast shape, within 3 ulp.
 
     Examples
     --------
@@ -48,18 +56,18 @@ def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
 
 
 def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the speed of a rim under a tension, ``sqrt(gravity * tension)`` (3), (6).
+    """Return the speed that gives a rim a tension, ``sqrt(gravity * tension)`` (3), (6).
 
     Parameters
     ----------
     tension, gravity : array_like
-        Positive; the breaking length gives the speed at which the rim bursts.
+        Tension as a length, and gravity; positive. The breaking length gives the speed at which the rim bursts.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 3 ulp. Also the speed of transverse waves on a string under that tension, and that of a
-        fall through half the length `tension`.
+        Broadcast shape, within 3 ulp. It is also the speed of transverse waves on a string under that tension, and the
+        speed after a fall through half the length `tension`.
 
     Examples
     --------
@@ -74,17 +82,17 @@ def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
 
 
 def wave_speeds(speed: ArrayLike) -> WaveSpeeds:
-    """Return the speeds in space of transverse waves on a rim that runs round; relative to it both have its own (6).
+    """Return the speeds in space of both transverse waves on a rim; relative to the rim both have its speed (6).
 
     Parameters
     ----------
     speed : array_like
-        Of the rim, positive.
+        Speed of the rim, positive.
 
     Returns
     -------
     WaveSpeeds
-        Each of the shape of `speed`, exact.
+        Arrays with the shape of `speed`, exact.
 
     Examples
     --------
@@ -96,17 +104,18 @@ def wave_speeds(speed: ArrayLike) -> WaveSpeeds:
 
 
 def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the turns per second of a nearly straight string whirling in one half wave (3).
+    """Return the turns per second of a nearly straight string that whirls in one half wave (3).
 
     Parameters
     ----------
     span, tension, gravity : array_like
-        Positive; `span` is the distance of the ends, twice the paper's ``a``.
+        Distance between the ends (twice the paper's ``a``), tension as a length, and gravity; positive.
 
     Returns
     -------
     float or ndarray
-        ``sqrt(gravity * tension) / (2 * span)``, broadcast shape, within 3 ulp; the frequency of planar vibrations too.
+        ``sqrt(gravity * tension) / (2 * span)``, broadcast shape, within 3 ulp. Planar vibrations have the same
+        frequency.
 
     Examples
     --------

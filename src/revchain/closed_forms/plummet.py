@@ -2,9 +2,9 @@
 """One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
 
 `height` is the conical height ``gravity / angular_speed**2`` of the motion. All lengths are in one unit; tensions are
-divided by the weight; angles are in radians. All functions broadcast; single numbers give single numbers; cost O(1) a
-number. A number that is not positive and finite raises a ValueError. Source: Greenhill (1908), section 1; its equations
-in brackets.
+divided by the weight; angles are in radians. All functions broadcast; single numbers give single numbers. Cost: O(1) for
+each number. A number that is not positive and finite raises a ValueError. Source: Greenhill (1908), section 1; numbers
+in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -24,7 +24,14 @@ __all__ = [
 
 
 class InclinedPendulum(NamedTuple):
-    """A circling point mass: inclination to the vertical (0 to pi/2), radius, depth below the support, tension."""
+    """A circling point mass: inclination to the vertical (0 to pi/2), radius, depth below the support, tension.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.plummet.inclined_pendulum(length=2.0, height=1.0).depth)
+    1.0
+    """
 
     inclination: Any
     radius: Any
@@ -33,9 +40,16 @@ class InclinedPendulum(NamedTuple):
 
 
 class HeldPlummet(NamedTuple):
-    """A point mass on two threads tied to the axis: distance from it, depth below the upper point, tensions.
+    """A point mass on two threads tied to the axis: radius, depth below the upper tie, tensions, and which are taut.
 
-    Where a thread is slack its tension is 0, and the mass circles on the other one.
+    A slack thread has tension 0; the mass then circles on the other thread.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> held = rc.plummet.held_plummet(1.0, 1.0, distance=1.2, height=0.3)
+    >>> round(float(held.depth), 6), round(float(held.upper_tension), 6), round(float(held.lower_tension), 6)
+    (0.6, 2.5, 0.833333)
     """
 
     radius: Any
@@ -47,7 +61,7 @@ class HeldPlummet(NamedTuple):
 
 
 def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
-    """Return how a point mass on a thread circles at a given speed (1).
+    """Return the steady motion of a point mass on a thread at a given speed (1).
 
     Parameters
     ----------
@@ -57,8 +71,8 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
     Returns
     -------
     InclinedPendulum
-        Broadcast shape, within 3 ulp. The thread is inclined where `height` is less than `length`, and `height` is then
-        the depth; elsewhere it hangs vertically.
+        Broadcast shape, within 3 ulp. If `height` is less than `length`, the thread is inclined and `height` is the
+        depth; else the thread hangs vertically.
 
     Examples
     --------
@@ -74,28 +88,28 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
 def held_plummet(
     upper_thread: ArrayLike, lower_thread: ArrayLike, distance: ArrayLike, height: ArrayLike
 ) -> HeldPlummet:
-    """Return how a point mass circles that a second thread keeps from flying out farther (the polygon of forces).
+    """Return the steady motion of a point mass on two threads: the lower one limits the radius (polygon of forces).
 
     Parameters
     ----------
     upper_thread, lower_thread : array_like
-        Their lengths, positive.
+        Lengths of the threads, positive.
     distance : array_like
-        How far the lower thread is tied to the axis below the upper one, positive.
+        Distance along the axis from the tie of the upper thread down to that of the lower one, positive.
     height : array_like
         Conical height, positive.
 
     Returns
     -------
     HeldPlummet
-        Broadcast shape, within 3 ulp; where a depth or a tension nearly vanishes, within 1e-29 of the larger of the two
-        terms whose difference it is. With D the depth where both threads are straight, the lower one is slack from
-        ``height = D`` on, and the upper one up to ``height = D - distance``.
+        Broadcast shape, within 3 ulp; a depth or a tension that nearly vanishes is within 1e-29 of the larger of the two
+        terms that it is the difference of. With D the depth at which both threads are straight, the lower thread is slack
+        if ``height >= D``, and the upper one if ``height <= D - distance``.
 
     Raises
     ------
     ValueError
-        Also if the three lengths make no triangle.
+        If the three lengths do not form a triangle.
 
     Examples
     --------
@@ -114,12 +128,13 @@ def held_plummet(
 
 
 def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
-    """Return the air resistance of the point mass of a whirling machine over its weight, ``arm / height`` (8).
+    """Return the air resistance of the mass of a whirling machine divided by its weight, ``arm / height`` (8).
 
     Parameters
     ----------
     arm, height : array_like
-        Positive: the arm that carries the thread, perpendicular to the plane of axis and mass, and the conical height.
+        Length of the arm that carries the thread, perpendicular to the plane of axis and mass, and conical height;
+        positive.
 
     Returns
     -------
@@ -136,12 +151,12 @@ def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
 
 
 def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any:
-    """Return the thread for which the arm of a whirling machine is perpendicular to the plane of the mass, after (8).
+    """Return the thread of a whirling machine whose arm is perpendicular to the plane of axis and mass (after (8)).
 
     Parameters
     ----------
     arm, height, radius : array_like
-        Positive: as in `air_resistance`, and the radius of the circle of the mass.
+        Arm and conical height as in `air_resistance`, and radius of the circle of the mass; positive.
 
     Returns
     -------
@@ -158,18 +173,19 @@ def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any
 
 
 def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
-    """Return the offset of the mass over that of its support, carried round or to and fro (base excitation) (9).
+    """Return the offset of a point mass divided by that of its moving support (base excitation) (9).
 
     Parameters
     ----------
     length, height : array_like
-        Length of the thread and conical height of the motion of the support, positive.
+        Length of the thread and conical height of the motion of the support, positive. The support moves in a circle or
+        to and fro.
 
     Returns
     -------
     float or ndarray
-        ``height / (height - length)`` for small inclinations, broadcast shape, within 1.1 ulp: infinite at resonance,
-        negative (in antiphase) above the resonant speed.
+        ``height / (height - length)`` for small inclinations, broadcast shape, within 1.1 ulp. It is infinite at
+        resonance and negative (in antiphase) above the resonant speed.
 
     Examples
     --------
@@ -192,9 +208,9 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
     -------
     ndarray, or list of ndarray
         For numbers an array; for arrays a list with one array for each element of the broadcast shape, in C order. The
-        roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2, outwards positive: one, or
-        three where ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Within 4 ulp, times
-        ``1 / (1 - (cos at which two meet / cos of the root)**3)`` next to where two meet. Cost 1 microsecond a number.
+        inclinations are the roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2, outwards
+        positive. There is one, or three if ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Accuracy: 4 ulp; where two
+        roots nearly meet, times ``1 / (1 - (cos at which two meet / cos of the root)**3)``. Cost: 1 microsecond for each.
 
     Examples
     --------

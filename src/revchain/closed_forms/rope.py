@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rope that whirls round an axis, gravity left out: in a plane, or winding round the axis.
+"""A rope that whirls about an axis without gravity, in a plane or wound round the axis.
 
-Tensions are given as the length of rope that weighs as much; all lengths are in one unit, angles in radians. Source:
+A tension is given as the length of rope of equal weight. All lengths are in one unit, angles in radians. Source:
 Greenhill (1908), section 5.
 """
 
@@ -25,8 +25,8 @@ __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 class RopePoints(NamedTuple):
     """Points of a skipping rope.
 
-    Distances from an end along the axis and along the rope, offset from the axis (of either sign), ``d offset / dx``,
-    tension over that in the middle of a half wave.
+    `x`, `arc`: distances from an end along the axis and along the rope. `offset`: signed distance from the axis.
+    `slope`: ``d offset / dx``. `tension_ratio`: tension divided by that in the middle of a half wave.
     """
 
     x: Any
@@ -39,9 +39,10 @@ class RopePoints(NamedTuple):
 class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
-    Distances along the axis and along the rope from where it is nearest to the axis, distance from the axis, angle
-    round it (of the plane rope -pi/2 and pi/2 on either side of ``x = 0``), ``d radius / dx``, ``d angle / dx``,
-    tension over its part along the axis.
+    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
+    the axis. `angle`: angle round the axis; for the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
+    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its component
+    along the axis.
     """
 
     x: Any
@@ -54,38 +55,38 @@ class TortuousPoints(NamedTuple):
 
 
 class SkippingRope(Solved):
-    """A rope that whirls between two points of its axis, gravity left out: ``offset = sag sn(K x/a)``.
+    """A rope that whirls between two points of the axis without gravity: ``offset = sag sn(K x/a)``.
 
-    Give two of `span`, `length`, `slack`, `sag`, and `tension` together with `angular_speed`; one of these last two may
-    be added to two of the others.
+    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of the
+    first four you may add one of `tension` and `angular_speed`.
 
     Parameters
     ----------
     span, length : float, optional
-        Distance of the ends, and length of the whole rope, positive.
+        Distance between the ends, and length of the whole rope, positive.
     slack : float, optional
-        ``length - span``, positive, where the two nearly agree.
+        ``length - span``, positive; give it if the two are nearly equal.
     sag : float, optional
         The largest offset, positive.
     angular_speed : float, optional
-        In rad/s, positive.
+        Turning speed, rad/s, positive.
     tension : float, optional
-        In the middle of a half wave, positive.
+        Tension in the middle of a half wave, positive.
     half_waves : int, optional
-        How many times the rope leaves the axis.
+        Number of half waves between the ends.
     gravity : float, optional
-        Relates weight to mass, nothing else; standard gravity in m/s^2 if left out.
+        Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out.
 
     Raises
     ------
     ValueError
-        If a number is not positive and finite, too few or too many are given, or no rope has them: a length not above
-        the span, a sag not below half the length, a rope too slow or too tight to bend.
+        If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length does
+        not exceed the span, the sag is not below half the length, or the rope is too slow or too tight to bend.
 
     Notes
     -----
-    Accuracy: 1e-14 relative in what the two given determine well. Cost: 20 microseconds; a place 0.2, by its arc 10.
-    Greenhill (1908) section 5 (1), (2).
+    Accuracy: 1e-14 relative for what the two given data determine well. Cost: 20 microseconds, and for each place 0.2 by
+    `at` or 10 by `at_arc`. Source: Greenhill (1908), section 5 (1), (2).
 
     Examples
     --------
@@ -98,22 +99,24 @@ class SkippingRope(Solved):
     """
 
     __slots__ = ()
-    has_speed: Field[bool] = Field("Whether angular speed or tension was given, so that both are known.")
+    has_speed: Field[bool] = Field("Whether angular speed or tension was given; both are then known.")
     angular_speed: Field[float] = Field("Turning speed, rad/s; a ValueError if neither speed nor tension was given.")
-    conical_height: Field[float] = Field("Conical height of the speed; a ValueError as for the speed.")
-    tension_in_the_middle: Field[float] = Field("Tension in the middle of a half wave; a ValueError as for the speed.")
-    tension_at_ends: Field[float] = Field("Tension at every node; a ValueError as for the speed.")
-    half_waves: Field[int] = Field("How many times the rope leaves the axis.")
-    span: Field[float] = Field("Distance of the ends.")
+    conical_height: Field[float] = Field("Conical height of the speed; a ValueError if the speed raises one.")
+    tension_in_the_middle: Field[float] = Field("Tension in the middle of a half wave; a ValueError if the speed raises one.")
+    tension_at_ends: Field[float] = Field("Tension at every node; a ValueError if the speed raises one.")
+    half_waves: Field[int] = Field("Number of half waves between the ends.")
+    span: Field[float] = Field("Distance between the ends.")
     length: Field[float] = Field("Length of the rope.")
-    slack: Field[float] = Field("``length - span``, computed without the difference.")
+    slack: Field[float] = Field("``length - span``, computed without that difference.")
     sag: Field[float] = Field("The largest offset.")
-    slope_at_ends: Field[float] = Field("Tangent of the angle with the axis, at every node.")
-    tension_ratio_at_ends: Field[float] = Field("Tension at a node over that in the middle of a half wave.")
-    height_times_tension: Field[float] = Field("Conical height times tension in the middle; it decides the shape.")
-    moment_of_inertia: Field[float] = Field("About the axis, over the mass per length.")
+    slope_at_ends: Field[float] = Field("Tangent of the angle between rope and axis at every node.")
+    tension_ratio_at_ends: Field[float] = Field("Tension at a node divided by that in the middle of a half wave.")
+    height_times_tension: Field[float] = Field("Conical height times tension in the middle; it determines the shape.")
+    moment_of_inertia: Field[float] = Field("Moment of inertia about the axis, divided by the mass per length.")
     modulus: Field[float] = Field("``sag / sqrt(4 height_times_tension + sag**2)``.")
-    complementary_modulus: Field[float] = Field("Its complement, more exact for a rope that is mostly radial.")
+    complementary_modulus: Field[float] = Field(
+        "Complementary modulus; it is more accurate than the modulus if the rope is mostly radial."
+    )
     _solver = _core.SkippingRope
     _row = "rope"
 
@@ -135,12 +138,12 @@ class SkippingRope(Solved):
         Parameters
         ----------
         x : array_like
-            From an end, 0 to `span`, any shape.
+            Distances from an end along the axis, 0 to `span`, any shape.
 
         Returns
         -------
         RopePoints
-            Each of the shape of `x`.
+            Arrays with the shape of `x`.
 
         Examples
         --------
@@ -152,17 +155,17 @@ class SkippingRope(Solved):
         return RopePoints(*numbers(self._found().at(floats("revchain.SkippingRope.at", "x", x))))
 
     def at_arc(self, arc: ArrayLike) -> RopePoints:
-        """Return points of the rope by their distance along it.
+        """Return points of the rope by their distance along the rope.
 
         Parameters
         ----------
         arc : array_like
-            From an end, 0 to `length`, any shape.
+            Distances from an end along the rope, 0 to `length`, any shape.
 
         Returns
         -------
         RopePoints
-            Each of the shape of `arc`.
+            Arrays with the shape of `arc`.
 
         Examples
         --------
@@ -174,17 +177,17 @@ class SkippingRope(Solved):
         return RopePoints(*numbers(self._found().at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
 
     def drawn_to(self, span: float) -> SkippingRope:
-        """Return the rope with its ends at another distance, its length and angular momentum kept.
+        """Return the rope with another span but equal length and angular momentum.
 
         Parameters
         ----------
         span : float
-            The new distance, positive, less than the length; the rope must have a speed.
+            The new span, positive, less than the length. The rope must have a speed (`has_speed`).
 
         Returns
         -------
         SkippingRope
-            Work done on it is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
+            The new rope. The work of drawing it there is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
 
         Examples
         --------
@@ -204,11 +207,12 @@ class SkippingRope(Solved):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Examples
         --------
@@ -233,19 +237,19 @@ class SkippingRope(Solved):
 
 
 class TortuousRope(Solved):
-    """A rope that whirls and winds round its axis, its ends off the axis, gravity left out.
+    """A rope that whirls and winds round the axis without gravity; its ends are off the axis.
 
     Parameters
     ----------
     least_radius, greatest_radius : float
-        Between which its distance from the axis varies, the greater positive. A least radius of 0 is the plane rope,
-        two equal ones a helix.
+        Smallest and largest distance from the axis; the largest must be positive. A smallest distance of 0 gives the
+        plane rope, two equal distances a helix.
     angular_speed : float
-        In rad/s, positive.
+        Turning speed, rad/s, positive.
     tension : float
-        Its part along the axis, positive.
+        Component of the tension along the axis, positive.
     gravity : float, optional
-        Relates weight to mass, nothing else; standard gravity in m/s^2 if left out.
+        Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out.
 
     Raises
     ------
@@ -254,8 +258,8 @@ class TortuousRope(Solved):
 
     Notes
     -----
-    Accuracy: 1e-14 relative, of the angle 1e-14 of it and 1. Cost: 2 microseconds, a place 1. The angle is an elliptic
-    integral of the third kind. Greenhill (1908) section 5, text after (6).
+    Accuracy: 1e-14 relative; for the angle, 1e-14 of its size plus 1. Cost: 2 microseconds, and 1 for each place. The
+    angle is an elliptic integral of the third kind. Source: Greenhill (1908), section 5, text after (6).
 
     Examples
     --------
@@ -268,14 +272,14 @@ class TortuousRope(Solved):
     __slots__ = ()
     least_radius: Field[float] = Field("Least distance from the axis.")
     greatest_radius: Field[float] = Field("Greatest distance from the axis.")
-    half_wave: Field[float] = Field("Distance along the axis from one point nearest to it to the next.")
-    half_wave_length: Field[float] = Field("That distance along the rope.")
-    half_wave_slack: Field[float] = Field("``half_wave_length - half_wave``, computed without the difference.")
+    half_wave: Field[float] = Field("Distance along the axis between two successive points nearest to the axis.")
+    half_wave_length: Field[float] = Field("Length of the rope between two successive points nearest to the axis.")
+    half_wave_slack: Field[float] = Field("``half_wave_length - half_wave``, computed without that difference.")
     half_wave_angle: Field[float] = Field("Angle round the axis in a half wave, rad; pi for the plane rope.")
     conical_height: Field[float] = Field("Conical height of the speed.")
-    height_times_tension: Field[float] = Field("Conical height times tension; it decides the shape.")
+    height_times_tension: Field[float] = Field("Conical height times tension; it determines the shape.")
     modulus: Field[float] = Field("Modulus of the elliptic functions.")
-    complementary_modulus: Field[float] = Field("Its complement.")
+    complementary_modulus: Field[float] = Field("Complementary modulus of the elliptic functions.")
     _solver = _core.TortuousRope
     _row = "rope"
 
@@ -294,12 +298,12 @@ class TortuousRope(Solved):
         Parameters
         ----------
         x : array_like
-            From where the rope is nearest to the axis, of either sign, finite, any shape.
+            Distances along the axis from a point nearest to the axis, positive or negative, finite, any shape.
 
         Returns
         -------
         TortuousPoints
-            Each of the shape of `x`.
+            Arrays with the shape of `x`.
 
         Examples
         --------
@@ -311,18 +315,19 @@ class TortuousRope(Solved):
         return TortuousPoints(*numbers(self._found().at(floats("revchain.TortuousRope.at", "x", x))))
 
     def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
-        """Draw the rope seen along its axis, and the two circles between which it stays; needs matplotlib.
+        """Draw the rope seen along the axis, with the circles of its smallest and largest distance; needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         half_waves : float
-            How much of it, from a point nearest to the axis on; positive and finite.
+            Number of half waves to draw, from a point nearest to the axis; positive and finite.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Examples
         --------

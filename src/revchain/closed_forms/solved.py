@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results that their constructors find from numbers."""
+"""Results whose constructors compute them from numbers."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ..results.sheet import Column, Sheet
 
 
 class Solved(Result):
-    """A result that its constructor finds from numbers; two are equal if the same numbers were given.
+    """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
 
-    A class says by `_solver` what finds it from the numbers, and by `_table` which of its fields are columns, with
-    their headings; angles, whose headings end in (°), are shown in degrees.
+    In a subclass `_solver` is the compiled class that computes the result, and `_table` returns the fields that are
+    columns, with their headings. Angles, whose headings end in (°), are shown in degrees.
     """
 
     __slots__ = ()

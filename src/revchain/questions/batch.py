@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many chains at once."""
+"""Conical heights of many chains in one call."""
 
 from __future__ import annotations
 
@@ -26,52 +26,52 @@ def conical_heights(
     count: int | None = None,
     threads: int = 1,
 ) -> Floats:
-    """Find the conical heights of many chains of equally many links.
+    """Return the conical heights of many chains that have the same number of links.
 
-    The arrays broadcast against each other as numpy has it: the last axis counts the links, lowest
-    first, the others the chains. A number, or an array of shape (N,), serves all chains.
+    The arrays broadcast against each other by the rules of numpy. The last axis counts the links, lowest first; the other
+    axes count the chains. A number, or an array of shape (N,), holds for all chains.
 
     Parameters
     ----------
     mass, weight : array_like, shape (..., N)
-        Mass of each link, kg, or its weight, not negative; the lowest must be positive, 0 is a massless thread.
+        Mass of each link, kg, or its weight, not negative. A link of mass 0 is a massless thread; the lowest link must
+        have mass.
     length : array_like, shape (..., N)
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (..., N), optional
-        Distance of the centre of gravity from the *upper* pin, positive downwards, of any sign.
-        Left out: point masses, with all the weight at the lower pin.
+        Distance of the centre of gravity below the *upper* pin, m; negative if it lies above the pin. If left out,
+        the links are point masses: all the weight is at the lower pin.
     pendulum_length : array_like, shape (..., N), optional
-        Length of the equivalent simple pendulum about the upper pin.
+        Length of the equivalent simple pendulum about the upper pin, m.
     radius_of_gyration : array_like, shape (..., N), optional
-        Radius of gyration about the centre of gravity, not negative. With `centroid` give either
+        Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either
         this or `pendulum_length`.
     count : int, optional
-        How many modes of each chain, slowest first; all if left out, which takes chains that have
-        equally many (massless links may cost modes).
+        Number of modes of each chain, slowest first. If left out, all modes; all chains must then have equally many
+        (a massless link may remove one).
     threads : int, optional
-        How many threads to use; 0 for all processors.
+        Number of threads; 0 for all processors.
 
     Returns
     -------
     numpy.ndarray, shape (..., count)
-        Heights ``g / n**2``, descending, in the unit of the lengths. Bitwise the same whatever the
-        number of threads, and wherever a chain stands in the batch.
+        Conical heights ``g / n**2``, descending, in the unit of the lengths. They are bitwise equal for any number of
+        threads and any place of a chain in the batch.
 
     Raises
     ------
     ValueError
-        For anything but real finite numbers, shapes that do not go together, the first chain with a
-        number that `Chain` refuses (the message names chain, link and number), a `centroid` without
-        exactly one of the two arguments that go with it, a `count` beyond the modes of some chain,
-        or a chain whose heights cannot be proved to half the digits.
+        If a number is not real and finite, or the shapes cannot be broadcast; if `Chain` would refuse one of the chains
+        (the message names chain, link and number); if `centroid` comes without exactly one of `pendulum_length` and
+        `radius_of_gyration`; if `count` exceeds the modes of a chain; if heights of a chain cannot be proved to half the
+        digits.
 
     Notes
     -----
-    Accuracy: 2.8 ulp (6e-16) for plummets and rods of up to 100 links, 5 ulp at worst where weights
-    span 1e12; the number of each mode is verified by counts. Cost: 0.25 microseconds for ten
-    plummets, 0.4 for ten rods, all modes. Chains with
-    massless links or centroids at or above the pin are solved one by one, like `modes`, at 10 to
-    100 times the cost. Other Python threads run on meanwhile.
+    Accuracy: 2.8 ulp (6e-16) for plummets and rods of up to 100 links, 5 ulp at worst if weights
+    span 1e12; counts verify the number of each mode. Cost for all modes of a chain: 0.25 microseconds with ten plummets,
+    0.4 with ten rods. Chains with massless links, or with centroids at or above the pin, are solved one by one as by
+    `modes`, at 10 to 100 times the cost. Other Python threads can run meanwhile.
 
     References
     ----------
@@ -79,7 +79,7 @@ def conical_heights(
 
     Examples
     --------
-    Two point masses on a thread, the lower one heavier and heavier:
+    Three chains of two point masses; from chain to chain the lower mass grows:
 
     >>> import revchain as rc
     >>> rc.conical_heights(mass=[[1.0, 3.0], [2.0, 2.0], [3.0, 1.0]], length=1.0).round(3)
@@ -112,7 +112,7 @@ def conical_heights(
 
 
 def _table(array: Floats, batch: tuple[int, ...]) -> Floats:
-    """One row of numbers for each chain, or a single one for all; copied only where neither will do."""
+    """The array with one row for each chain, or one row for all; copied only if it must be."""
     links = array.shape[-1:] or (1,)
     if math.prod(array.shape[:-1]) == 1:
         return array.reshape(1, *links)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes: followed from each critical speed, and single shapes on them."""
+"""Branches of steady shapes that start at the critical speeds, and single shapes on them."""
 
 from __future__ import annotations
 
@@ -58,55 +58,57 @@ def branch(
     max_points: int = 10_000,
     max_step: float = 0.1,
 ) -> Branch | CordBranch | HeldBranch:
-    """Follow the branch of shapes that leaves the vertical at one critical speed, through every fold.
+    """Return the branch of steady shapes that leaves the vertical at one critical speed, followed through every fold.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself or rigged; a flexible cord; either held at both ends a span apart. Along the branch
-        of a rig every link keeps its posture.
+        The system: a chain of N links, a rig, a cord, or a chain or cord held at a span. Along the branch of a rig each
+        link keeps its posture (hanging or inverted).
     mode : int
-        Number of the mode, from 1, the slowest. Of a rig whose support is off the axis it must be 1, the branch from
-        rest; `branches` finds the isolated ones. Of what is held it is the number of half waves at the start of the
-        branch.
+        Number of the mode, from 1 for the slowest. A rig with its support off the axis has only mode 1, the branch from
+        rest; `branches` finds its isolated branches. For a held system it is the number of half waves at the start of
+        the branch.
     max_angular_speed : float
-        The speed at which to stop, rad/s, above that of the mode. The branch of what is held begins at this speed and
-        goes to slower ones.
+        Speed at which to stop, rad/s, above that of the mode. The branch of a held system starts at this speed and goes
+        to lower speeds.
     min_conical_height : float
-        Instead of `max_angular_speed`: the conical height of that speed, m.
+        Conical height of that speed, m, instead of `max_angular_speed`.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation. Only a rig with flywheels depends on it.
+        Direction of rotation; only a rig with flywheels depends on it.
     max_points : int, optional
-        Largest number of points; there ``end`` is ``budget``. Not used for what is held: that stops after 3000 steps.
+        Largest number of points; ``end`` is ``budget`` if it is reached. A held system ignores it and stops after 3000
+        steps.
     max_step : float, optional
-        Largest step between two points: of the arc, which has no unit (see ``Branch.arc``); of what is held the
-        relative change of the forces at its end and of the conical height.
+        Largest step between two points, in units of ``Branch.arc``. For a held system: largest relative change of the
+        forces at its end and of the conical height.
 
     Returns
     -------
     Branch, CordBranch or HeldBranch
-        The points of the branch, from the critical speed of the mode to the speed given. The first point is the
-        straight chain. If double precision cannot separate the end from it, it is the only one (``end`` is then
-        ``stuck``). Of a rig whose support is off the axis: from a tenth of the first critical speed of the rig with its
-        support in the axis, or of the speed given if that is slower. Of what is held: until a link becomes slack,
-        or a cord folds.
-        Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, of a cord to 1e-9.
+        The points of the branch, from the critical speed of the mode to the given speed. The first point is the
+        straight chain. It is the only one if double precision cannot separate the end from it; ``end`` is then
+        ``stuck``. With the support off the axis the branch starts at a tenth of the first critical speed of the rig with
+        its support on the axis, or at a tenth of the given speed if that is lower. The branch of a held system ends where
+        a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13,
+        those of a cord to 1e-9.
 
     Raises
     ------
     ValueError
-        If there is no such mode (of a support off the axis: if `mode` is not 1), if not exactly one of
+        If there is no such mode (with a support off the axis: if `mode` is not 1), if not exactly one of
         `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, or if
-        `direction` is neither 1 nor -1. For a `Held`: if it is held by a tension or has no gravity.
+        `direction` is neither 1 nor -1; if a `Held` system is under a tension or has no gravity.
 
     Notes
     -----
-    Pseudo-arclength continuation in all inclinations and the height. A step is halved unless Newton's method contracts
-    at once, the direction turns little, the middle of the step lies on the branch too, and, where no link has
-    ``pendulum_length > length``, the half waves stay the same. That is a check, not a proof. Of a cord: on the curve on
-    which crossing `mode` of the axis is at the support.
+    Method: pseudo-arclength continuation in all inclinations and the height. A step is halved unless Newton's method
+    contracts at once, the direction turns little, the middle of the step lies on the branch too, and, if no link has
+    ``pendulum_length > length``, the half waves are unchanged. This is a check, not a proof. For a cord the curve is that
+    on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill (1908), section
+    8 (4), (12).
 
     Examples
     --------
@@ -166,62 +168,61 @@ def branches(
     budget: int = 3_000_000,
     proof_budget: int = 1_000_000,
 ) -> Branches | CordBranches | HeldBranches:
-    """Find all branches of steady shapes up to a speed, isolated ones too; ``complete``: proved, none is missing.
+    """Return all branches of steady shapes up to a speed, isolated ones too; ``complete`` says if none can be missing.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain or a rig of few links, as all shapes are listed (`steady_shapes`), those of a rig in its own posture. Or
-        a flexible cord. Or either held at both ends a span apart: of that only the branches are found that begin with
-        the nearly straight chain, and `lists`, `budget` and `proof_budget` are not used.
+        A chain or a rig of few links, because all shapes are listed (`steady_shapes`), for a rig those in its own
+        posture; a cord; or a chain or cord held at a span. For a held system only the branches that start with the nearly
+        straight chain are found, and `lists`, `budget` and `proof_budget` are not used.
     max_angular_speed : float
-        The speed up to which to go, rad/s.
+        Largest speed, rad/s.
     min_conical_height : float
-        Instead of `max_angular_speed`: the conical height down to which to go, m.
+        Smallest conical height, m, instead of `max_angular_speed`.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation. Only a rig with flywheels depends on it.
+        Direction of rotation; only a rig with flywheels depends on it.
     lists : int, optional
         Number of speeds at which all shapes are listed and matched with the branches.
     budget : int, optional
-        Work allowed for each list; see `steady_shapes`. Cords have none.
+        Work allowed for each list; see `steady_shapes`. Not used for cords.
     proof_budget : int, optional
-        Links to look at for the proof, 0.1 to 1 microsecond each; 0: no proof. Cords have none.
+        Number of links that the proof may visit, at 0.1 to 1 microsecond each; 0 for no proof. Not used for cords.
 
     Returns
     -------
     Branches, CordBranches or HeldBranches
-        A sequence of branches: those that leave the vertical, slowest first (of a rig whose support is off the axis the
-        one from rest), then isolated ones, which are born in a fold, slowest first. Of what is held by half waves.
-        Of a cord ``complete`` is true where a theorem counts the shapes (see `steady_shapes`) and every branch was
-        followed to its end. What is held has no ``complete``: `steady_shapes` proves the list of a chain at one speed.
+        A sequence of branches. First come those that leave the vertical, slowest first (with the support off the axis the
+        one from rest), then the isolated ones, which start at a fold, slowest first. Those of a held system are ordered by
+        half waves. For a cord ``complete`` is true if a theorem counts the shapes (see `steady_shapes`) and every branch
+        was followed to its end. `HeldBranches` has no ``complete``; `steady_shapes` can prove a list at one speed.
 
     Raises
     ------
     ValueError
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
-        a link of a rig has no effective tension at a speed looked at. For a `Held`: if it is held by a tension or
-        has no gravity.
+        a link of a rig has no effective tension at one of the speeds; if a `Held` system is under a tension or has no
+        gravity.
 
     Notes
     -----
-    A shape of a list that matches no branch lies on an isolated branch, which is followed from there both ways.
-    ``consistent`` is true where every list is proved complete and each of its shapes matches exactly one branch.
+    A listed shape that matches no branch lies on an isolated branch, which is then followed both ways. ``consistent`` is
+    true if every list is proved complete and each of its shapes matches exactly one branch.
 
-    Loops can open and close between two of the speeds. The plane of conical heights and tangents of the lowest
-    link is therefore split, in interval arithmetic, until in each part there is no fold, or all shapes lie on
-    one curve through a branch that is known; loops found so are followed. ``complete`` is true where that succeeds for
-    every part. Where links could hang at several inclinations it is false. It rests on `branch`: that a branch that was
-    followed is where it seems to be is checked at every step, not proved.
+    Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical height
+    and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a known branch.
+    Loops found in this way are followed. ``complete`` is true if this succeeds for every part; it is false if links could
+    hang at several inclinations. The proof relies on `branch`, whose steps are checked, not proved.
 
-    Of rigs the proof covers those whose links all hang in tension at every speed up to the one given: on springs, on an
-    arm, with flywheels, in fluids. Below the first critical speed such a rig has exactly one shape off the axis, and
-    none but the straight one in it. Where stiffness times conical height is less than the weight that moves, a spring
-    at the support cannot balance it, and nothing is proved; ``remark`` says at which heights.
+    For rigs (on springs, on an arm, with flywheels, in fluids) the proof needs all links in tension at every speed up to
+    the given one. Below the first critical speed such a rig has exactly one shape if its support is off the axis, and only
+    the straight one if it is on the axis. If stiffness times conical height is less than the weight that moves, a spring
+    at the support cannot balance it, and nothing is proved; ``remark`` gives these heights.
 
-    Measured, down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight equal
-    plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.
+    Cost, measured down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight
+    equal plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.
 
     Examples
     --------
@@ -233,7 +234,7 @@ def branches(
     >>> round(born.angular_speed[born.folds[0]], 10)
     np.float64(3.9037621569)
 
-    A carousel: the way from rest outwards, and the pair of shapes inwards that is born at a fold:
+    A carousel: the branch from rest outwards, and an inward branch that starts at a fold:
 
     >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
     >>> diagram = rc.branches(carousel, max_angular_speed=4.0)
@@ -294,60 +295,59 @@ def steady_shape(
     all: bool = False,
     min_conical_height: float | None = None,
 ) -> SteadyShape | CordShape | HeldShape | HeldCordShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
-    """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
+    """Return the steady shape on the branch of one mode at a speed, or the one with a given property.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, up to 100,000 and more, by itself or rigged; a flexible cord; either held at both ends a span
-        apart.
+        The system: a chain of N links (100,000 and more are possible), a rig, a cord, or a chain or cord held at a span.
     mode : int, optional
-        Number of the mode at which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off
-        the axis it must be 1, the branch from rest; shapes of other branches: `Branch.at` of those that `branches`
-        finds. Of what is held it is the number of half waves with which the branch begins at great speed.
+        Number of the mode at which the branch leaves the vertical, from 1 for the slowest. With the support off the axis
+        it must be 1, the branch from rest; for shapes of other branches use `branches` and `Branch.at`. For a held
+        system it is the number of half waves of the branch at high speed.
     conical_height : float
-        Conical height of the speed, m, less than that of the mode.
+        Conical height of the speed, m, less than that of the mode. Give exactly one of this and the next four.
     angular_speed : float
-        Instead: the speed in rad/s.
+        Speed, rad/s.
     tip_inclination : float
-        Instead: the inclination of the lowest link, of a cord of its free end, rad, between 0 and pi/2, of either sign;
-        of a link that stands between pi/2 and pi; outwards if the support is off the axis.
+        Size of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an inverted
+        link between pi/2 and pi. The link may lean either way; with the support off the axis it leans outwards.
     tip_radius : float
-        Instead: the distance of the free end from the axis, m; on either side.
+        Distance of the free end from the axis, m, on either side.
     top_tension : float
-        Instead: the tension at the topmost pin, more than the weight that it bears: N, or of systems by weight in its
-        unit. Of what is held at its upper end.
+        Tension at the topmost pin (of a held system: at its upper end), greater than the weight that hangs there; in N,
+        or in the unit of the weights.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation. Only a rig with flywheels depends on it.
+        Direction of rotation; only a rig with flywheels depends on it.
     all : bool, optional
-        All shapes on the branch that fit, as a tuple, which is empty where there is none. Otherwise the first one.
+        True to return all such shapes of the branch as a tuple, which may be empty; False for the first one.
     min_conical_height : float, optional
-        The conical height at which the search ends, m, less than that of the mode. Left out, with `all` and a speed:
-        half of its height; else 1e-6 of that of the mode. Not used for what is held.
+        Conical height at which the search ends, m, less than that of the mode. If left out, it is half the height of the
+        speed (with `all` and a speed), else 1e-6 of that of the mode. Not used for a held system.
 
     Returns
     -------
     SteadyShape, CordShape, HeldShape, HeldCordShape or tuple of them
-        Inclinations are within ``error_bound``, which is proved except at a fold (measured: 2.3e-16); of a cord within
-        ``error_estimate``. That the shape is on this branch is checked at every step, see `branch`. Of what is held: at
-        a speed the shape that is reached from the nearly straight chain; with a top tension the fastest one on the
-        branch that has it.
+        The shape. Inclinations are within ``error_bound``, which is proved except at a fold (measured: 2.3e-16); those of a
+        cord within ``error_estimate``. Each step checks that the shape is on this branch, see `branch`. For a held system
+        and a speed it is the shape reached from the nearly straight chain; for a held system and a top tension it is the
+        fastest shape of the branch with that tension.
 
     Raises
     ------
     ValueError
         If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
         neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
-        at that speed, or, unless `all`, if what is given is not met on it. For a `Held`: if it is held by a tension or
-        has no gravity, and for `tip_inclination`, `tip_radius` and ``all=True``.
+        at that speed, or, unless `all` is true, if no shape of the branch has the property; if a `Held` system is under
+        a tension or has no gravity, or comes with `tip_inclination`, `tip_radius` or ``all=True``.
     TypeError
         If `all` is not a bool.
 
     Notes
     -----
-    Cost: O(N); 0.4 s for 100,000 rods at twice the first critical speed.
+    Cost: O(N); 0.4 s for 100,000 rods at twice the first critical speed. Source: Greenhill (1908), section 8 (4), (12).
 
     Examples
     --------
@@ -399,7 +399,7 @@ def steady_shape(
 
 
 def _weight(system: Chain | Cord) -> float:
-    """Of all that hangs, in the unit of the weights or masses given."""
+    """Weight or mass of the whole system, as given."""
     if isinstance(system, Cord):
         return system._compiled.weight + system._compiled.tip_weight
     return system._compiled.total_weight

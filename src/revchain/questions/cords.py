@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Questions about a cord that chains answer in another way."""
+"""Answers for a cord that need other methods than for a chain."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def cord_swing(
 
 
 def _start(place: str, name: str, given: Start | None) -> Floats | Callable[[float], float] | None:
-    """A function as it is, checked at every call; else an array of at least two places."""
+    """A start given as a function, checked at every call, or as an array of at least two numbers."""
     if given is None:
         return None
     if callable(given):

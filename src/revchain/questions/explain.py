@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which method `modes` takes for an accuracy, and what the others would cost."""
+"""The method that `modes` takes for an accuracy, and the cost of the other methods."""
 
 from __future__ import annotations
 
@@ -25,27 +25,27 @@ def explain(
     first: int = 1,
     rtol: float | None = None,
 ) -> Explanation:
-    """Say which method `modes` would take for the same question, and what the others would cost.
+    """Return the method that `modes` would take for these arguments, and the cost of the others.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        As for `modes`. Rigs, cords and held chains have one method each.
+        The system, as in `modes`. Rigs, cords and held systems have one method each.
     count, first : int, optional
-        As for `modes`.
+        Number of modes and number of the first one, as in `modes`.
     rtol : float, optional
         Relative tolerance of the conical heights; full accuracy if left out.
 
     Returns
     -------
     Explanation
-        Each method with the bound of its relative error and its time, or why it cannot serve. Predicted times were
-        within a factor of 3 of measured times. No mode of a chain is computed.
+        Each method with the bound of its relative error and its time, or the reason why it does not apply. Predicted
+        times were within a factor of 3 of measured times. No mode of a chain is computed.
 
     Raises
     ------
     TypeError, ValueError
-        As `modes`.
+        If `modes` would raise one for these arguments.
 
     Notes
     -----
@@ -84,7 +84,7 @@ def explain(
 
 
 def _how_many(place: str, count: Any, first: int, most: int | None) -> int:
-    """How many modes are asked for, of `most` or of infinitely many."""
+    """The number of modes asked for; `most` exist, or infinitely many if it is None."""
     if most is None:
         if isinstance(count, str) and count == "all":
             raise ValueError(f"{place}: a cord has infinitely many modes; give count")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which values of several data bring a system nearest to measured speeds."""
+"""Least-squares fit of several data of a system to measured speeds."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from .speeds import Speeds, speeds
 
 _PLACE = "revchain.fit"
 _FORM = '{1: (3.21, 0.02)}, {1: "0.5 Hz"} or {1: ["10.9 s", "1 %"]}'
-_SINGULAR = 1e-8  # of the largest singular value: what is less is a combination that the measurements cannot tell
-_EFFECT = 1e-9  # of a speed, by a datum that changes as much as it is large
-_PART = 1e-6  # of a datum in a combination
+_SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a combination that is undetermined
+_EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
+_PART = 1e-6  # smallest part of a datum in a combination
 
 
 def fit(
@@ -38,51 +38,52 @@ def fit(
     vary: str | Iterable[str] | Mapping[str, float],
     gravity: float = STANDARD_GRAVITY,
 ) -> Fitted:
-    """Find the values of several data that bring a system nearest to measured speeds, by least squares.
+    """Return the values of several data that bring a system closest to measured speeds, by least squares.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system as it is believed to be: the search starts there.
+        The system with its assumed data, at which the search starts.
     measured : dict
-        Speeds by the number of their mode, 1 for the slowest; of a rig with flywheels -1 for the slowest backward one.
-        Each is a speed in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``; or a pair of it and
-        its standard uncertainty, in the same unit or a part such as ``"1 %"``: ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``.
-        Give uncertainties of all speeds, or of none: all then count as equally well known in proportion, and their
-        uncertainty is estimated from what is left over.
+        Measured speed of each mode by its number, from 1 for the slowest; for a rig with flywheels -1 is the slowest
+        backward mode. A speed is a number in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``. A
+        pair is a speed and its standard uncertainty, in the same unit or relative such as ``"1 %"``:
+        ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``. Give uncertainties for all speeds or for none. Without them all speeds
+        have equal relative weight, and their uncertainty is estimated from the residuals.
     vary : str, list of str or dict
-        Paths of the data that may change, as in `tune`; a dictionary says where to start: ``{"support.stiffness": 2000.0}``
-        where the support is firm, or a mass is 0.
+        Paths of the data that may change, as in `tune`. A dictionary also gives a start value, which is needed if the
+        support is firm or a mass is 0: ``{"support.stiffness": 2000.0}``.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
 
     Returns
     -------
     Fitted
-        The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
-        data the measurements cannot tell. Cost some 5 to 30 times that of the modes, for data without derivatives times
-        five for each.
+        The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; the
+        data that the measurements do not determine. Cost: 5 to 30 times that of the modes; each datum without derivatives
+        multiplies it by five.
 
     Raises
     ------
     ValueError
-        For more data than speeds, other paths, two paths to the same number, mode numbers beyond those there are, speeds
-        and uncertainties that are not positive, data that have nowhere to start; for what is held and has no modes.
+        If there are more data than speeds, an unknown path, two paths to the same number, a mode that does not exist, a
+        speed or uncertainty that is not positive, or a datum without a start value; if the system is held at a span and
+        so has no modes.
     TypeError
-        If `system` is none of the four systems.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ImportError
         If scipy is not installed; the message says how to install it.
 
     Notes
     -----
-    Trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data; momenta, spins and centroids,
-    which may have either sign, as parts of their size. Derivatives of chains and rigs are those of `Modes.sensitivity`, of
-    what they do not have (cords, what is held, wheels' masses) differences of fourth order. The values are
-    within a millionth of their standard uncertainties of those with the least sum of squares near them; that there is no
-    lesser one far from the start is not proved. Uncertainties are to first order, as where the speeds change in proportion to the data.
+    Method: trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data, or in fractions of
+    their size for momenta, spins and centroids, which may have either sign. Derivatives are those of `Modes.sensitivity`;
+    where it has none (cords, held systems, masses of wheels), differences of fourth order. The values are within a
+    millionth of their standard uncertainties of a local minimum of the sum of squares. It is not proved that there is no
+    lower minimum far from the start. Uncertainties are to first order: they assume that speeds are linear in the data.
 
-    Masses act by their ratios: the speeds of a chain on a firm support cannot tell all its masses. Such combinations are
-    found by the singular values of the derivatives (below 1e-8 of the largest), and named.
+    Speeds depend on ratios of masses: those of a chain on a firm support cannot determine all its masses. Such
+    combinations have singular values of the derivatives below 1e-8 of the largest; the result names them.
 
     Examples
     --------
@@ -127,7 +128,7 @@ def fit(
 
 
 class _Model:
-    """Speeds, and how far they are from those measured, as functions of the data as variables without bounds."""
+    """Speeds and their residuals as functions of unbounded variables that stand for the data."""
 
     def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
         self.system, self.data, self.number, self.gravity = system, data, number, gravity
@@ -139,7 +140,7 @@ class _Model:
             return np.array([_bounded(datum, x) for datum, x in zip(self.data, free, strict=True)])
 
     def at(self, free: Floats) -> tuple[Any, Speeds]:
-        """The system and its speeds; a ValueError where it cannot be, or has not these modes."""
+        """The system and its speeds; a ValueError if such a system is impossible or lacks these modes."""
         if self.kept[0] != free.tobytes():
             system = self.system
             for datum, value in zip(self.data, self.values(free), strict=True):
@@ -149,7 +150,7 @@ class _Model:
         return found
 
     def off(self, free: Floats) -> Floats:
-        """Computed less measured, over the uncertainties; NaN where there is none, from which the search steps back."""
+        """(Computed - measured) / uncertainty; NaN if there is no such system, and the search then steps back."""
         try:
             return (self.at(free)[1].speed - self.measured) / self.deviation
         except ValueError:
@@ -170,7 +171,7 @@ class _Model:
         return np.column_stack(columns)
 
     def _rates(self, there: Speeds) -> Any:
-        """Derivatives of the speeds by the data of a chain or a rig; None where there are none."""
+        """Derivatives of the speeds by the data of a chain or a rig; None if there are none."""
         if isinstance(there.modes, RigModes):
             return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
         if not isinstance(self.system, Chain):
@@ -191,8 +192,8 @@ class _Model:
 
 
 def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
-    """Where the sum of squares is least, whether it is, and what is known there; what is not stays as it was at the start."""
-    model.at(start)  # what is wrong is said now
+    """The minimum, whether it was reached, and what the data there are known to; undetermined data keep their start."""
+    model.at(start)  # raises the errors of the start
     optimize, hold = require("scipy.optimize", "fit", _PLACE), np.empty((0, len(start)))
     for _ in range(2):
         found = optimize.least_squares(
@@ -210,25 +211,25 @@ def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
         hold = known.lost
         if not len(hold):
             break
-    last = found.x - known.inverse @ (slopes.T @ off)  # a step of Gauss and Newton: the digits that tolerances left
+    last = found.x - known.inverse @ (slopes.T @ off)  # a Gauss-Newton step, for the digits below the tolerances
     if not (model.off(last) ** 2).sum() <= (off**2).sum() * (1 + 1e-9) + 1e-18:
         last = found.x
     return last, found.status > 0, known
 
 
 class _Known:
-    """What the measurements tell of the data, by the singular values of the derivatives.
+    """The information of the measurements about the data, from the singular values of the derivatives.
 
     Attributes
     ----------
     inverse : ndarray, shape (p, p)
-        Of the normal equations, as far as they have one.
+        Pseudo-inverse of the normal equations.
     covariance : ndarray, shape (p, p)
-        The same, NaN where it is not known.
+        Covariance of the variables; NaN for undetermined ones.
     lost : ndarray, shape (p - rank, p)
-        Combinations of the variables that are not known, as the rows of a matrix.
+        Undetermined combinations of the variables, one in each row.
     groups : list of list of int
-        Data that have part in the same of these.
+        Data that belong to the same combinations.
     """
 
     def __init__(self, slopes: Floats, per_part: Floats) -> None:
@@ -295,7 +296,7 @@ def _bounded(datum: Datum, free: float) -> float:
 
 
 def _start(datum: Datum, given: Any) -> float:
-    """The variable of the value to start from."""
+    """The variable that stands for the start value of a datum."""
     value = datum.present if given is None else real(_PLACE, f"{datum.quantity} (start of {datum.path})", given)
     if datum.floor is None and math.isfinite(value):
         return value / datum.typical
@@ -310,7 +311,7 @@ def _start(datum: Datum, given: Any) -> float:
 
 
 def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
-    """Paths, and where to start if that is said."""
+    """Paths, and their start values if given."""
     if isinstance(vary, Mapping):
         paths = list(vary)
     elif isinstance(vary, str):
@@ -324,7 +325,7 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
 
 
 def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
-    """Mode numbers, speeds, negative for backward modes, and their standard uncertainties, if they were given."""
+    """Mode numbers, speeds (negative for backward modes) and their standard uncertainties, None if not given."""
     if not isinstance(measured, Mapping) or not measured:
         such = f"a dictionary of speeds by mode number such as {_FORM}"
         raise ValueError(f"{_PLACE}: measured must be {such}, got {shown(measured)}")

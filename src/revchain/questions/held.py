@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Questions about what is held at a span that hanging chains answer in another way."""
+"""Answers for a system held at a span that need other methods than for a hanging chain."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def held_branch(place: str, held: Held, mode: int, least: float, gravity: float,
 
 
 def held_branches(place: str, held: Held, least: float, gravity: float, step: float = 0.1) -> HeldBranches:
-    """See `branches`; down to the conical height `least`."""
+    """The branches down to the conical height `least`, see `branches`."""
     span = _span(place, held)
     found: Any = _core.held_branches(held.system._compiled, span, *held._ends(gravity), least, step)
     return held_branches_made(found, held, gravity, (least, step, gravity))
@@ -65,7 +65,7 @@ def held_shape(
 
 
 def _span(place: str, held: Held) -> float:
-    """The span of what is held at one."""
+    """The span of a held system; a ValueError if it is under a tension or has no gravity."""
     if held.span is None:
         raise ValueError(
             f"{place}: is for what is held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slowest modes of a system, and how many there are below a speed."""
+"""The modes of a system, and the number of modes below a speed."""
 
 from __future__ import annotations
 
@@ -86,8 +86,8 @@ def modes(
     precision: str = "double",
     certify: bool = False,
     threads: int = 1,
-) -> Modes | RigModes:
-    """Find the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
+) -> Modes | RigModes | CordModes:
+    """Return the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
     The whirl speed of small amplitude of a chain hung from a fixed point is the natural angular frequency of its swing
     in a plane.
@@ -95,69 +95,69 @@ def modes(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself or rigged; a flexible cord; a chain or cord held straight by a tension at both ends,
-        with gravity or without.
+        The system: a chain of N links, a rig, a cord, or a chain or cord held straight by a tension, with or without
+        gravity.
     count : int or "all", optional
-        How many modes, slowest first: 10 if left out, or fewer where there are fewer. For a rig with flywheels, so many
-        in each direction of rotation; `first` and windows, of the sizes of speeds, choose in each, too. A cord has
-        infinitely many.
+        Number of modes, slowest first; 10 if left out, or all if there are fewer. A cord has infinitely many. For a rig
+        with flywheels `count`, `first` and the windows (of absolute speeds) apply to each direction of rotation.
     first : int, optional
-        Number of the first mode wanted; the slowest is 1. Slower ones are not computed.
+        Number of the first mode; the slowest mode is 1. Slower modes are not computed.
     conical_height : (low, high), optional
-        All modes with ``low < conical height <= high`` instead, m. `low` may be 0, `high` infinite.
+        Window of conical heights, m: all modes with ``low < conical height <= high``. `low` may be 0, `high` infinite.
     angular_speed : (low, high), optional
-        All modes with ``low <= whirl speed < high`` instead, rad/s. `low` may be 0, `high` infinite.
+        Window of speeds, rad/s: all modes with ``low <= whirl speed < high``. `low` may be 0, `high` infinite.
     rtol : float, optional
-        Relative tolerance of the conical heights. The cheapest method whose bound keeps it is taken: closed form,
-        Bessel zero, coarser chain, ... (`explain` says which and why); below 2 ulp it is double-double, whose heights
-        are ``conical_height + conical_height_low``. Full accuracy in double, 2 ulp, if left out. Rigs are solved to
-        full accuracy whatever it is.
+        Relative tolerance of the conical heights. The cheapest method whose bound is within it is used: closed form,
+        Bessel zero, coarser chain, ... (`explain` lists them). Below 2 ulp the method is double-double, whose heights are
+        ``conical_height + conical_height_low``. If left out: full accuracy in double, 2 ulp. Rigs are always solved to
+        full accuracy.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     method : str, optional
-        ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain, to 2 ulp.
-        ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp. ``"aberth"`` finds all modes
-        of a small chain at once. ``"interpolated"`` interpolates the characteristic polynomial: many modes. Where they
-        cannot, bisection is used; ``method`` of the result says so. ``"dense"`` solves the assembled pencil and
-        ``"recurrence"`` relation (21) as printed: references for small chains. Any other name that `explain` lists is
-        that method, whatever it costs. The cheapest if left out.
+        Method for a chain; the cheapest if left out. ``"bisection"`` counts the modes above a height and halves
+        intervals: any modes of any chain, to 2 ulp. ``"condensed"`` condenses a long chain first: some of its slowest
+        modes, to 2 ulp. ``"aberth"`` finds all modes of a small chain at once. ``"interpolated"`` interpolates the
+        characteristic polynomial: many modes. If one of these three does not apply, bisection is used, and ``method`` of
+        the result says so. ``"dense"`` solves the assembled pencil, ``"recurrence"`` relation (21) as printed: both are
+        references for small chains. Any other name that `explain` lists selects that method at any cost.
     precision : {"double", "single", "extended", "double-double"}
-        The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to float32 first, and
-        results are float32. ``"extended"``: results are of numpy's longdouble, which has 64 bits on x86-64 and on some
-        platforms is no more than double. ``"double-double"``: twice the digits of double;
-        ``conical_height + conical_height_low``, two float64 arrays, is the height that `error_bound` is of (3e-29 for
-        one link, 1e-24 for 2000), and shapes are float64.
+        Arithmetic of the result. ``"single"``: the data of the chain and the window are ROUNDED to float32 first, and the
+        results are float32. ``"extended"``: the results are numpy's longdouble, which has 64 bits on x86-64 and equals
+        double on some platforms. ``"double-double"``: twice the digits of double; the height is the sum of two float64
+        arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for one link,
+        1e-24 for 2000), and shapes are float64.
     certify : bool
-        Whether to return with every height the interval that holds it and the counts that prove it. Chains and rigs.
+        Whether to return for each height of a chain or a rig the interval that contains it and the counts that prove it.
     threads : int, optional
-        Chains and rigs: how many threads to use for heights and, when they are read, shapes; 0 for all processors. Results are
-        bitwise the same whatever their number.
+        Number of threads for the heights and shapes of chains and rigs; 0 for all processors. Results are bitwise equal
+        for any number.
 
     Returns
     -------
     Modes, RigModes or CordModes
-        ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached; ``error_bound`` says what
-        was. An empty window gives no modes.
+        The modes. ``status`` is ``"tolerance_not_met"`` if `rtol` was not reached; ``error_bound`` is the bound reached.
+        An empty window gives no modes.
 
     Raises
     ------
     ValueError
-        If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
-        `method` or `precision` unknown. For a rig if `method` or `precision` is given; for a rig of
-        more than 20,000 links whose speeds may be complex (inverted links or driven wheels together with momentum,
-        floats in fluid that turns). For a held system unless it is under a tension that exceeds its weight.
+        If the modes asked for do not exist or are chosen in two ways, a window is not a pair (low, high) with low below
+        high, `rtol` is NaN or negative, or `method` or `precision` is unknown; if a rig comes with `method` or
+        `precision`; if a rig has more than 20,000 links and its speeds may be complex (inverted links or driven wheels
+        together with momentum, floats in fluid that turns); if a held system is not under a tension that exceeds its
+        weight.
     TypeError
-        If `system` is none of these.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    Which modes lie in a window is decided by proved counts of the exact heights: windows that meet share no mode and
-    lose none. A height just above `low` may be rounded to it.
+    Proved counts of the exact heights decide which modes lie in a window: adjacent windows share no mode and miss none.
+    A height just above `low` may be rounded to it.
 
-    Accuracy: the relative error bound is returned in ``error_bound`` (2 ulp by default, proved by counts). Cost of
-    bisection O(N) for each halving, about 50 halvings a mode; shapes O(N) time and memory a mode when they are read.
-    Other Python threads run on meanwhile. Rigs whose speeds may be complex: all speeds are found, in 0.3 microseconds
-    times the square of the number of links: 5000 links in 7 s.
+    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, proved by counts). Cost: bisection takes O(N)
+    for each halving, about 50 halvings for each mode; shapes take O(N) time and memory for each mode, when they are read.
+    Other Python threads can run meanwhile. For a rig whose speeds may be complex all speeds are found, in 0.3
+    microseconds times the square of the number of links: 5000 links in 7 s.
 
     References
     ----------
@@ -200,7 +200,7 @@ def modes(
 
 
 _DOUBLE = "double"
-FULL = 4.4432e-16  # 2 ulp: what full accuracy in double is sure to keep
+FULL = 4.4432e-16  # 2 ulp: the bound of full accuracy in double
 METHODS = tuple(name for name in dict.fromkeys((*_core.METHODS[1:], *_core.MODELS)) if name != "finite amplitude")
 _DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
 _DEFAULTS |= {"precision": "double", "certify": False}
@@ -221,7 +221,7 @@ def find_modes(
     threads: int = 1,
     progress: _core.Progress | None = None,
 ) -> Modes | RigModes | CordModes:
-    """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
+    """`modes` with `progress`, which another thread can read, and with which it can cancel."""
     place = "revchain.modes"
     g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
     start = first if type(first) is int and first == 1 else checked_count(place, "first", first)
@@ -321,7 +321,7 @@ def _of_cord_or_held(
 
 
 def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldCord:
-    """A chain or cord that a tension holds straight."""
+    """The compiled system of a chain or cord that a tension holds straight; a ValueError if it is not so held."""
     if held.span is not None:
         raise ValueError(
             f"{place}: a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; ask "
@@ -337,13 +337,13 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldC
 
 
 def how_many(place: str, count: int | str | None, first: int, most: int) -> int:
-    """How many modes are asked for where there are `most`: ten unless said, or all that are left."""
+    """The number of modes asked for out of `most`: ten by default, at most all from `first` on."""
     left = max(most - first + 1, 1)
     return count_of(place, count, min(10, left)) or left
 
 
 def count_of(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
-    """How many, of so many bytes each; None for all."""
+    """The checked count, of results of `each` bytes; None for all."""
     if count is None:
         return default
     if isinstance(count, str):
@@ -354,14 +354,14 @@ def count_of(place: str, count: int | str | None, default: int, each: int = 0) -
 
 
 def _refuse(place: str, given: dict[str, Any], reason: str) -> None:
-    """Raise a ValueError for options that are for chains only."""
+    """Raise a ValueError if an option for chains only was given."""
     for name, value in given.items():
         if value is not _DEFAULTS[name] and not (isinstance(value, str) and value == _DEFAULTS[name]):
             raise ValueError(f"{place}: {name} {reason}, got {shown(value)}")
 
 
 def _window(place: str, name: str, window: object) -> Pair:
-    """The two ends of a window; whether they make one is checked where it is used."""
+    """The two ends of a window; their order is checked where it is used."""
     if isinstance(window, str | set | dict) or not isinstance(window, Iterable) or getattr(window, "ndim", 1) == 0:
         raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
     ends = [real(place, f"{name} (each end)", end) for end in window]
@@ -377,39 +377,40 @@ def count_modes(
     angular_speed: ArrayLike | None = None,
     gravity: ArrayLike = STANDARD_GRAVITY,
 ) -> Any:
-    """Count the whirl speeds below a speed, which are the conical heights above a height.
+    """Return the number of modes slower than a speed, that is, with a conical height above a height.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, by itself or rigged, a cord, or what is held straight by a tension.
+        The system: a chain of N links, a rig, a cord, or a chain or cord held straight by a tension.
     conical_height : array_like, optional
-        Heights, m, positive, any shape.
+        Conical heights, m, positive, any shape.
     angular_speed : array_like, optional
-        Speeds in rad/s, positive, any shape. Give either this or `conical_height`. Of a rig with flywheels a negative
-        speed counts the backward modes between 0 and it.
+        Speeds in rad/s, positive, any shape. Give either this or `conical_height`. For a rig with flywheels a negative
+        speed counts the backward modes between 0 and that speed.
     gravity : array_like, optional
-        Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out. One number for a rig
-        and for what is held.
+        Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out. It must be a single
+        number for a rig and for a held system.
 
     Returns
     -------
     numpy.int64 or ndarray of int64
-        How many modes are slower than each speed given; shape of the argument. Of a rig with flywheels, those in the
-        direction of the speed, or above a height those of both directions.
+        Number of modes slower than each speed; shape of the argument. For a rig with flywheels a speed counts the modes
+        in its own direction, and a height those of both directions.
 
     Raises
     ------
     ValueError
-        If both or neither of height and speed are given, or for numbers out of their range. For a rig as `modes`, and
-        where rounding leaves the number in doubt.
+        If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system;
+        if rounding leaves the number for a rig in doubt.
 
     Notes
     -----
-    Chains and rigs: Sylvester's law of inertia, in rounded arithmetic with a proof, and in twice the digits where
-    the proof fails: the count is that of the numbers stored. Cost O(N) for each number. Rigs whose speeds may be complex:
-    all are found once, as by `modes`, and each speed is compared with those that are real. Cords: heights within the error
-    bound of `modes` of the one given may be counted on either side.
+    For chains and rigs the count is exact for the stored data. Method: Sylvester's law of inertia, in rounded arithmetic
+    with a proof, and with twice the digits if the proof fails. Cost: O(N) for each number. If the speeds of a rig may be
+    complex, all are found once, as by `modes`, and the real ones are counted. For a cord, a mode whose height differs from
+    the given one by less than the error bound of `modes` may be counted on either side. Source: Greenhill (1908),
+    section 8 (21).
 
     Examples
     --------
@@ -453,7 +454,7 @@ def count_modes(
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:
-    """Write relation (21) of the paper as a pair of matrices.
+    """Return relation (21) of the paper as a pair of matrices.
 
     Parameters
     ----------
@@ -463,13 +464,13 @@ def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:
     Returns
     -------
     A, B : ndarray, shape (N, N)
-        Dense matrices with ``A @ y = conical_height * B @ y``, `y` the offsets of the pins from the
-        free end up, the support left out.
+        Dense matrices with ``A @ y = conical_height * B @ y``, where `y` are the offsets of the pins from the
+        free end up, without the support.
 
     Notes
     -----
-    The relation as corrected: ``h_{m-2} / a_{m-2}`` in its third bracket, and the lowest pin kept
-    as an unknown. Small amplitude. Memory O(N**2).
+    The relation is for small amplitude and is corrected: ``h_{m-2} / a_{m-2}`` in its third bracket, and the lowest pin
+    as an unknown. Time and memory: O(N**2).
 
     References
     ----------

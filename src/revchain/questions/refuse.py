@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Questions that a system does not answer: why, and what to ask instead."""
+"""Errors for questions that a system cannot answer: the reason, and the question to ask instead."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ..systems.system import System
 
 
 def no_system(place: str, system: Any) -> TypeError:
-    """The error of a question that all systems answer, for what is none."""
+    """The error for an argument that is not a system, in a question that all systems answer."""
     return TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
 
 
 def refuse_other(place: str, system: Any, kinds: tuple[type, ...], instead: dict[type, str]) -> None:
-    """A ValueError for a system that has no answer, with what to ask instead; a TypeError for what is no system."""
+    """Raise a ValueError for a system without an answer, with the question to ask instead; a TypeError for no system."""
     if isinstance(system, kinds):
         return
     if isinstance(system, System):

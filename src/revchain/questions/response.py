@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain whose support is carried round, and a chain swinging by itself: small amplitudes."""
+"""Small motions of a chain: forced by a moving support (`response`), and free (`swing`)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from .cords import Start, cord_swing
 from .refuse import refuse_other
 
 CORD_MODES = 40
-"""Of a cord that swings, unless asked."""
+"""Default number of modes of a swinging cord."""
 
 
 def response(
@@ -45,54 +45,52 @@ def response(
     pins: ArrayLike | None = None,
     threads: int = 1,
 ) -> Response:
-    """Find the forced motion (base excitation) of a chain whose support is carried round a small circle, or to and fro.
+    """Return the forced motion (base excitation) of a chain whose support moves in a small circle or to and fro.
 
     Parameters
     ----------
     system : Chain or Rig
-        The chain of N links, or one rigged with a spring at its support (the spring's place of rest is then
-        carried round), flywheels, inverted links, a fluid.
+        A chain of N links, or a rig. With a spring at the support, its place of rest moves.
     conical_height : array_like, optional
-        Heights ``gravity / angular_speed**2``, m, of any shape.
+        Conical heights ``gravity / angular_speed**2``, m, any shape. Give either this or `angular_speed`.
     angular_speed : array_like, optional
-        Instead: speeds in rad/s, positive; negative, too, of a rig whose flywheels tell one direction
-        from the other.
+        Speeds in rad/s, positive; for a rig with flywheels, negative ones too (backward).
     gravity : float, optional
-        For `angular_speed`, and for flywheels; standard gravity, in metres, if left out.
+        Acceleration of gravity, m/s^2, for `angular_speed` and for flywheels; standard gravity if left out.
     support_radius : float, optional
-        Radius of the circle, or amplitude to and fro, positive. Left out: the rig's own, or 1 where it
-        has none: offsets are then over those of the support.
+        Radius of the circle, or amplitude to and fro, m, positive. If left out, the radius of the rig, or 1 if it has
+        none: offsets are then relative to that of the support.
     pins : int or array_like of int, optional
-        Only these pins, 0 the free end, N (or -1) the support; all N + 1 if left out. Long sweeps of
-        long chains need less memory.
+        Pins to return, from 0 (free end) to N or -1 (support); all N + 1 if left out. Fewer pins save memory in long
+        sweeps.
     threads : int, optional
-        How many threads to use; 0 for all processors. Results are bitwise the same whatever their number.
+        Number of threads; 0 for all processors. Results are bitwise equal for any number.
 
     Returns
     -------
     Response
-        Proved `error_bound` and counts. At a resonance, or nearer to one than 30 digits can tell, offsets
-        are NaN and `resonant` says so.
+        The offsets, with a proved `error_bound` and proved counts of modes. At a resonance, or closer to one than 30
+        digits can separate, offsets are NaN and `resonant` is true.
 
     Raises
     ------
     TypeError
-        If `system` is none of the four systems.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
-        For a cord and for what is held at both ends. If not exactly one of `conical_height` and `angular_speed` is given, for numbers that are not positive
-        and finite or out of all proportion to the chain (1e75), and for pins there are not.
+        If `system` is a `Cord` or a `Held`; if not exactly one of `conical_height` and `angular_speed` is given; if a
+        number is not positive and finite or differs from the chain's by a factor of 1e75; if there is no such pin.
 
     Notes
     -----
-    ``K y = M y / conical_height`` with the support's offset given; of small amplitude, as everything in
-    this theory: where offsets are no longer small beside the links, multiply by a smaller radius.
-    A chain slower than its first whirl speed goes out with its support. Past each whirl speed its motion is turned
-    round; between two there is a speed at which a pin stays on the axis.
-    Lowest links that weigh nothing in a fluid that turns with them hang along with the link above.
+    The offsets solve ``K y = M y / conical_height`` for the given offset of the support. The theory is linear: offsets
+    must be small compared with the links; scale them with the radius. Below the first whirl speed the chain moves in
+    phase with its support. The motion changes sign at each whirl speed; between two whirl speeds there is a speed at
+    which a pin stays on the axis. Lowest links without net weight in a fluid that turns with them stay in line with the
+    link above.
 
-    Method: dynamic stiffness carried up in words of two doubles, several speeds to a pass, with a running bound.
-    Accuracy: half an ulp of each offset until the speed is within 1e-12 or so of a resonance. Cost: about
-    0.03 microseconds for each link and speed. Other Python threads run on meanwhile.
+    Method: upward sweep of the dynamic stiffness in double-double, several speeds at a time, with a running error bound.
+    Accuracy: half an ulp of each offset, unless the speed is within about 1e-12 of a resonance. Cost: about 0.03
+    microseconds for each link and speed. Other Python threads can run meanwhile.
 
     References
     ----------
@@ -157,7 +155,7 @@ def response(
 
 
 def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[int, ...]]:
-    """Numbers of the pins asked for, and the axis they make."""
+    """Numbers of the pins asked for, and the shape of their axis."""
     if pins is None:
         return np.arange(size + 1), (size + 1,)
     asked = array_of(pins)
@@ -215,62 +213,62 @@ def swing(
     arc_length: ArrayLike | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Swing | CordSwing | WhirlSwing:
-    """Start a hanging chain, rig or cord anywhere and see it swing, by superposing its modes.
+    """Return the small free oscillations of a hanging chain, rig or cord from any start, by superposition of modes.
 
-    Small oscillations in one plane, of natural angular frequencies that are the whirl speeds of `modes`. For motions in
-    both directions ask for each: they are independent, but where a `Rig` has flywheels with momentum. These turn the
-    plane of the swing: offsets and velocities are then complex, x + i y.
+    The motion is in one plane; its natural angular frequencies are the whirl speeds of `modes`. Motions in the two
+    horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane of the
+    swing; offsets and velocities of such a `Rig` are complex, x + i y.
 
     Parameters
     ----------
     system : Chain, Rig or Cord
-        The chain of N links, what it is rigged with, or a flexible cord.
+        A chain of N links, a rig, or a cord.
     offset : array_like, shape (N + 1,) or (N,)
-        Offsets of the pins at time 0, m, free end first; that of the support last or left out: 0, but of a `Rig` whose
-        support yields. Of a cord a
-        continuous function of the distance from the free end, or numbers at `arc_length`, straight between them; None:
-        on the axis.
+        Offsets of the pins at time 0, m, free end first. The last one, of the support, may be left out; it must be 0
+        unless a `Rig` has a support that yields. For a cord: a continuous function of the distance from the free end, or
+        numbers at `arc_length` with straight lines between them, or None for a cord on the axis.
     velocity : array_like, shape (N + 1,) or (N,), or None
-        Likewise, m/s; None: at rest.
+        Velocities of the pins at time 0, m/s, in the same form; None for a start from rest.
     time : array_like
-        Times in s, of either sign, a number or one axis.
+        Times in s, positive or negative; a number or an array with one axis.
     count : int, optional
-        Only so many of the slowest modes; all if left out, of a cord 40. With momentum those of both senses count.
+        Number of modes, slowest first; if left out, all, or 40 for a cord. With momentum, modes of both directions count.
     arc_length : array_like, optional
-        Cords: distances from the free end at which to look, m, ascending; for numbers as `offset` or `velocity` from 0 to
-        the length. If left out: evenly spaced, as many as numbers are given, or 101.
+        For a cord: distances from the free end of the places to return, m, ascending. They must go from 0 to the length
+        if `offset` or `velocity` are numbers. If left out, the places are evenly spaced: one for each number, or 101.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
 
     Returns
     -------
     Swing, WhirlSwing or CordSwing
-        The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one. Of a cord the
-        offset of place m is within ``error_estimate[m]``. A `WhirlSwing` for a rig with momentum.
+        `WhirlSwing` for a rig with momentum, `CordSwing` for a cord. The offset of pin m at time i is within
+        ``error_bound[i] + truncation_error[m]`` of the exact one; for a cord the offset of place m is within
+        ``error_estimate[m]``.
 
     Raises
     ------
     TypeError
-        If `system` is none of the four systems.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
     ValueError
-        For what is held at both ends; for numbers that are not finite, starts of another length, a support that would
-        move, more modes than there are, and weights more than 1e123 apart; for a function that jumps, and `arc_length` of
-        a chain. For a rig whose straight position is unstable, with the rate at which it falls; whose support is carried
-        round (ask `response`); in a fluid that turns; with momentum and pins without inertia; for complex starts without
-        momentum.
+        If `system` is a `Held`; if a number is not finite, a start has another length or moves a firm support, `count`
+        exceeds the number of modes, or weights differ by more than a factor of 1e123; if a function jumps, or `arc_length`
+        comes with a chain. For a rig: if its straight position is unstable (the message gives the rate of growth), if its
+        support is carried round (use `response`), if the fluid turns, if it has momentum and pins without inertia, or if a
+        start is complex without momentum.
 
     Notes
     -----
-    Pins that have no inertia, between massless threads, cannot be anywhere: offsets given for them are
-    replaced by those to which their neighbours pull them, and velocities likewise, as a light thread snaps
-    straight. `Swing.projected` says that it was done.
+    Pins without inertia (between massless threads) have no free offset. Offsets and velocities given for them are
+    replaced by those to which their neighbours pull them, as a light thread snaps straight; `Swing.projected` is then
+    true.
 
-    Links of a `Rig` do not turn about their own axes: of its wheels `momentum` alone plays a part (a driven wheel's is that
-    of its spin). Still fluid bears, and moves as the added mass says.
+    Links of a `Rig` do not turn about their own axes: a wheel acts only by its momentum (a driven wheel by that of its
+    spin). Still fluid acts by its buoyancy and its added mass.
 
-    Method: heights and shapes as of `modes`, once more in words of two doubles, with angles in two words: beats of
-    many years keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 2 microseconds for each link
-    and mode, 2 ns for each link, mode and time.
+    Method: heights and shapes as in `modes`, in double-double, with angles in double-double, so that beats of many years
+    keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 2 microseconds for each link and mode, and 2 ns for each
+    link, mode and time.
 
     References
     ----------
@@ -278,7 +276,7 @@ def swing(
 
     Examples
     --------
-    A light point mass below a heavy one: they take turns.
+    A light point mass below a heavy one: they beat.
 
     >>> import numpy as np
     >>> import revchain as rc
@@ -287,7 +285,7 @@ def swing(
     >>> round(float(abs(beat.offset[:, 0]).max()), 4), round(float(abs(beat.offset[:, 1]).max()), 4)
     (0.1002, 0.01)
 
-    A cord drawn aside at its free end, and let go:
+    A cord pulled aside at its free end and released:
 
     >>> cord = rc.Cord(1.0, mass=0.5, tip_mass=0.2)
     >>> found = rc.swing(cord, lambda s: 0.1 * (1 - s), None, [0.0, 1.0])
@@ -337,7 +335,7 @@ def _whirling(
 
 
 def _start(place: str, name: str, value: Any, system: Chain | Rig) -> Any:
-    """Numbers for the pins; complex ones for a rig whose momentum turns the plane of the swing."""
+    """Start values of the pins; complex for a rig whose momentum turns the plane of the swing."""
     size, array = system.size, array_of(value)
     if array.dtype.kind != "c":
         array = floats(place, name, value)

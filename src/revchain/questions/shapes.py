@@ -19,7 +19,7 @@ from ..systems.rig import Rig
 from .refuse import no_system
 
 LEAST, MOST = 1e-150, 1e150
-"""Conical heights, and squared speeds without gravity, whose products with tensions stay in the range of doubles."""
+"""Limits of conical heights, and of squared speeds without gravity; products with tensions then stay finite."""
 MOST_HALF_WAVES = 1000
 _BUDGET = {False: 3_000_000, True: 300_000}
 
@@ -38,88 +38,92 @@ def steady_shapes(
     scanned: int = 200,
     threads: int = 1,
 ) -> SteadyShapes:
-    """Find all steady shapes (relative equilibria) of a system at a given speed, at any inclination.
+    """Return all steady shapes (relative equilibria) of a system at a given speed, at any inclination.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, what it is rigged with, a flexible cord, or a chain or cord held at both ends.
+        The system: a chain of N links, a rig, a cord, or a chain or cord held at both ends.
     angular_speed : float
-        The speed, rad/s, positive.
+        Speed, rad/s, positive.
     conical_height : float
-        Instead of `angular_speed`: the conical height of the speed, m, positive. There is none without gravity.
+        Conical height of the speed, m, positive, instead of `angular_speed`. It does not exist without gravity.
     gravity : float, optional
-        In m/s^2; standard gravity if left out. A held system that is weightless has none.
+        Acceleration of gravity, m/s^2; standard gravity if left out. Not used for a weightless held system.
     budget : int, optional
-        How many links to look at, at the most, while parts of the range of the lowest link's inclination are
-        split. Chains and rigs: 3,000,000 if left out, half a microsecond each, or two where ``l < a``, which takes some
-        2 to 10 seconds; with 0 and less nothing is looked at, and the list is empty and not complete. Held chains: 300,000
-        if left out, 1 to 2 microseconds each; with 0 completeness is not proved.
+        Largest number of links to visit while the range of inclinations of the lowest link is split. Chains and rigs:
+        3,000,000 if left out, at half a microsecond each (two if ``l < a``), about 2 to 10 seconds in all; with 0 or less
+        the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
+        completeness is not proved.
     hanging_only : bool, optional
-        Chains and rigs: whether to leave out shapes with links that stand: more than a right angle from the downward
-        vertical. Of a rig: shapes with links that do not stand or hang as the rig has them.
+        Chains and rigs: whether to leave out shapes in which a link stands, that is, makes more than a right angle with
+        the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
     direction : {1, -1}, optional
-        Of rotation; it matters to a rig with flywheels.
+        Direction of rotation; only a rig with flywheels depends on it.
     max_half_waves : int, optional
-        Held systems: shapes of 1 to so many half waves are looked for.
+        Held systems: largest number of half waves to look for.
     prove : bool, optional
-        Held chains: whether error bounds and completeness are proved; else bounds are estimates.
+        Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
     scanned : int, optional
-        Cords whose shapes no theorem counts: how many offsets of the free end to look at for shapes.
+        Cords whose shapes no theorem counts: number of offsets of the free end to examine.
     threads : int, optional
-        Chains and rigs: how many threads to use; 0 for all processors. Results are bitwise the same whatever their
-        number. The threads share the shapes found, not the search for them, which is about half of the work.
+        Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
+        share the refinement of the shapes, not the search, which is about half of the work.
 
     Returns
     -------
     SteadyShapes
-        A sequence of shapes. Chains and rigs: every hanging shape (all links within a right angle of the
-        downward vertical) or, if `hanging_only` is false, every shape; straight ones left out, of two
-        mirror images that with the free end at a positive offset (if it is on the axis, the lowest
-        inclined link); by half waves, then inclination of the lowest link. ``complete`` is true where it
-        is proved that none is missing. Inclinations within ``error_bound``, proved, mostly 2.2e-16.
-        Empty and complete where the height is greater than the first of `modes`, in any posture.
-        If the support is carried round: every shape, outwards positive, those inwards too.
+        A sequence of shapes.
 
-        Cords: by half waves. ``complete`` where a theorem counts them, one shape for every critical height above the
-        height given: for a uniform cord with or without a tip, for a density ``s**p`` without a tip, or with one and p
-        below 0; and where no more than one critical height is above it. Elsewhere a shape that comes and goes between two
-        scanned offsets is missed.
+        Chains and rigs: every hanging shape (all links within a right angle of the downward vertical) or, if
+        `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free end
+        at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined link). If
+        the support is carried round there are no mirror images; outwards is positive. The order is by half waves, then by
+        inclination of the lowest link. ``complete`` is true if it is proved that none is missing. Inclinations are within
+        the proved ``error_bound``, mostly 2.2e-16. The list is empty and complete if the height exceeds that of the first
+        mode, in any posture.
 
-        Held systems: shapes of 1 to `max_half_waves` half waves, by half waves; those on the branch that is reached from
-        the nearly straight chain without gravity, by drawing its ends together and then letting gravity grow, come first.
-        All links settle where they are pulled, as threads do. Of two mirror images the one whose lowest link leads
-        outwards is given; between ends off the axis there are none. Half waves are counted about the line between the
-        ends' places of rest, ends on springs included. ``missing`` lists the half waves for which none was found. Held
-        chains: ``complete`` is true where it is proved that there are no others of so many half waves; else
-        ``undecided`` says with which inclinations of the lowest link others may begin. Mostly proved for one half wave of 3 to 9 links with ``l <= a`` and mass
-        at every pin; with 20 and more a few hundredths of a radian are often left; seldom proved for more half
-        waves. Held cords: ``complete`` for a span without gravity, where there is one
-        shape for every number of half waves.
+        Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
+        critical height above the given height. This holds for a uniform cord with or without a tip, for a density
+        ``s**p`` without a tip, or with a tip and p below 0, and if at most one critical height lies above the given one.
+        Otherwise a shape that exists only between two scanned offsets is missed.
+
+        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among those of equally many, the
+        shape that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
+        comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose lowest
+        link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line
+        between the ends (with springs: between their places of rest). ``missing`` lists the half waves without a shape.
+        Held chains: ``complete`` is true if it is proved that there are no other shapes of so many half waves; else
+        ``undecided`` gives the inclinations of the lowest link at which others may start. The proof mostly succeeds for
+        one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more it often leaves a few
+        hundredths of a radian; for more half waves it seldom succeeds. Held cords: ``complete`` is true for a span without
+        gravity, which has one shape for each number of half waves.
 
     Raises
     ------
     ValueError
         If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive
-        and finite, `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension and
-        speed times momentum over length) at the speed.
+        and finite, `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension plus
+        speed times momentum divided by length) at the speed.
     TypeError
-        If `system` is none of these, or `hanging_only` or `prove` is not a bool.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`, or `hanging_only` or `prove` is not a bool.
 
     Notes
     -----
-    Interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908) section
-    8 (4), (12); Newton's method on all pins in two words. A link that stands, or is so heavy off its
-    pins (``pendulum_length > length``) that it hangs at three inclinations under one load, is followed
-    along every one of them. Not complete: at exactly a critical speed or where two shapes are born, and
-    where the budget ends. At heights below some 2e-15 of the longest link the list is empty and not
-    complete: two words of double precision no longer hold the offsets that give the tensions. Cords: power series along
-    the cord, Newton's method on the place where it crosses the axis; inclinations, and offsets over the length, within
-    ``error_estimate``. Held chains: inclinations correctly rounded but for 1e-20, the bound mostly proved; held cords:
-    places within 1e-13 of the length; completeness by Krawczyk's test on the pull along the lowest link and its
-    inclination, 0.05 to 0.5 s. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
-    all 64 shapes of four; shapes, and time, about double with each link, and grow fourfold if links may
-    stand.
+    Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908),
+    section 8 (4), (12), then Newton's method on all pins in double-double. A link that stands, or whose
+    ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not complete
+    exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about 2e-15 of the
+    longest link it is empty and not complete: double-double cannot represent the offsets from which the tensions follow.
+    Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four plummets. The number
+    of shapes and the time about double with each link; if links may stand they grow fourfold.
+
+    Cords. Method: power series along the cord, Newton's method on the place where it crosses the axis. Inclinations, and
+    offsets divided by the length, are within ``error_estimate``.
+
+    Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is mostly
+    proved; places of cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
+    lowest link and its inclination, 0.05 to 0.5 s.
 
     Examples
     --------
@@ -132,7 +136,7 @@ def steady_shapes(
     >>> [len(rc.steady_shapes(rods, conical_height=0.05, hanging_only=only)) for only in (True, False)]
     [3, 14]
 
-    A chair on a chain of 4 m, on an arm of 1 m, at twelve turns a minute; and at 3 rad/s, where it could also
+    A chair on a chain of 4 m on an arm of 1 m, at twelve turns a minute; and at 3 rad/s, where it could also
     hang inwards in two ways:
 
     >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support=rc.Support(radius=1.0))
@@ -144,7 +148,7 @@ def steady_shapes(
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 
-    A blade, which could hang in no other way, and one that turns too slowly:
+    A blade with exactly one shape, and one that turns too slowly to have any:
 
     >>> blade = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.51)
     >>> found = rc.steady_shapes(blade, angular_speed=15.0)
@@ -154,7 +158,7 @@ def steady_shapes(
     >>> slow.missing, slow.complete
     ((1,), True)
 
-    A cord, and a skipping rope of one half wave or two:
+    A cord, and a skipping rope with one and two half waves:
 
     >>> cord = rc.Cord(500.0)
     >>> found = rc.steady_shapes(cord, conical_height=1.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whirl speeds of modes by their numbers, as `tune` and `fit` compare them; those of backward modes are negative."""
+"""Whirl speeds of modes by their numbers, for `tune` and `fit`; those of backward modes are negative."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Speeds(NamedTuple):
 
 
 def speeds(place: str, system: Any, numbers: Whole, gravity: float) -> Speeds:
-    """Those of modes by number, -k the k-th backward one; a ValueError where there is no such mode."""
+    """The speeds of modes by number, with -k for the k-th backward mode; a ValueError if there is no such mode."""
     size = np.abs(numbers)
     first, last = int(size.min()), int(size.max())
     most = None if not isinstance(system, Chain | Held) else system.mode_count

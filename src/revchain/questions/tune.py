@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inverse questions: which value of a datum gives a mode the speed wanted."""
+"""The inverse question: the value of a datum that gives a mode a wanted speed."""
 
 from __future__ import annotations
 
@@ -39,75 +39,78 @@ def tune(
     gravity: float = STANDARD_GRAVITY,
     between: tuple[float, float] | None = None,
 ) -> Tuned:
-    """Find the value of one datum that gives a mode the speed wanted.
+    """Return the value of one datum that gives a mode a wanted speed.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The system as it is; what is held, by its tension, or at a span with `top_tension`.
+        The present system. A system held at a span needs `top_tension`.
     vary : str
-        The path to the datum that may change, all else held:
+        Path to the datum that may change; all others are constant:
 
-        - ``"length"``: of the whole chain or cord, which keeps its proportions; of a rig and of what is held the chain's.
-        - ``"mass"`` (``"weight"``): of the whole chain of a rig or of what is held, or of a cord beside its tip.
-        - ``"links[k].NAME"`` of a chain, also of a rig's or of one that is held, with k from 0 for the lowest: NAME is
-          ``mass`` (``weight``), ``length`` (centre of gravity and radius of gyration stay where they are),
-          ``length_in_proportion`` (they grow with it, as of a point mass's thread), ``centroid`` or
+        - ``"length"``: length of the whole chain or cord, which keeps its proportions; also in a rig or a held system.
+        - ``"mass"`` (``"weight"``): mass of the whole chain in a rig or a held system, or of a cord without its tip.
+        - ``"links[k].NAME"``: datum of a link of a chain (also in a rig or a held system), k from 0 for the lowest. NAME is
+          ``mass`` (``weight``), ``length`` (with centre of gravity and radius of gyration constant),
+          ``length_in_proportion`` (they grow with it, as for a point mass on a thread), ``centroid`` or
           ``radius_of_gyration``.
-        - of a rig ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and what was given of
+        - for a rig also ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and the data given for
           flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
           ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``.
-        - of a cord ``"tip_mass"``; of what is held ``"tension"`` or ``"span"``.
+        - for a cord also ``"tip_mass"``; for a held system ``"tension"`` or ``"span"``.
     mode : int
-        Number of the mode, from 1 for the slowest; of a rig among those of the direction of the speed wanted; of what is
-        held at a span the number of half waves.
+        Number of the mode, from 1 for the slowest; for a rig with flywheels among those of the direction of the speed; at a
+        span the number of half waves.
     angular_speed : float, optional
-        The whirl speed wanted, rad/s; of a rig of either sign.
+        Wanted whirl speed, rad/s; for a rig it may be negative.
     conical_height : float, optional
-        Instead: the conical height wanted, m.
+        Wanted conical height, m, instead of `angular_speed`.
     top_tension : float, optional
-        Of what is held at a span, which is bent at every speed: the tension at the upper end with which it shall go at the
-        speed wanted (`steady_shape`), N or in the unit of the weights.
+        For a system held at a span, which is bent at every speed: wanted tension at the upper end at that speed (see
+        `steady_shape`), in N or the unit of the weights.
     gravity : float, optional
-        In m/s^2; standard gravity if left out.
+        Acceleration of gravity, m/s^2; standard gravity if left out.
     between : (low, high), optional
-        Where to look for a value that is searched for. Left out: from a thousandth to a thousand times the present value
-        (the whole chain's for a massless link); for centroid and radius of gyration from 0 to the link's length or the
-        present value.
+        Range of the search, if one is needed. If left out: from a thousandth to a thousand times the present value (that of
+        the whole chain for a massless link); for a centroid or a radius of gyration from 0 to the length of the link or
+        the present value.
 
     Returns
     -------
     Tuned
-        With the new system, and the bound of the value's error. Cost for a link O(N) for each of some 10 to 60
-        counts; of a mass some 10 to 100 modes; of other searches some 150 modes.
+        The value with its error bound, and the new system. Cost: for a link, 10 to 60 counts of O(N) each; for a mass the
+        time of 10 to 100 modes; for other searches that of about 150 modes.
 
     Raises
     ------
     ValueError
-        Unless exactly one of speed and height is given; for numbers out of range, another path, a range in which the
-        link would stand rather than hang, a mode that is not there; for what is held at a span without `top_tension`, and for
-        `top_tension` of anything else.
+        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, the link would
+        stand instead of hang in the range, or there is no such mode; if a system held at a span comes without
+        `top_tension`, or another system with it.
     TypeError
-        If `system` is none of the four systems.
+        If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
     Notes
     -----
-    A link of a chain: at a given height the chain is a spring at each pin of the link. The values of a centroid or a
-    length are then roots of a quadratic, those of a radius of gyration or a length in proportion of a linear
-    equation, and proved counts say which are this mode's and how accurate they are. Heights rise with a
-    length in proportion and a radius of gyration; with others they may turn. A mass bears on every
-    link above; there the search moves in steps that can pass no value, since a height never changes faster
-    than the mass, in ratio. Of a rig there is one stiffness, one momentum and one spin of a link for each speed, formed in
-    double-double to 1e-15; the modes of the new rig tell which mode it is. All other data of rigs, cords and what is held
-    are searched for: the speed is found at 65 values and where it turns between them, and each two neighbours with the
-    speed wanted between them are bisected. Solutions may lie unseen, and `complete` is False; of what is held there is at
-    most one tension or mass for a speed, and `complete` is True where it is found. At a span the speed with `top_tension` is
-    that of `steady_shape`, the fastest on the branch, and its error is an estimate. The error bound is then that of two
-    values whose speeds, with their own bounds, are on either side of the one wanted.
+    A link of a chain: at a given height, the rest of the chain acts as a spring at each pin of the link. The values of a
+    centroid or a length are then roots of a quadratic, those of a radius of gyration or a length in proportion the root of
+    a linear equation. Proved counts select the values of this mode and bound their errors. The height rises with a length
+    in proportion and with a radius of gyration; with other data it may have extremes. A mass loads every link above; the
+    search then takes steps that cannot miss a value, because the relative change of a height never exceeds that of the
+    mass.
+
+    A rig has one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
+    modes of the new rig tell the number of the mode.
+
+    All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extremes between
+    them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two values
+    whose speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is False. A held
+    system has at most one tension or mass for each speed; `complete` is then True if it is found. At a span with
+    `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error is an estimate.
 
     Examples
     --------
-    How heavy must the lower of two point masses be for their second whirl speed to be 4 rad/s?
+    The mass of the lower of two point masses that gives a second whirl speed of 4 rad/s:
 
     >>> import revchain as rc
     >>> chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
@@ -121,10 +124,10 @@ def tune(
     >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0))
     >>> rc.tune(rig, vary="flywheels[0].momentum", angular_speed=2.0, gravity=10.0).value
     -3.0
-    >>> rc.tune(rc.Held(chain, tension=60.0), vary="tension", angular_speed="60 rpm").value.__round__(9)
+    >>> round(rc.tune(rc.Held(chain, tension=60.0), vary="tension", angular_speed="60 rpm").value, 9)
     73.927601407
 
-    A skipping rope goes twice round in a second; how heavy must it be to pull with 9 N?
+    A skipping rope turns twice a second; how heavy must it be to pull with 9 N?
 
     >>> rope = rc.Held(rc.Cord(2.6, mass=0.15), span=1.2)
     >>> round(rc.tune(rope, vary="mass", angular_speed="2 Hz", top_tension=9.0).value, 6)
@@ -185,7 +188,7 @@ def _of_either_sign(speed: Any, height: Any) -> tuple[str, float]:
 
 
 def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravity: float, between: Any) -> Tuned:
-    """One datum of a link of a chain, by proved counts."""
+    """The values of a datum of a link of a chain, by proved counts."""
     low, high = (None, None) if between is None else _ends(between, datum)
     height, speed = (wanted, None) if name == "conical_height" else (None, wanted)
     core, quantity = compiled(_PLACE, chain), datum.quantity.replace("mass", "weight")
@@ -208,14 +211,14 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
 
 
 def _length(system: Chain | Cord | Held, datum: Datum, mode: int, height: float, gravity: float) -> Tuned:
-    """Heights are as the length, also under a tension."""
+    """The length, to which all heights are proportional, also under a tension."""
     found = modes(system, 1, first=mode, gravity=gravity)
     length = height / float(found.conical_height[0]) * datum.present
     return _one(system, datum, datum.change(length), length, length * (float(found.error_bound[0]) + 2.0**-50))
 
 
 def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: float | None) -> Tuned:
-    """The only value there is, or that there is none."""
+    """The result with the only value that exists, or with none."""
     return Tuned._made(
         None,
         status="no_value" if value is None else "found",
@@ -232,7 +235,7 @@ def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: floa
 
 
 def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> Tuned | None:
-    """A stiffness, a momentum or a spin, of which there is one for each speed; None of all else."""
+    """The only stiffness, momentum or spin for a speed; None for another datum."""
     under, per, link = rig._under(gravity), rig._force(gravity), datum.link
     of: Callable[[], float]
     if datum.path == "support.stiffness":
@@ -262,7 +265,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
 
 
 def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple[float, float]:
-    """The speed at which the branch of so many half waves has a tension, and what its relative error is taken for."""
+    """The speed at which the branch of a mode has a tension, and the estimate of its relative error."""
     shape = held_shape(_PLACE, held, mode, "top_tension", tension, gravity, False)
     return shape.angular_speed, 1e-13 if held.size else 1e-11
 
@@ -270,10 +273,10 @@ def _speed_under(held: Held, mode: int, tension: float, gravity: float) -> tuple
 def _searched(
     datum: Datum, speed: float, gravity: float, between: Any, speed_of: Callable[[Any], tuple[float, float]]
 ) -> Tuned:
-    """All else: bisection between neighbours with the speed wanted between theirs."""
+    """The values by bisection between neighbours whose speeds enclose the wanted one."""
 
     def found(value: float) -> tuple[float, float]:
-        """The speed over the one wanted, less 1, and its bound; a ValueError where the system has no such mode."""
+        """Speed divided by the wanted one, less 1, and its bound; a ValueError if the system has no such mode."""
         there, bound = speed_of(datum.change(value))
         return there / speed - 1, bound * there / speed + 2.0**-52
 
@@ -293,12 +296,12 @@ def _searched(
         found(datum.present)  # says why
         raise ValueError(f"{_PLACE}: there is no such mode anywhere between {low:g} and {high:g}")
     for before, here, after in list(zip(off, [*off][1:], [*off][2:], strict=False)):
-        if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # it turns: towards the speed wanted
+        if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # an extreme near the wanted speed
             _turn(lambda x, sign=np.sign(off[here]): sign * seen(x), before, after)  # type: ignore[misc]
     values = {}
     for left, right in pairwise(sorted(value for value in off if off[value])):
         if off[left] * off[right] < 0:
-            with suppress(ValueError):  # a system between two that can be cannot
+            with suppress(ValueError):  # a system between two possible ones is impossible
                 value, bound = _root(found, left, right, off[left] < 0)
                 values[value] = bound
     nearest = min(values, key=lambda x: abs(_scale(datum, x) - _scale(datum, datum.present)), default=None)
@@ -319,7 +322,7 @@ def _searched(
 
 
 def _turn(above: Callable[[float], float], left: float, right: float) -> None:
-    """Look for the least value between two by golden section, until one is below 0."""
+    """Look for the minimum between two values by golden section, until one is below 0."""
     part = (np.sqrt(5) - 1) / 2
     for _ in range(30):
         first, second = right - part * (right - left), left + part * (right - left)
@@ -330,7 +333,7 @@ def _turn(above: Callable[[float], float], left: float, right: float) -> None:
 
 
 def _root(found: Callable[[float], tuple[float, float]], left: float, right: float, rises: bool) -> tuple[float, float]:
-    """A zero between two values, and the bound of its error; a ValueError where there is a jump and no zero."""
+    """A zero between two values, and the bound of its error; a ValueError for a jump without a zero."""
     low, high = left, right
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (middle, high) if (found(middle)[0] < 0) == rises else (low, middle)
@@ -347,7 +350,7 @@ def _root(found: Callable[[float], tuple[float, float]], left: float, right: flo
 
 
 def _range(datum: Datum) -> tuple[float, float]:
-    """Where to search if nothing is said."""
+    """The default range of a search."""
     if datum.ceiling < np.inf:
         return min(0.0, datum.present), max(datum.ceiling, datum.present)
     floor = datum.floor or 0.0
@@ -356,7 +359,7 @@ def _range(datum: Datum) -> tuple[float, float]:
 
 
 def _places(datum: Datum, low: float, high: float) -> list[float]:
-    """Values from `low` to `high`, evenly in ratio where they can be, and the present one if it is between."""
+    """Values from `low` to `high`, evenly spaced (by ratio if possible), and the present one if it is between."""
     if datum.ceiling < np.inf or datum.floor is None or not datum.floor < low:
         places = np.linspace(low, high, _SEARCHED)
     else:
@@ -366,7 +369,7 @@ def _places(datum: Datum, low: float, high: float) -> list[float]:
 
 
 def _scale(datum: Datum, value: float) -> float:
-    """By how much a value differs: in ratio, where it can be."""
+    """A measure of the value that is logarithmic if possible."""
     in_ratio = datum.floor is not None and datum.ceiling == np.inf and datum.has_scale
     return float(np.log(value - datum.floor)) if in_ratio else value  # type: ignore[operator]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all results share: fields computed when first read, equality, pickles, tables, files."""
+"""The base of all results: fields computed when first read, equality, pickles, tables, files."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ Value = TypeVar("Value")
 
 
 class Field(Generic[Value]):
-    """One number, array or result: computed or read from the compiled result when it is first asked for, then kept.
+    """One number, array or result of a result: computed (or read from the compiled result) on first use, then kept.
 
-    `part`: two results are equal when all their parts are, and a file holds all of them. Other fields follow from the
-    parts; a file holds those that were computed.
+    Two results are equal if all fields with `part` are equal, and a file holds all of these. Other fields follow from
+    them; a file holds those that were computed.
     """
 
     def __init__(self, doc: str, compute: Callable[[Any], Any] | None = None, *, part: bool = False) -> None:
@@ -46,17 +46,17 @@ class Field(Generic[Value]):
         if self.name in kept:
             return kept[self.name]
         found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
-        return kept.setdefault(self.name, found)  # two threads that compute it at once get the same
+        return kept.setdefault(self.name, found)  # two threads that compute it at once get one object
 
     def __set__(self, result: Result, value: object) -> None:
         raise AttributeError(f"a {type(result).__name__} cannot be changed: {self.name} was not set")
 
 
 class Result(Unchangeable):
-    """What a question returns. It cannot be changed and can be pickled; two are equal if all their parts are.
+    """The base of all results: immutable values that can be pickled; two are equal if all their parts are equal.
 
-    A class says what it holds by `Field`s, how it is shown by `_sheet`, and by `_again` how the question is asked again
-    where a file did not hold what is asked for.
+    A subclass lists its data as `Field`s. Its `_sheet` returns the table, and its `_again` repeats the question for a
+    field that a file did not hold.
     """
 
     __slots__ = ("_core", "_kept")
@@ -69,12 +69,12 @@ class Result(Unchangeable):
         super().__init_subclass__(**given)
         own = {name: value for name, value in vars(cls).items() if isinstance(value, Field)}
         cls._fields = {**cls._fields, **own}
-        if cls.__module__.startswith("revchain."):  # a class of a caller must not take the place of ours
+        if cls.__module__.startswith("revchain."):  # a class of a caller must not replace one of ours
             Result._kinds[cls.__name__] = cls
 
     @classmethod
     def _made(cls, core: Any, **parts: Any) -> Self:
-        """A result around a compiled one, and the parts that this does not hold."""
+        """A result from a compiled one and the parts that the compiled one does not hold."""
         result = object.__new__(cls)
         _set(result, "_core", core)
         for name, value in parts.items():
@@ -93,21 +93,27 @@ class Result(Unchangeable):
         raise NotImplementedError
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        """What it holds as columns; `brief`: those that a table for people shows."""
+        """The data as columns; with `brief` only the columns that a printed table shows."""
         raise NotImplementedError
 
     def _state(self) -> dict[str, Any]:
-        """All parts, and what else was computed."""
+        """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
         return parts | {name: value for name, value in dict(self._kept).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything that the table is made of as plain Python data.
+        """Return the data of the table as plain Python data.
 
         Returns
         -------
         dict
-            Ready for JSON, but for infinite numbers and NaN.
+            The data. They can be written as JSON unless a number is infinite or NaN.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dict()["modes"][0]["conical_height"]
+        1.5
         """
         return as_dict(self._sheet())
 
@@ -117,49 +123,72 @@ class Result(Unchangeable):
         Returns
         -------
         pandas.DataFrame
+            The table, without columns of arrays.
 
         Raises
         ------
         ImportError
             If pandas is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dataframe()["conical_height"].tolist()
+        [1.5, 0.5]
         """
         return as_dataframe(self._sheet())
 
     def to_xarray(self) -> Dataset:
-        """Return everything as a labelled data set.
+        """Return all data as a labelled data set.
 
         Returns
         -------
         xarray.Dataset
+            The data set, with arrays of any number of axes.
 
         Raises
         ------
         ImportError
             If xarray is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_xarray()["shape"].shape
+        (2, 3)
         """
         return as_dataset(self._sheet())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a file, which `revchain.load` reads.
+        """Write the result to a file that `revchain.load` reads.
 
         Parameters
         ----------
         path : path-like
-            Ends in ``.npz`` (numpy alone) or ``.nc`` (netCDF 4, needs xarray and h5netcdf).
+            Path that ends in ``.npz`` (needs numpy only) or ``.nc`` (netCDF 4, needs xarray and h5netcdf).
 
         Raises
         ------
         ValueError
             If the path has another ending.
         ImportError
-            If what ``.nc`` needs is not installed; the message says how to install it.
+            If a package for ``.nc`` is not installed; the message says how to install it.
         OSError
-            (a ValueError too) If the file cannot be written. It is written aside and renamed: what was there before
-            stays until the new file is whole.
+            If the file cannot be written (the error is also a ValueError). The data are first written to a temporary
+            file, which is then renamed, so that an existing file stays until the new one is complete.
 
         Notes
         -----
-        What is loaded equals what was saved, bit for bit. No pickles inside.
+        The loaded result equals the saved one bit for bit. The file contains no pickles.
+
+        Examples
+        --------
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
+        >>> m = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0))
+        >>> m.save(path)
+        >>> rc.load(path) == m
+        True
         """
         from .storage import save
 
@@ -210,11 +239,11 @@ class Listed(Sequence[Item]):
         return self.count(value) > 0
 
     def count(self, value: object) -> int:
-        """How many of the results equal `value`."""
+        """Number of results equal to `value`."""
         return sum(value is item or (type(value) is type(item) and value == item) for item in self)
 
     def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
-        """The place of the first result that equals `value`, from `start` on and before `stop`."""
+        """Index of the first result equal to `value`, from `start` on and before `stop`."""
         place = f"{type(self).__name__}.index"
         ends = integer(place, "start", start), None if stop is None else integer(place, "stop", stop)
         for number in range(len(self))[slice(*ends)]:
@@ -236,16 +265,16 @@ class Results(Result, Listed[Item]):
 _set = object.__setattr__
 
 
-_HOLD = (np.ndarray, list, tuple)  # what may hold arrays that can be written to
+_HOLD = (np.ndarray, list, tuple)  # types that may hold writable arrays
 
 
 def restored(kind: type[Result], state: dict[str, Any]) -> Result:
-    """A result from its state."""
+    """The result of a class from its state."""
     return kind._made(None, **state)
 
 
 def frozen(value: Any) -> Any:
-    """`value`, its arrays read-only."""
+    """`value` with its arrays made read-only."""
     if isinstance(value, np.ndarray):
         return read_only(value) if value.flags.writeable else value
     if type(value) in (list, tuple):

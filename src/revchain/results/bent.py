@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes of cords, and of chains and cords whose two ends are held."""
+"""Steady shapes of cords, and of chains and cords held at both ends."""
 
 from __future__ import annotations
 
@@ -22,18 +22,25 @@ from .sheet import Column, Sheet
 
 
 class Place(NamedTuple):
-    """What there is at places of a cord.
+    """Position, inclination and tension at places of a cord.
 
     Attributes
     ----------
     offset : float or ndarray
-        From the axis, m.
+        Offset from the axis, m.
     height : float or ndarray
-        Above the support, negative where the cord hangs; of a held cord above its lower end, m.
+        Height above the support (of a held cord: above its lower end), m; negative if the cord hangs.
     inclination : float or ndarray
-        To the vertical, rad; positive where the cord leads towards the axis going up.
+        Inclination to the vertical, rad; positive if the cord approaches the axis going up.
     tension : float or ndarray
-        N, or in the unit of the weights.
+        Tension, N or in the unit of the weights.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> place = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0].at(0.5)
+    >>> round(float(place.offset), 6), round(float(place.height), 6)
+    (0.493314, -0.080949)
     """
 
     offset: Any
@@ -43,26 +50,27 @@ class Place(NamedTuple):
 
 
 class _Bent(Shape):
-    """What shapes of cords and of held chains share. Each is found again by its place in the list of shapes."""
+    """The base of shapes of cords and of held chains. Each can be computed again from its index in the list."""
 
     __slots__ = ()
     inclination: Field[Floats] = Field(
-        "To the vertical, rad, within (-pi, pi], of each link or place: positive where it leads to the axis going up.",
+        "Inclination of each link or place to the vertical, rad, within (-pi, pi]; positive if it approaches the axis going "
+        "up.",
         part=True,
     )
     offset: Field[Floats] = Field("Distance of each pin or place from the axis, m.", part=True)
     height: Field[Floats] = Field(
-        "Height of each pin or place, m: above the support, of what is held at both ends above the lower end.", part=True
+        "Height of each pin or place above the support, m; for a held system above its lower end.", part=True
     )
     tension: Field[Floats] = Field(
         "Tension at each pin or place, N or in the unit of the weights.", forced("tension"), part=True
     )
     condition: Field[float] = Field(
-        "Largest change of an inclination, rad, over the relative change of length, span or conical height that makes "
-        "it: great near a critical height.",
+        "Largest change of an inclination, rad, divided by the relative change of length, span or conical height that "
+        "causes it. It is large near a critical height.",
         part=True,
     )
-    _asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
+    _asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.", part=True)
 
     @property
     def _reach(self) -> float:
@@ -116,7 +124,7 @@ def _no_sensitivity(shape: Any) -> ShapeSensitivity:
 
 
 class CordShape(_Bent):
-    """One steady shape of a cord hung from one end; arrays are dense where the cord turns sharply.
+    """One steady shape of a cord hung from one end. The places of its arrays are dense where the cord bends sharply.
 
     Examples
     --------
@@ -127,14 +135,15 @@ class CordShape(_Bent):
     """
 
     __slots__ = ()
-    arc_length: Field[Floats] = Field("Of the places, from the free end, m, shape (n,).", part=True)
+    arc_length: Field[Floats] = Field("Distance of each place from the free end along the cord, m, shape (n,).", part=True)
     residual: Field[float] = Field(
-        "What is left of the horizontal pull of the whole cord at the support, over its tension there; with a density of "
-        "the tension's own series against pull and weight.",
+        "Unbalanced horizontal force of the whole cord at the support, divided by its tension there. For a density "
+        "function: difference between the series of the tension and the tension from pull and weight, likewise divided.",
         part=True,
     )
     error_estimate: Field[float] = Field(
-        "Of every inclination, rad, and of every offset and height over the length; errors measured reach 0.6 of it.",
+        "Estimate of the error of each inclination, rad, and of each offset and height divided by the length. Measured "
+        "errors reach 0.6 of it.",
         lambda s: s._found().error_bound,
         part=True,
     )
@@ -142,18 +151,18 @@ class CordShape(_Bent):
     _note: ClassVar[str] = "arc lengths from the free end, heights above the support; error: estimated"
 
     def at(self, arc_length: ArrayLike) -> Place:
-        """Return what there is at distances along the cord.
+        """Return offset, height, inclination and tension at distances along the cord.
 
         Parameters
         ----------
         arc_length : array_like
-            From the free end, m, 0 to the length, any shape.
+            Distances from the free end along the cord, m, 0 to the length, any shape.
 
         Returns
         -------
         Place
-            `offset`, `height`, `inclination`, `tension`, of the shape of `arc_length`; as accurate as the arrays.
-            Cost: 1 microsecond each, 10 with a line density.
+            Arrays with the shape of `arc_length`, as accurate as those of the shape. Cost: 1 microsecond for each place,
+            10 with a density function.
 
         Raises
         ------
@@ -172,30 +181,31 @@ class CordShape(_Bent):
         return Place(*numbers([offset, height, inclination, self._per * tension]))
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance.
+        """Return the linear stability of the shape: the growth or decay of small disturbances.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            ``free``: a flexible cord without torque about the axis, so that angular momentum is kept. ``driven``: it moves
-            in a plane that is made to turn at constant speed.
+            ``free``: no torque acts about the axis, so that the angular momentum is constant. ``driven``: the cord moves
+            in a plane that is driven at constant speed.
 
         Returns
         -------
         Stability
-            ``exponents`` are the slowest of infinitely many: those of which two discretisations agree to 1e-6; mostly they
-            are right to 1e-9. ``margin`` covers by how much these differ in the growth rate; where they differ in more the
-            verdict is ``'undecided'``. ``internal_damping`` is NaN: a flexible cord has no stiffness in bending.
+            ``exponents`` are the slowest of infinitely many, those on which two discretisations agree to 1e-6; most are
+            correct to 1e-9. ``margin`` covers their difference in the growth rate; if they differ in more, the verdict is
+            ``'undecided'``. ``internal_damping`` is NaN, because a flexible cord has no bending stiffness.
 
         Raises
         ------
         ValueError
-            If `frame` is neither.
+            If `frame` is another word.
 
         Notes
         -----
-        Galerkin's method with polynomials on panels along the cord; chains of N links differ from it as ``1 / N**2``. Cost:
-        15 milliseconds for a shape without nodes, 0.3 s for one of three half waves.
+        Method: Galerkin's method with polynomials on panels along the cord. The exponents of chains of N links differ from
+        these by an amount proportional to ``1 / N**2``. Cost: 15 milliseconds for a shape without nodes, 0.3 s for one of
+        three half waves.
 
         Examples
         --------
@@ -218,7 +228,7 @@ class CordShape(_Bent):
 
 
 class _HeldShape(_Bent):
-    """What shapes of chains and of cords held at both ends share."""
+    """The base of shapes of chains and cords held at both ends."""
 
     __slots__ = ()
     tension: Field[Floats] = Field(
@@ -227,18 +237,18 @@ class _HeldShape(_Bent):
         part=True,
     )
     lower_pull: Field[Floats] = Field(
-        "The chain's pull on the lower bearing, shape (2,): outwards (to the side where offsets are positive), and up.",
+        "Pull of the chain on the lower bearing, shape (2,): outwards (to the side of positive offsets) and upwards.",
         lambda s: s._per * np.array(s._found().lower_pull),
         part=True,
     )
     upper_pull: Field[Floats] = Field(
-        "The chain's pull on the upper bearing, shape (2,): outwards, and up.",
+        "Pull of the chain on the upper bearing, shape (2,): outwards and upwards.",
         lambda s: s._per * np.array(s._found().upper_pull),
         part=True,
     )
-    span: Field[float] = Field("Distance of the two ends, m.", part=True)
+    span: Field[float] = Field("Distance between the two ends along the axis, m.", part=True)
     residual: Field[float] = Field(
-        "Largest of what the balance leaves over of a tension, and of the gaps at the ends over the length.", part=True
+        "Largest unbalanced force divided by the tension, or largest gap at an end divided by the length.", part=True
     )
     _note: ClassVar[str] = "inclinations: to the upward vertical; heights above the lower end"
 
@@ -272,7 +282,7 @@ class _HeldShape(_Bent):
 
 
 class HeldShape(_HeldShape):
-    """One steady shape of a chain with both ends held: links lowest first, pins from the lower end up.
+    """One steady shape of a chain held at both ends: links lowest first, pins from the lower end up.
 
     Examples
     --------
@@ -285,22 +295,23 @@ class HeldShape(_HeldShape):
 
     __slots__ = ()
     force_inclination: Field[Floats] = Field(
-        "Of the force at each pin (`tension`), as it pulls upwards, to the vertical, rad, shape (N + 1,).", part=True
+        "Inclination of the upward force at each pin (`tension`) to the vertical, rad, shape (N + 1,).", part=True
     )
-    error_bound: Field[float] = Field("Of every inclination, rad; an estimate unless `proved`.", part=True)
+    error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
     sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions at the pins by the speed, the data of each link, the span or the "
-        "tension, and what holds the ends: each part is `HeldShapeDerivatives`.",
+        "Derivatives of inclinations, offsets and tensions at the pins with respect to the speed, the data of each link, the "
+        "span or the tension, and the supports of the ends. Each part is a `HeldShapeDerivatives`.",
         held_shape_sensitivity,
     )
     moment_of_inertia: Field[float] = Field(
-        "About the axis, carriages of springs included, kg m^2; of a chain given by weight, weight times length squared.",
+        "Moment of inertia about the axis, with the masses on springs, kg m^2; for a chain given by weight, in weight times "
+        "length squared.",
         part=True,
     )
     effective_energy: Field[float] = Field(
-        "Potential energy, with that of springs, less that of the centrifugal forces, J: stationary among figures of the "
-        "same span.",
+        "Potential energy (with that of the springs) less that of the centrifugal forces, J. It is stationary among figures "
+        "of equal span.",
         forced("height_times_energy"),
         part=True,
     )
@@ -308,26 +319,26 @@ class HeldShape(_HeldShape):
     _axes: ClassVar[tuple[str, str]] = ("link", "pin")
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance; firm ends stay where they are, those on springs move across the axis.
+        """Return the linear stability of the shape; firm ends are fixed, ends on springs move across the axis.
 
         Parameters
         ----------
         frame : {"free", "driven"}
-            ``free``: ball joints and no torque about the axis. ``driven``: axles at right angles to a plane
-            that is made to turn, so that links move in that plane alone.
+            ``free``: the links have ball joints, and no torque acts about the axis. ``driven``: the links have hinges and
+            move in a plane that is driven at constant speed.
 
         Returns
         -------
         Stability
-            Of N links ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven one, to about 1e-13
-            of the largest where they are simple; for each end on a spring 4 more, or 2. Off the axis arms turn at a
-            constant speed, and there are 2 more in the free frame. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
-            in `Stability.internal_damping` and `Stability.external_damping`.
+            For N links there are ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven frame; each end on a
+            spring adds 4 or 2. Arms off the axis turn at a constant speed and add 2 in the free frame. Accuracy: about
+            1e-13 of the largest exponent for simple ones. Cost: ``(4 N)**3 / 2`` operations. The exponents are without
+            damping; `Stability.internal_damping` and `Stability.external_damping` give the effect of a little of it.
 
         Raises
         ------
         ValueError
-            If `frame` is neither, or a pin that moves has no mass (the upper end on a spring may have none).
+            If `frame` is another word, or a movable pin has no mass (an upper end on a spring may have none).
 
         Examples
         --------
@@ -344,7 +355,7 @@ class HeldShape(_HeldShape):
 
 
 class HeldCordShape(_HeldShape):
-    """One steady shape of a uniform cord with both ends on the axis; places from the lower end up.
+    """One steady shape of a uniform cord with both ends on the axis; places are listed from the lower end up.
 
     Examples
     --------
@@ -355,34 +366,34 @@ class HeldCordShape(_HeldShape):
     """
 
     __slots__ = ()
-    arc_length: Field[Floats] = Field("Of the places, from the lower end, m, shape (n,).", part=True)
+    arc_length: Field[Floats] = Field("Distance of each place from the lower end along the cord, m, shape (n,).", part=True)
     error_estimate: Field[float] = Field(
-        "Of every inclination, rad, and of every offset and height over the length.",
+        "Estimate of the error of each inclination, rad, and of each offset and height divided by the length.",
         lambda s: s._found().error_bound,
         part=True,
     )
     moment_of_inertia: Field[float] = Field(
-        "About the axis, kg m^2; of a cord given by weight, weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a cord given by weight, in weight times length squared.", part=True
     )
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance, both ends staying where they are.
+        """Return the linear stability of the shape with both ends fixed.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            ``free``: no torque about the axis, so that angular momentum is kept. ``driven``: it moves in a plane that is
-            made to turn at constant speed.
+            ``free``: no torque acts about the axis, so that the angular momentum is constant. ``driven``: the cord moves
+            in a plane that is driven at constant speed.
 
         Returns
         -------
         Stability
-            As of a cord that hangs: see `CordShape.stability`.
+            The stability, with the accuracy and the limits of `CordShape.stability`.
 
         Raises
         ------
         ValueError
-            If `frame` is neither.
+            If `frame` is another word.
 
         Examples
         --------
@@ -396,17 +407,17 @@ class HeldCordShape(_HeldShape):
     sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
 
     def at(self, arc_length: ArrayLike) -> Place:
-        """Return what there is at distances along the cord.
+        """Return offset, height, inclination and tension at distances along the cord.
 
         Parameters
         ----------
         arc_length : array_like
-            From the lower end, m, 0 to the length, any shape.
+            Distances from the lower end along the cord, m, 0 to the length, any shape.
 
         Returns
         -------
         Place
-            Each of the shape of `arc_length`.
+            Arrays with the shape of `arc_length`.
 
         Raises
         ------
@@ -437,7 +448,7 @@ _NONE: dict[str, Any] = {"undecided": np.empty((0, 2)), "cells": 0}
 def held_shapes_made(
     found: Any, system: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]
 ) -> SteadyShapes:
-    """A list around compiled shapes of something held."""
+    """The list of the compiled shapes of a held system."""
     kind = HeldCordShape if isinstance(system.system, Cord) else HeldShape
     given: dict[str, Any] = {"system": system, "gravity": gravity, "conical_height": height, "angular_speed": speed}
     items = tuple(kind._made(shape, _asked=(*asked, k), **given) for k, shape in enumerate(found.shapes))
@@ -446,7 +457,7 @@ def held_shapes_made(
 
 
 def branch_shape(found: _core.CordShape, system: Cord, gravity: float, at_fold: bool = False) -> CordShape:
-    """A compiled shape of a branch of a cord."""
+    """The shape of a cord from a compiled shape on its branch."""
     asked = (found.conical_height, found.half_waves, float(found.offset[0]), at_fold)
     return CordShape._made(found, system=system, gravity=gravity, _asked=asked)
 
@@ -454,7 +465,7 @@ def branch_shape(found: _core.CordShape, system: Cord, gravity: float, at_fold: 
 def cord_shapes_made(
     found: Any, system: Cord, height: float, speed: float, gravity: float, scanned: int
 ) -> SteadyShapes:
-    """A list around compiled shapes of a cord."""
+    """The list of the compiled shapes of a cord."""
     given: dict[str, Any] = {"system": system, "gravity": gravity, "conical_height": height, "angular_speed": speed}
     items = tuple(CordShape._made(shape, _asked=(height, scanned, k), **given) for k, shape in enumerate(found.shapes))
     return SteadyShapes._made(None, _items=items, complete=found.complete, missing=(), **given, **_NONE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes and the windows of stability along them."""
+"""Branches of steady shapes, and the windows of stability along them."""
 
 from __future__ import annotations
 
@@ -26,12 +26,22 @@ AnyBranch = TypeVar("AnyBranch", bound=Result)
 
 
 class StabilityWindow(Result):
-    """A part of a branch along which the verdict on stability is the same."""
+    """A part of a branch with one verdict on stability; returned by `Branch.stability_windows`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1)
+    >>> branch.stability_windows()[0].verdict
+    'minimum'
+    """
 
     __slots__ = ()
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
-    conical_height: Field[Pair] = Field("At both ends, m; the one nearer to the start of the branch first.", part=True)
-    arc: Field[Pair] = Field("Along the branch, at the same ends.", part=True)
+    conical_height: Field[Pair] = Field(
+        "Conical height at both ends, m; the end nearer to the start of the branch first.", part=True
+    )
+    arc: Field[Pair] = Field("`Branch.arc` at both ends.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -43,7 +53,7 @@ class StabilityWindow(Result):
 
 
 class Branch(Result):
-    """A branch of steady shapes, point by point along its arc; returned by `branch` and in what `branches` returns.
+    """A branch of steady shapes, point by point along its arc; returned by `branch` and `branches`.
 
     Arrays have one number for each point.
 
@@ -60,71 +70,71 @@ class Branch(Result):
     __slots__ = ()
     system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
     mode: Field[int | None] = Field(
-        "Number of the mode at which it leaves the vertical; 1 from rest; None for an isolated branch.",
+        "Number of the mode at which the branch leaves the vertical; 1 for a branch from rest; None for an isolated branch.",
         lambda b: b._found().mode or None,
         part=True,
     )
     birth: Field[str] = Field(
-        "``'vertical'``: it leaves the straight chain at a critical speed; ``'rest'``: it begins at rest, the support being "
-        "off the axis; ``'fold'``: it is isolated, two shapes are born in a fold.",
+        "Start of the branch. ``'vertical'``: it leaves the straight chain at a critical speed. ``'rest'``: it starts at "
+        "rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold.",
         part=True,
     )
     arc: Field[Floats] = Field(
-        "Along the branch, from its first point: measured by the root of the mean square of the links' "
-        "``d arsinh(tan(inclination))`` and the square of ``d log(conical_height)``.",
+        "Arc length of the branch from its first point, without unit: the root of the mean square of the links' "
+        "``d arsinh(tan(inclination))`` plus the square of ``d log(conical_height)``, summed up.",
         part=True,
     )
     conical_height: Field[Floats] = Field("Conical height of the speed, m.", part=True)
-    angular_speed: Field[Floats] = Field("Speed at every point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
+    angular_speed: Field[Floats] = Field("Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
     tip_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link to the vertical, rad. Of the two mirror images the branch is followed in one: that "
-        "in which `modes` gives the mode; an isolated branch in that with the free end at a positive offset where it "
-        "begins. Where the sign changes along the branch the link hangs vertically. If the support is off the axis there "
-        "are no mirror images: outwards is positive.",
+        "Inclination of the lowest link to the vertical, rad. Of two mirror images the branch follows the one that agrees "
+        "with the mode shape of `modes`; an isolated branch follows the one that starts with the free end at a positive "
+        "offset. The link is vertical where the sign changes. With the support off the axis there are no mirror images; "
+        "outwards is positive.",
         part=True,
     )
-    tip_radius: Field[Floats] = Field("Offset of the free end from the axis, m, with its sign.", part=True)
+    tip_radius: Field[Floats] = Field("Signed offset of the free end from the axis, m.", part=True)
     top_tension: Field[Floats] = Field(
         "Size of the reaction at the topmost pin, N or in the unit of the weights.", forced("top_tension"), part=True
     )
     moment_of_inertia: Field[Floats] = Field(
-        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
     )
     effective_energy: Field[Floats] = Field(
-        "Potential energy less half of moment of inertia times speed squared, J.", forced("effective_energy"), part=True
+        "Potential energy less half the moment of inertia times the speed squared, J.", forced("effective_energy"), part=True
     )
     half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", part=True)
     folds: Field[Whole] = Field(
-        "Points at which the conical height turns, each located by itself: two shapes are born or meet there.", part=True
+        "Indices of the points at which the conical height has a local extreme: two shapes start or meet there.", part=True
     )
     end: Field[str] = Field(
-        "Why it was not followed farther: ``'height'``: at the one asked for; ``'closed'``: back where it began; "
-        "``'vertical'``: back at the straight chain; ``'budget'``: after `max_points`; ``'stuck'``: no step passed every "
-        "check; ``'slow'``: on the way to rest; ``'slack'``: flywheels take the tension from a link, which comes to the "
-        "horizontal; ``'loose'``: the spring at the support no longer holds the whole.",
+        "Reason of the end. ``'height'``: the given conical height is reached. ``'closed'``: the branch is back at its "
+        "start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` is reached. ``'stuck'``: no "
+        "step passed every check. ``'slow'``: it approaches rest. ``'slack'``: flywheels cancel the tension of a link, which "
+        "becomes horizontal. ``'loose'``: the spring at the support no longer holds the chain.",
         part=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("The numbers it was asked with, for shapes that are asked for later.", part=True)
+    asked: Field[tuple[Any, ...]] = Field("Numbers of the question, to compute shapes later.", part=True)
 
     def shape(self, point: int) -> SteadyShape:
-        """Return the whole shape at a point.
+        """Return the shape at a point of the branch.
 
         Parameters
         ----------
         point : int
-            Which; negative ones count from the end.
+            Index of the point; a negative one counts from the end.
 
         Returns
         -------
         SteadyShape
-            Balanced in two words. Its ``error_bound`` is proved, but at a fold, where it is an estimate.
+            The shape, computed in double-double. Its ``error_bound`` is proved, except at a fold, where it is an estimate.
 
         Raises
         ------
         ValueError
-            If there is no such point, or it is the straight chain, where the branch of a mode begins.
+            If there is no such point, or it is the straight chain, at which the branch of a mode starts.
 
         Examples
         --------
@@ -143,21 +153,22 @@ class Branch(Result):
         angular_speed: float | None = None,
         gravity: float | None = None,
     ) -> tuple[SteadyShape, ...]:
-        """Return the shapes at which the branch, as far as it was followed, passes a speed.
+        """Return the shapes of the branch at a speed, as far as the branch was followed.
 
         Parameters
         ----------
         conical_height : float
-            Of the speed, positive.
+            Conical height of the speed, m, positive.
         angular_speed : float
-            Instead of `conical_height`: the speed in rad/s, positive.
+            Speed in rad/s, positive, instead of `conical_height`.
         gravity : float, optional
-            In m/s^2; that of the branch if left out. A rig has no other: what springs and wheels do depends on it.
+            Acceleration of gravity, m/s^2; that of the branch if left out. For a rig it must be that of the branch,
+            because the effect of springs and wheels depends on it.
 
         Returns
         -------
         tuple of SteadyShape
-            In the order of the arc; empty where it does not pass there.
+            The shapes in the order of the arc; empty if the branch does not pass the speed.
 
         Raises
         ------
@@ -182,27 +193,27 @@ class Branch(Result):
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
     ) -> list[StabilityWindow]:
-        """Say where along the branch small disturbances grow and where not.
+        """Return the windows of stability along the branch.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            As for `SteadyShape.stability`.
+            Frame, as in `SteadyShape.stability`.
         tolerance : float, optional
-            Of the edges, relative in conical height and absolute in arc.
+            Tolerance of the edges, relative in conical height and absolute in arc.
         samples : int, optional
-            Places looked at between two points of the branch, one end counted.
+            Number of places to examine between two points of the branch, with one end.
 
         Returns
         -------
         list of StabilityWindow
-            In the order of the arc. They cover the branch but for the vertical and the way from there to the
-            first point. Edges are located by halving; a window shorter than the places are apart can be missed.
+            The windows in the order of the arc. They cover the branch except the part from the vertical to the next
+            point. Edges are located by bisection. A window shorter than the distance of the places can be missed.
 
         Raises
         ------
         ValueError
-            If `frame` is neither, `tolerance` is not positive or `samples` is below 1.
+            If `frame` is another word, `tolerance` is not positive or `samples` is below 1.
 
         Examples
         --------
@@ -222,23 +233,24 @@ class Branch(Result):
         return [StabilityWindow._made(None, verdict=verdict, conical_height=(h0, h1), arc=(s0, s1)) for s0, s1, h0, h1, verdict in found]
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw a number of the branch against the speed over the first critical one; folds are marked.
+        """Draw a quantity of the branch against the speed divided by the first critical speed; folds are marked.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            What to draw; inclinations in degrees.
+            Quantity to draw; an inclination is in degrees.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `quantity` is none of these.
+            If `quantity` is another word.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -298,44 +310,53 @@ class Branch(Result):
 
 
 class Branches(Results[Branch]):
-    """All branches found down to one conical height: those of the modes, slowest first, then isolated ones.
+    """All branches found down to one conical height; returned by `branches`.
 
-    Of a rig whose support is off the axis: the one from rest, then those born in folds.
+    The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The
+    isolated branches, which start at folds, follow.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> diagram = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04)
+    >>> [each.mode for each in diagram], diagram.complete
+    ([1, 2, 3, None], True)
     """
 
     __slots__ = ()
     system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
     consistent: Field[bool] = Field(
-        "Whether at every speed looked at each shape of the proved list was met by a branch, and met once.", part=True
+        "Whether at each of the speeds `looked_at` the list is proved and each of its shapes lies on exactly one branch.",
+        part=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is proved besides that no branch is missing, not even a loop between two of those speeds.", part=True
+        "Whether it is also proved that no branch is missing, not even a loop between two of these speeds.", part=True
     )
-    looked_at: Field[Floats] = Field("The conical heights of those speeds, m, descending.", part=True)
-    remark: Field[str] = Field("What may be missing, in a sentence.", part=True)
+    looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", part=True)
+    remark: Field[str] = Field("A sentence that says what may be missing.", part=True)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw the diagram: a number of every branch against the speed over the first critical one.
+        """Draw the bifurcation diagram: a quantity of each branch against the speed divided by the first critical speed.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            What to draw; inclinations in degrees.
+            Quantity to draw; an inclination is in degrees.
 
         Returns
         -------
         matplotlib.axes.Axes
-            Coloured by half waves; isolated branches dashed, with the speed at which each is born. The title
-            says whether the diagram is `complete`.
+            The drawing. Colours show half waves. Isolated branches are dashed, with the speed at which each starts. The
+            title says whether the diagram is `complete`.
 
         Raises
         ------
         ValueError
-            If `quantity` is none of these.
+            If `quantity` is another word.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -369,7 +390,7 @@ class Branches(Results[Branch]):
 
 
 def branches_made(found: _core.Branches, asked: tuple[Any, ...], **given: Any) -> Branches:
-    """A list around compiled branches; `given`: the system, gravity and direction."""
+    """The list of compiled branches; `given` holds the system, gravity and direction."""
     items = branch_items(Branch, found.branches, asked, given)
     return Branches._made(found, _items=items, **given)
 
@@ -377,26 +398,26 @@ def branches_made(found: _core.Branches, asked: tuple[Any, ...], **given: Any) -
 def branch_items(
     kind: type[AnyBranch], found: list[Any], asked: tuple[Any, ...], given: dict[str, Any]
 ) -> tuple[AnyBranch, ...]:
-    """Branches around compiled ones; how each is asked for again ends with its place in the list."""
+    """The branches from compiled ones; the data to repeat the question of each end with its index."""
     return tuple(kind._made(each, asked=(*asked, k), **given) for k, each in enumerate(found))
 
 
 def is_fold(branch: Any) -> NDArray[np.bool_]:
-    """Of each point of a branch."""
+    """Whether each point of a branch is a fold."""
     fold = np.zeros(len(branch), bool)
     fold[branch.folds] = True
     return fold
 
 
 def fold_words(branch: Any) -> str:
-    """How many points and folds a branch has, and where it ends."""
+    """Text with the number of points and folds of a branch, and its end."""
     many = branch.folds.size
     folds = f", {many} fold{'s' * (many != 1)}" if many else ""
     return f"{len(branch)} points{folds}, ends at {branch.end}"
 
 
 def branch_sizes(branches: Sequence[Any]) -> list[Column]:
-    """Columns of a list of branches that all kinds have."""
+    """The columns that all lists of branches have."""
     return [
         Column("points", [len(each) for each in branches], "points"),
         Column("folds", [int(each.folds.size) for each in branches], "folds"),
@@ -411,7 +432,7 @@ def _born(branch: Branch) -> str:
 
 
 def _first_height(of: Sequence[Branch] | Branches) -> float:
-    """The conical height of the slowest mode; of a rig that has none the greatest height of a branch."""
+    """The conical height of the slowest mode; if a rig has none, the greatest height of a branch."""
     one = of if isinstance(of, Branches) else of[0]
     system = one.system
     if isinstance(system, Rig):

@@ -27,36 +27,36 @@ class CordBranch(Branch):
 
     __slots__ = ()
     system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
-    direction: Field[int] = Field("Always 1: a cord knows no direction of rotation.", lambda b: 1, part=True)
+    direction: Field[int] = Field("Always 1: a cord is alike in both directions of rotation.", lambda b: 1, part=True)
     birth: Field[str] = Field(
-        "``'vertical'``: it leaves the straight cord at a critical speed; ``'fold'``: it is isolated, two shapes are born "
-        "in a fold.",
+        "Start of the branch. ``'vertical'``: it leaves the straight cord at a critical speed. ``'fold'``: it is isolated; "
+        "two shapes start at a fold.",
         lambda b: "fold" if b.mode is None else "vertical",
         part=True,
     )
     arc: Field[Floats] = Field(
-        "Along the branch, from its first point: measured by the root of the squares of ``d arsinh(tan(tip_inclination))`` "
-        "and ``d log(conical_height)``.",
+        "Arc length of the branch from its first point, without unit: the root of the squares of "
+        "``d arsinh(tan(tip_inclination))`` and ``d log(conical_height)``, summed up.",
         part=True,
     )
 
     def shape(self, point: int) -> CordShape:  # type: ignore[override]
-        """Return the whole shape at a point.
+        """Return the shape at a point of the branch.
 
         Parameters
         ----------
         point : int
-            Which; negative ones count from the end.
+            Index of the point; a negative one counts from the end.
 
         Returns
         -------
         CordShape
-            At a fold its ``error_estimate`` is 1e-7, for the place of the fold on the arc.
+            The shape. At a fold its ``error_estimate`` is 1e-7, because of the place of the fold on the arc.
 
         Raises
         ------
         ValueError
-            If there is no such point, or it is the straight cord, where the branch of a mode begins.
+            If there is no such point, or it is the straight cord, at which the branch of a mode starts.
 
         Examples
         --------
@@ -76,21 +76,21 @@ class CordBranch(Branch):
         angular_speed: float | None = None,
         gravity: float | None = None,
     ) -> tuple[CordShape, ...]:
-        """Return the shapes at which the branch, as far as it was followed, passes a speed.
+        """Return the shapes of the branch at a speed, as far as the branch was followed.
 
         Parameters
         ----------
         conical_height : float
-            Of the speed, positive.
+            Conical height of the speed, m, positive.
         angular_speed : float
-            Instead of `conical_height`: the speed in rad/s, positive.
+            Speed in rad/s, positive, instead of `conical_height`.
         gravity : float, optional
-            In m/s^2; that of the branch if left out.
+            Acceleration of gravity, m/s^2; that of the branch if left out.
 
         Returns
         -------
         tuple of CordShape
-            In the order of the arc; empty where it does not pass there.
+            The shapes in the order of the arc; empty if the branch does not pass the speed.
 
         Raises
         ------
@@ -113,21 +113,21 @@ class CordBranch(Branch):
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
     ) -> list[StabilityWindow]:
-        """Not available for a cord: ask the stability of its shapes, ``branch.shape(k).stability()``.
+        """Raise a ValueError: a cord has no windows; use the stability of its shapes, ``branch.shape(k).stability()``.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            As in `Branch.stability_windows`.
+            Not used.
         tolerance : float, optional
-            As in `Branch.stability_windows`.
+            Not used.
         samples : int, optional
-            As in `Branch.stability_windows`.
+            Not used.
 
         Returns
         -------
         list of StabilityWindow
-            Never: it always raises.
+            Nothing is returned.
 
         Raises
         ------
@@ -153,22 +153,30 @@ class CordBranch(Branch):
 
 
 class CordBranches(Branches):
-    """All branches found of a cord down to one conical height: those of the modes, slowest first, then isolated ones."""
+    """All branches of a cord found down to one conical height: those of the modes, slowest first, then isolated ones.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> diagram = rc.branches(rc.Cord(1.0), min_conical_height=0.05)
+    >>> [each.mode for each in diagram], diagram.complete
+    ([1, 2, 3], True)
+    """
 
     __slots__ = ()
     system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
-    direction: Field[int] = Field("Always 1: a cord knows no direction of rotation.", lambda b: 1, part=True)
+    direction: Field[int] = Field("Always 1: a cord is alike in both directions of rotation.", lambda b: 1, part=True)
     consistent: Field[bool] = Field(
-        "Whether at every speed looked at each shape that a scan finds was met by a branch, and met once.", part=True
+        "Whether at each of the speeds `looked_at` each shape found by a scan lies on exactly one branch.", part=True
     )
     complete: Field[bool] = Field(
-        "Whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end: then no "
-        "branch is missing.",
+        "Whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end. Then no branch "
+        "is missing.",
         part=True,
     )
 
 
 def cord_branches_made(found: Any, system: Cord, gravity: float, asked: tuple[Any, ...]) -> CordBranches:
-    """A list around compiled branches."""
+    """The list of the compiled branches of a cord."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     return CordBranches._made(found, _items=branch_items(CordBranch, found.branches, asked, given), **given)

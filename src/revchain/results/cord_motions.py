@@ -31,7 +31,7 @@ CORD_SWING = (
 
 
 class CordSwing(Result):
-    """A cord swinging in a plane after release, as the sum of its modes; returned by `swing`.
+    """Free motion of a cord in a plane after release, as a sum of its modes; returned by `swing`.
 
     Examples
     --------
@@ -44,47 +44,50 @@ class CordSwing(Result):
     __slots__ = ()
     system: Field[Cord] = Field("The cord.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
-    arc_length: Field[Floats] = Field("Of the places, from the free end, m, shape (n,).", part=True)
-    offset: Field[Floats] = Field("Offsets, m, shape (T, n): sums of the k modes kept.", part=True)
-    velocity: Field[Floats] = Field("Velocities, m/s, shape (T, n).", part=True)
+    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
+    arc_length: Field[Floats] = Field("Distance of each place from the free end, m, shape (n,).", part=True)
+    offset: Field[Floats] = Field("Offsets of the places, m, shape (T, n): sums of the k modes used.", part=True)
+    velocity: Field[Floats] = Field("Velocities of the places, m/s, shape (T, n).", part=True)
     angular_frequency: Field[Floats] = Field(
         "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); no mode gives any to another.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); it is constant.", part=True
     )
     shape: Field[Floats] = Field("Shape of each mode, shape (k, n), 1 at the free end.", part=True)
     cosine: Field[Floats] = Field(
-        "Shape (k,): offsets are the sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.", part=True
+        "Coefficients, shape (k,), in offset = sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.",
+        part=True,
     )
-    sine: Field[Floats] = Field("Shape (k,), as said of `cosine`.", part=True)
-    energy_left_out: Field[float] = Field("Energy of the start beside the modes kept.", part=True)
+    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
+    energy_left_out: Field[float] = Field("Energy of the start that is not in the modes used.", part=True)
     error_estimate: Field[Floats] = Field(
-        "Of each offset at any time, m, shape (n,): what modes k + 1 to 2 k do at most, and what is beyond as these fall.",
+        "Estimate of the error of each offset at any time, m, shape (n,): largest effect of modes k + 1 to 2 k, and of higher "
+        "ones by extrapolation.",
         part=True,
     )
 
     def plot(self, ax: Axes | None = None, *, kind: str = "shapes", places: Iterable[int] = (0,)) -> Axes:
-        """Draw the cord at the times asked, or offsets of places against time.
+        """Draw the cord at the given times, or offsets of places against time.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         kind : {"shapes", "time"}
-            Shapes from dark (early) to light, offsets stretched; or offsets against time.
+            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets. ``"time"``: offsets against time.
         places : iterable of int
-            For ``"time"``: which places of `arc_length`, 0 the lowest.
+            For ``"time"``: indices of places in `arc_length`, 0 for the lowest.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `kind` is neither, or for places there are not.
+            If `kind` is another word, or there is no such place.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 

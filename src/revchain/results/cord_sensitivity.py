@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How conical heights and speeds of a cord change with its data, and how uncertain they are."""
+"""Sensitivity and uncertainty of the conical heights and speeds of a cord."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CORD_DATA = ("length", "mass", "tip_mass", "exponent", "tension")
 
 
 class CordDerivatives(_ByDatum):
-    """One number for each mode and datum of a cord.
+    """Numbers for each mode and datum of a cord.
 
     Examples
     --------
@@ -34,11 +34,11 @@ class CordDerivatives(_ByDatum):
 
     __slots__ = ()
     _known = CORD_DATA
-    length: Field[Floats] = Field("Shape (k,); see `CordSensitivity.length`.", part=True)
-    mass: Field[Floats] = Field("Shape (k,); see `CordSensitivity.mass`.", part=True)
-    tip_mass: Field[Floats] = Field("Shape (k,); see `CordSensitivity.tip_mass`.", part=True)
-    exponent: Field[Floats] = Field("Shape (k,); see `CordSensitivity.exponent`.", part=True)
-    tension: Field[Floats] = Field("Shape (k,); see `CordSensitivity.tension`.", part=True)
+    length: Field[Floats] = Field("Numbers for the length, shape (k,); see `CordSensitivity.length`.", part=True)
+    mass: Field[Floats] = Field("Numbers for the mass, shape (k,); see `CordSensitivity.mass`.", part=True)
+    tip_mass: Field[Floats] = Field("Numbers for the tip, shape (k,); see `CordSensitivity.tip_mass`.", part=True)
+    exponent: Field[Floats] = Field("Numbers for the exponent, shape (k,); see `CordSensitivity.exponent`.", part=True)
+    tension: Field[Floats] = Field("Numbers for the tension, shape (k,); see `CordSensitivity.tension`.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Numbers by datum", self._columns())
@@ -47,18 +47,19 @@ class CordDerivatives(_ByDatum):
 class CordSensitivity(_ByDatum):
     """Derivatives of the conical heights of k modes with respect to the data of a cord, hanging or held at both ends.
 
-    While one datum changes, all others are held. Those of the speeds: ``-angular_speed / (2 * conical_height)`` times them.
+    All other data are constant. The derivatives of the speeds are these times ``-angular_speed / (2 * conical_height)``.
 
     Notes
     -----
-    From the shape alone: a change dV of the weight below, tip and all, moves the height by
-    ``-integral(dV y' (2 y + height y')) / integral(V y'**2)``. Within 1e-12 of the height over the datum. Heights are as
-    the length, and depend on ratios of weights and tension: relative masses and tension of a mode add up to 0 (without
-    gravity too). Cost: some 800 places a mode, 1 to 15 microseconds each; held at both ends a hundred.
+    Method: from the shape alone. A change dV of the weight below a place (tip included) changes the height by
+    ``-integral(dV y' (2 y + height y')) / integral(V y'**2)``. Accuracy: 1e-12 of the height divided by the datum. Heights
+    are proportional to the length and depend on ratios of weights and tension: the relative derivatives of a mode by masses
+    and tension add up to 0, also without gravity. Cost: about 800 places for each mode at 1 to 15 microseconds each; for a
+    cord held at both ends 100 places.
 
     Examples
     --------
-    How much slower is a skipping rope for 1 g more, in rad/s?
+    The change of speed of a skipping rope for 1 g more, in rad/s:
 
     >>> import revchain as rc
     >>> m = rc.modes(rc.Held(rc.Cord(2.0, mass=0.2), tension=10.0), 1)
@@ -68,20 +69,27 @@ class CordSensitivity(_ByDatum):
 
     __slots__ = ()
     _known = CORD_DATA
-    length: Field[Floats] = Field("d(conical height)/d(length), shape (k,): all longer in proportion.", part=True)
+    length: Field[Floats] = Field(
+        "d(conical height)/d(length), shape (k,); the density keeps its proportions along the cord.", part=True
+    )
     mass: Field[Floats] = Field(
-        "With respect to the mass of the cord without its tip, m/kg, shape (k,); of a cord given by weight, its weight.",
+        "Derivative with respect to the mass of the cord without its tip, m/kg, shape (k,); for a cord given by weight, with "
+        "respect to its weight.",
         part=True,
     )
-    tip_mass: Field[Floats] = Field("With respect to the tip's; 0 of a cord that is held at both ends.", part=True)
+    tip_mass: Field[Floats] = Field(
+        "Derivative with respect to the mass of the tip; 0 for a cord held at both ends.", part=True
+    )
     exponent: Field[Floats] = Field(
-        "With respect to the exponent of the density, the mass kept; NaN where the density is a function, 0 of a cord that "
-        "is held at both ends.",
+        "Derivative with respect to the exponent of the density at constant mass; NaN for a density function, 0 for a cord "
+        "held at both ends.",
         part=True,
     )
-    tension: Field[Floats] = Field("With respect to the tension at the upper end; 0 of a cord that hangs.", part=True)
+    tension: Field[Floats] = Field(
+        "Derivative with respect to the tension at the upper end; 0 for a hanging cord.", part=True
+    )
     relative: Field[CordDerivatives] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 of it.", part=True
+        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these.", part=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -101,10 +109,10 @@ class CordUncertainty(Uncertainty):
 
     __slots__ = ()
     share: Field[CordDerivatives] = Field(  # type: ignore[assignment]
-        "What part of each variance comes from which datum; those of a mode add up to 1.", part=True
+        "Part of each variance that comes from each datum; the parts of a mode add up to 1.", part=True
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and 0, as there are no links.", part=True
+        "For each mode the datum that contributes most, and 0 in place of a link.", part=True
     )
 
     def _most(self, row: int) -> str:
@@ -112,7 +120,7 @@ class CordUncertainty(Uncertainty):
 
 
 def _values(system: Cord | Held) -> dict[str, float]:
-    """The data themselves."""
+    """The data of the cord by name."""
     cord = system.system if isinstance(system, Held) else system
     assert isinstance(cord, Cord)
     exponent = cord.density if isinstance(cord.density, float) else np.nan

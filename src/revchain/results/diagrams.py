@@ -16,52 +16,61 @@ if TYPE_CHECKING:
 
 
 class ForceDiagram(Result):
-    """The graphical construction of a steady shape as data; links lowest first, pins free end first.
+    """The graphical construction of a steady shape as data: links lowest first, pins free end first.
 
-    Returned by `SteadyShape.force_diagram`. Points are rows ``(x from the axis, z upwards)``. The vertices of the
-    funicular polygon are the pins, its sides the links, its loads `load`. In the diagram of force the line of load goes
-    up from the pole O, and the ray ``OQ_m`` is parallel to link m and as long as what pulls along it.
+    `SteadyShape.force_diagram` returns it. Points are rows ``(x from the axis, z upwards)``. The vertices of the
+    funicular polygon are the pins, its sides are the links, and `load` are its loads. In the force diagram the load line
+    rises from the pole O, and the ray ``OQ_m`` is parallel to link m; its length is the pull along the link.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> shape = rc.steady_shapes(rc.Chain(weight=1.0, length=2.0), conical_height=1.0)[0]
+    >>> shape.force_diagram().ray.round(6)
+    array([[-1.732051,  1.      ]])
     """
 
     __slots__ = ()
-    pin: Field[Floats] = Field("Vertices of the funicular polygon, shape (N + 1, 2); the support's 0, 0 last.", part=True)
+    pin: Field[Floats] = Field(
+        "Vertices of the funicular polygon, shape (N + 1, 2); the support, at (0, 0), is the last.", part=True
+    )
     load: Field[Floats] = Field(
-        "On every pin but the support, shape (N, 2): centrifugal force outwards, weight downwards (negative).", part=True
+        "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative).", part=True
     )
     ray: Field[Floats] = Field(
-        "``Q_m`` from the pole, shape (N, 2): parallel to link m, the side between pins m - 1 and m.", part=True
+        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m.", part=True
     )
     reaction: Field[Floats] = Field(
-        "At each link's upper pin, on what hangs below it, shape (N, 2); for point masses the ray.", part=True
+        "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray.", part=True
     )
     lifted: Field[Floats] = Field(
-        "Where each load's line from the pole meets the horizontal line ``conical_height`` below it, shape (N,). For point "
-        "masses their own offsets: P lifted vertically onto that line.",
+        "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape (N,). "
+        "For point masses these are their offsets: P lifted vertically onto that line.",
         part=True,
     )
     centre_of_gravity: Field[Floats] = Field(
-        "``G_m`` of link m and all below, shape (N, 2). With ``K_m`` on the axis, ``conical_height`` above its level, "
-        "``G_m K_m`` is parallel to the reaction, and so to the thread above a point mass.",
+        "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, ``conical_height`` "
+        "higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point mass.",
         part=True,
     )
     crossing: Field[Floats] = Field(
-        "Height of ``C_m``, where the line of link m meets the axis, shape (N,); infinite where it never does.", part=True
+        "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel.", part=True
     )
-    conical_height: Field[float] = Field("Conical height of the speed: ON, HK.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", part=True)
 
     def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
-        """Draw the figure and its diagram of force side by side, lettered as in Fig. 3 of the paper.
+        """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.
 
         Parameters
         ----------
         axes : pair of matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         pair of matplotlib.axes.Axes
-            Of the figure and of the forces. The weights lifted onto the line through N are drawn to the
-            scale on which ON is the mean weight.
+            Axes of the shape and of the forces. The weights lifted onto the line through N are drawn to a
+            scale in which ON is the mean weight.
 
         Raises
         ------

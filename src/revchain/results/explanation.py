@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which method `modes` takes for a tolerance."""
+"""The method that `modes` takes for a tolerance."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .sheet import Column, Sheet
 
 
 class MethodEstimate(NamedTuple):
-    """What is known of a method before it is used: a row of `Explanation`."""
+    """Properties of a method before it is used: a row of `Explanation`."""
 
     name: str
     applies: bool
@@ -21,7 +21,7 @@ class MethodEstimate(NamedTuple):
 
 
 class Explanation(Result):
-    """Which method `modes` takes for a tolerance, and why; returned by `explain`.
+    """The method that `modes` takes for a tolerance, with the alternatives; returned by `explain`.
 
     Examples
     --------
@@ -34,19 +34,19 @@ class Explanation(Result):
     __slots__ = ()
     estimates: Field[tuple[tuple[Any, ...], ...]] = Field("The rows as plain tuples.", part=True)
     meets_tolerance: Field[bool] = Field(
-        "Whether the one chosen keeps `rtol`; if not, none does, and it is the most accurate.", part=True
+        "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", part=True
     )
-    rtol: Field[float] = Field("Tolerance asked; 0: as accurate as there is.", part=True)
+    rtol: Field[float] = Field("Wanted relative tolerance; 0 for the best possible.", part=True)
 
     @property
     def rows(self) -> tuple[MethodEstimate, ...]:
-        """For each model its name, whether it applies and if not the reason, the bound of its relative error, the time it
-        is expected to take in seconds, and whether it is the one chosen."""
+        """For each method its name, whether it applies (if not, the reason), the bound of its relative error, the expected
+        time in seconds, and whether it is chosen."""
         return tuple(MethodEstimate(*row) for row in self.estimates)
 
     @property
     def chosen(self) -> MethodEstimate | None:
-        """The row of the model chosen; None where no method applies."""
+        """The row of the chosen method; None if no method applies."""
         return next((row for row in self.rows if row.chosen), None)
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -69,7 +69,7 @@ class Explanation(Result):
 
 
 def time_text(seconds: float) -> str:
-    """With the unit that suits it."""
+    """A time as text with a suitable unit."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)):
         if seconds >= size or unit == "ns":
             return f"{seconds / size:.3g} {unit}"

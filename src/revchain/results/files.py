@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output files that are either whole or not there."""
+"""Output files that are either complete or absent."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from typing import Any
 
 
 class OutputError(OSError, ValueError):
-    """An output that cannot be written: an OSError by nature, and wrong input like any other."""
+    """An output that cannot be written; an OSError that is also a ValueError."""
 
 
 @contextmanager
 def naming(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn an OSError, of whatever library, into one that names the output, not the file beside it."""
+    """Turn an OSError of any library into one that names the output, not the temporary file."""
     try:
         yield
     except OutputError:
@@ -29,7 +29,7 @@ def naming(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 class _Unfailing(FileIO):
-    """A file whose writes seem to succeed always; the first failure is kept."""
+    """A file whose writes always seem to succeed; the first failure is stored."""
 
     failure: OSError | None = None
 
@@ -52,7 +52,7 @@ class _Unfailing(FileIO):
 
 @contextmanager
 def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO]:
-    """Yield a file for h5py. After a write that failed, HDF5 would end the process in a segmentation fault at exit."""
+    """Yield a file for h5py. Without it HDF5 ends the process with a segmentation fault after a failed write."""
     with _Unfailing(path, mode) as file:
         try:
             yield file
@@ -63,10 +63,10 @@ def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO
 
 @contextmanager
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
-    """Yield an empty file beside each path, with the same ending; rename all of them at the end.
+    """Yield an empty temporary file beside each path, with the same ending; rename all of them at the end.
 
-    If anything fails, all are removed and what was there before stays. That a place can be written
-    is found out at once. Devices and pipes are written directly.
+    If anything fails, all are removed and existing files stay. A path that cannot be written raises an
+    error at once. Devices and pipes are written directly.
     """
     finals = [Path(os.path.realpath(path)) for path in paths]
     asides: list[Path] = []

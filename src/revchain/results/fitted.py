@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `revchain.fit` returns."""
+"""The result of `revchain.fit`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _MOST_LINES = 8
 
 
 class Fitted(Result):
-    """Which values of p data bring a system nearest to m measured speeds, and how uncertain they are; returned by `fit`.
+    """Values of p data that bring a system closest to m measured speeds, with uncertainties; returned by `fit`.
 
     Examples
     --------
@@ -37,57 +37,59 @@ class Fitted(Result):
 
     __slots__ = ()
     status: Field[str] = Field(
-        "``'success'``; ``'undetermined'`` where the measurements cannot tell some data, see `undetermined`; "
-        "``'not_converged'`` where the search stopped before the least sum of squares.",
+        "``'success'``; ``'undetermined'`` if the measurements do not determine some data, see `undetermined`; "
+        "``'not_converged'`` if the search stopped before the minimum of the sum of squares.",
         part=True,
     )
-    vary: Field[tuple[str, ...]] = Field("Paths of the data, as in the question.", part=True)
-    system: Field[Any] = Field("The system with the values in place.", part=True)
+    vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.", part=True)
+    system: Field[Any] = Field("The system with the new values.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     value: Field[Floats] = Field(
-        "Values of the data, shape (p,); ``fitted[path]`` is one of them. Those in `undetermined` are some of many that fit "
+        "Values of the data, shape (p,); ``fitted[path]`` is one of them. Many other values of the data in `undetermined` fit "
         "equally well.",
         part=True,
     )
     standard_uncertainty: Field[Floats] = Field(
-        "Standard uncertainty of each value, shape (p,): roots of the variances. NaN where there is none.",
+        "Standard uncertainty of each value, shape (p,): the root of its variance. NaN if the covariance is NaN.",
         lambda f: np.sqrt(f.covariance.diagonal()),
     )
     covariance: Field[Floats] = Field(
-        "Of the values, shape (p, p), to first order. NaN for data in `undetermined`, and for all where no uncertainties "
-        "were given and no measurement is left over to estimate them.",
+        "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
+        "uncertainties were given and there are no more measurements than data to estimate them.",
         part=True,
     )
     correlation: Field[Floats] = Field(
-        "Covariance over both standard uncertainties, shape (p, p).",
+        "Covariance divided by both standard uncertainties, shape (p, p).",
         lambda f: _over(f.covariance, np.outer(f.standard_uncertainty, f.standard_uncertainty)),
     )
-    present: Field[Floats] = Field("The data as they were, shape (p,).", part=True)
-    number: Field[Whole] = Field("Numbers of the modes measured, shape (m,); negative: backward modes of a rig.", part=True)
-    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); of backward modes negative.", part=True)
+    present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", part=True)
+    number: Field[Whole] = Field("Numbers of the measured modes, shape (m,); negative for backward modes of a rig.", part=True)
+    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", part=True)
     measured_uncertainty: Field[Floats] = Field(
-        "Their standard uncertainties, rad/s, shape (m,): as given, else estimated from the residuals as one part of all "
-        "speeds; NaN where no measurement is left over for that.",
+        "Standard uncertainties of the measured speeds, rad/s, shape (m,): as given, else one relative uncertainty for all "
+        "speeds, estimated from the residuals; NaN if there are no more measurements than data.",
         part=True,
     )
     computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", part=True)
-    residual: Field[Floats] = Field("Measured less computed, rad/s, shape (m,).", lambda f: f.measured - f.computed)
+    residual: Field[Floats] = Field(
+        "Measured speeds less computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed
+    )
     normalized_residual: Field[Floats] = Field(
-        "Residuals over the uncertainties of the measured speeds, shape (m,).",
+        "Residuals divided by the uncertainties of the measured speeds, shape (m,).",
         lambda f: _over(f.residual, f.measured_uncertainty),
     )
     chi_square: Field[float | None] = Field(
-        "Sum of squares of the normalized residuals, about `degrees_of_freedom` where model and uncertainties are right; "
-        "None where no uncertainties were given.",
+        "Sum of squares of the normalized residuals; about `degrees_of_freedom` if model and uncertainties are correct. "
+        "None if no uncertainties were given.",
         part=True,
     )
     degrees_of_freedom: Field[int] = Field(
-        "Number of measurements less that of data, m - p, and more by one for each combination of data that is not determined.",
+        "Number of measurements less number of data, m - p, plus the number of undetermined combinations of data.",
         part=True,
     )
     undetermined: Field[tuple[tuple[str, ...], ...]] = Field(
-        "Groups of paths that the measurements cannot tell: a path alone has no effect on the speeds measured, the effects "
-        "of several cancel.",
+        "Groups of paths that the measurements do not determine. A single path has no effect on the measured speeds; the "
+        "effects of several paths cancel.",
         part=True,
     )
 
@@ -98,7 +100,7 @@ class Fitted(Result):
         return float(self.value[self.vary.index(path)])
 
     def _lines(self) -> list[str]:
-        """Below the table: what cannot be told, and each measurement."""
+        """The lines below the table: undetermined data, and each measurement."""
         lines = []
         for group in self.undetermined:
             if len(group) == 1:
@@ -142,6 +144,6 @@ class Fitted(Result):
 
 
 def _over(one: Floats, other: Floats) -> Floats:
-    """A quotient; NaN for 0 over 0, of a fit that leaves nothing over."""
+    """The quotient; NaN for 0 divided by 0, as in a fit without residuals."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return one / other

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches of steady shapes of chains and cords held at both ends, a span apart."""
+"""Branches of steady shapes of chains and cords held at a span."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 class HeldBranch(Result):
-    """A branch of shapes of a chain or cord held at a span, point by point; returned by `branch` and in what `branches` returns.
+    """A branch of steady shapes of a chain or cord held at a span; returned by `branch` and `branches`.
 
-    Arrays have one number for each point, from the greatest speed to slower ones and, past a fold, back.
+    Arrays have one number for each point, from the greatest speed to lower speeds and, after a fold, back.
 
     Examples
     --------
@@ -35,19 +35,19 @@ class HeldBranch(Result):
     """
 
     __slots__ = ()
-    system: Field[Held] = Field("What is held at both ends.", part=True)
+    system: Field[Held] = Field("The held system.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     mode: Field[int] = Field(
-        "Its number: half waves with which it begins at the greatest speed. Between ends off the axis ``2 * k - 1`` where it "
-        "is reached from k half waves whose lowest link leads outwards, ``2 * k`` inwards.",
+        "Number of the branch: its half waves at the greatest speed. With ends off the axis the number is ``2 * k - 1`` if the "
+        "lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
         part=True,
     )
     conical_height: Field[Floats] = Field(
         "Conical height of the speed, m.", lambda b: _each(b, lambda s: s.conical_height), part=True
     )
-    angular_speed: Field[Floats] = Field("Speed at every point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
+    angular_speed: Field[Floats] = Field("Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
     lowest_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link, or of a cord at its lower end, to the upward vertical, rad.",
+        "Inclination of the lowest link (of a cord: of its lower end) to the upward vertical, rad.",
         lambda b: _each(b, lambda s: s.inclination[0]),
         part=True,
     )
@@ -60,7 +60,7 @@ class HeldBranch(Result):
         part=True,
     )
     moment_of_inertia: Field[Floats] = Field(
-        "About the axis, kg m^2; of a chain given by weight, weight times length squared.",
+        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.",
         lambda b: _each(b, lambda s: s.moment_of_inertia),
         part=True,
     )
@@ -75,26 +75,26 @@ class HeldBranch(Result):
         part=True,
     )
     end: Field[str] = Field(
-        "Why it ends: ``'slack'``, where a link becomes slack or turns over (the last speed within 2e-5, relative, as "
-        "measured); ``'folded'``, where a cord hangs folded along the axis; ``'speed'``, at the greatest speed again; "
-        "``'rest'``, off the axis, where the chain hangs as at rest, at a conical height of 10,000 lengths; ``'budget'``, "
-        "after 3000 steps.",
+        "Reason of the end. ``'slack'``: a link becomes slack or turns over (the last speed is within a measured 2e-5, "
+        "relative). ``'folded'``: a cord hangs folded along the axis. ``'speed'``: the greatest speed is reached again. "
+        "``'rest'``: with ends off the axis the chain hangs as at rest, at a conical height of 10,000 lengths. "
+        "``'budget'``: 3000 steps are done.",
         part=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
+    asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.", part=True)
 
     def shape(self, point: int) -> HeldShape | HeldCordShape:
-        """Return the shape at a point.
+        """Return the shape at a point of the branch.
 
         Parameters
         ----------
         point : int
-            From 0; negative ones from the end.
+            Index of the point; a negative one counts from the end.
 
         Returns
         -------
         HeldShape or HeldCordShape
-            Its error bound is an estimate. `steady_shapes` at its speed proves one for a chain.
+            The shape. Its error bound is an estimate; for a chain `steady_shapes` at its speed proves one.
 
         Raises
         ------
@@ -120,23 +120,24 @@ class HeldBranch(Result):
         return shape
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
-        """Draw a number of the branch against the speed; folds are marked.
+        """Draw a quantity of the branch against the speed; folds are marked.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         quantity : {"largest_offset", "lowest_inclination", "top_tension", "moment_of_inertia"}
-            What to draw; inclinations in degrees.
+            Quantity to draw; an inclination is in degrees.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `quantity` is none of these.
+            If `quantity` is another word.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -182,30 +183,39 @@ class HeldBranch(Result):
 
 
 class HeldBranches(Results[HeldBranch]):
-    """The branches of a chain or cord held at a span that begin at one speed, by half waves."""
+    """The branches of a chain or cord held at a span that start at one speed, ordered by half waves.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+    >>> [(each.mode, each.end) for each in rc.branches(blade, max_angular_speed=3.0)]
+    [(1, 'slack'), (2, 'slack')]
+    """
 
     __slots__ = ()
-    system: Field[Held] = Field("What is held at both ends.", part=True)
+    system: Field[Held] = Field("The held system.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
-        """Draw a number of every branch against the speed, coloured by half waves; folds are marked.
+        """Draw a quantity of each branch against the speed, coloured by half waves; folds are marked.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         quantity : {"largest_offset", "lowest_inclination", "top_tension", "moment_of_inertia"}
-            What to draw; inclinations in degrees.
+            Quantity to draw; an inclination is in degrees.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `quantity` is none of these.
+            If `quantity` is another word.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -233,7 +243,7 @@ def _each(branch: HeldBranch, of: Any) -> Floats:
 
 
 def branch_again(held: Held, asked: tuple[Any, ...]) -> Any:
-    """A compiled branch, found once more."""
+    """The compiled branch, computed again."""
     height, step, gravity, place = asked
     assert held.span is not None
     found: Any = _core.held_branches(held.system._compiled, held.span, *held._ends(gravity), height, step)
@@ -241,6 +251,6 @@ def branch_again(held: Held, asked: tuple[Any, ...]) -> Any:
 
 
 def held_branches_made(found: list[Any], held: Held, gravity: float, asked: tuple[Any, ...]) -> HeldBranches:
-    """A list around compiled branches."""
+    """The list of the compiled branches of a held system."""
     given: dict[str, Any] = {"system": held, "gravity": gravity}
     return HeldBranches._made(None, _items=branch_items(HeldBranch, found, asked, given), **given)

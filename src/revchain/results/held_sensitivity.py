@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a steady shape of a chain held at both ends changes with the speed and with its data."""
+"""Sensitivity of a steady shape of a chain held at both ends to the speed and to its data."""
 
 from __future__ import annotations
 
@@ -32,38 +32,47 @@ OF_ENDS = tuple(f"{end}_{name}" for end in ("lower", "upper") for name in ("radi
 
 
 class HeldShapeDerivatives(DerivativesByLink):
-    """Derivatives of some numbers of a shape held at both ends, one row for each; see `ShapeSensitivity`.
+    """Derivatives of some numbers of a shape held at both ends, one row for each number; see `ShapeSensitivity`.
 
-    The ends keep what they were given: their distance along the axis (`span`), or the tension at the upper one. With
-    respect to the other of the two the derivatives are NaN.
+    The datum given for the ends is constant: the `span`, or the `tension` at the upper end. The derivatives with respect
+    to the other one are NaN.
     """
 
     __slots__ = ()
-    span: Field[Floats] = Field("With respect to the distance of the ends along the axis, per m, shape (M,).", part=True)
-    tension: Field[Floats] = Field("With respect to the tension given, per N, (M,).", part=True)
-    lower_radius: Field[Floats] = Field("With respect to the radius of the lower end, (M,).", part=True)
-    lower_stiffness: Field[Floats] = Field("With respect to its stiffness, per N/m, (M,); 0 where it is firm.", part=True)
-    lower_mass: Field[Floats] = Field("With respect to what moves with it, (M,); 0 where it is firm.", part=True)
-    upper_radius: Field[Floats] = Field("With respect to the radius of the upper end, (M,).", part=True)
-    upper_stiffness: Field[Floats] = Field("With respect to its stiffness, per N/m, (M,); 0 where it is firm.", part=True)
-    upper_mass: Field[Floats] = Field("With respect to what moves with it, (M,); 0 where it is firm.", part=True)
+    span: Field[Floats] = Field("Derivatives with respect to the span, per m, shape (M,).", part=True)
+    tension: Field[Floats] = Field("Derivatives with respect to the given tension, per N, shape (M,).", part=True)
+    lower_radius: Field[Floats] = Field("Derivatives with respect to the radius of the lower end, shape (M,).", part=True)
+    lower_stiffness: Field[Floats] = Field(
+        "Derivatives with respect to the stiffness of the lower end, per N/m, shape (M,); 0 if it is firm.", part=True
+    )
+    lower_mass: Field[Floats] = Field(
+        "Derivatives with respect to the mass on the spring of the lower end, shape (M,); 0 if it is firm.", part=True
+    )
+    upper_radius: Field[Floats] = Field("Derivatives with respect to the radius of the upper end, shape (M,).", part=True)
+    upper_stiffness: Field[Floats] = Field(
+        "Derivatives with respect to the stiffness of the upper end, per N/m, shape (M,); 0 if it is firm.", part=True
+    )
+    upper_mass: Field[Floats] = Field(
+        "Derivatives with respect to the mass on the spring of the upper end, shape (M,); 0 if it is firm.", part=True
+    )
 
     def _names(self) -> tuple[str, ...]:
         return ("angular_speed", "span", "tension", *OF_ENDS, *DATA)
 
 
 class _HeldChain:
-    """What balances in a chain held at both ends: a chain that hangs from the upper end (`Balance`), and at the lower end
-    is pulled by X across the axis and by Z upwards, in units of masses (weights) times gravity. Of each link
+    """The balance of a chain held at both ends, as a chain that hangs from its upper end (`Balance`).
+
+    Its lower end is pulled by X across the axis and by Z upwards, in units of masses (weights) times gravity. For each link
 
         -a (X cos d + Z sin d)
 
-    is added to the moment, and -X to the force on an upper end that yields. The lower end and the span add
+    is added to the moment, and -X to the force on an upper end that yields. The lower end and the span add the equations
 
         X + E (y_0 - b) - carriage y_0 / lambda = 0,    or y_0 = b,    y_0 = y + sum of a sin d
         sum of a cos d = span
 
-    Unknown are inclinations, the offset y of the upper end, X and Z.
+    The unknowns are the inclinations, the offset y of the upper end, X and Z.
     """
 
     def __init__(self, shape: HeldShape) -> None:
@@ -103,11 +112,11 @@ class _HeldChain:
 
     @property
     def lower_rate(self) -> float:
-        """How what balances at the lower end changes with its offset."""
+        """Derivative of the force at the lower end with respect to its offset."""
         return self.lower.stiffness / self.per - self.lower.carriage / self.hanging.height if self.lower_yields else 1.0
 
     def slope(self) -> Floats:
-        """Derivatives of the N + 3 equations by the N + 3 unknowns."""
+        """Derivatives of the N + 3 equations with respect to the N + 3 unknowns."""
         at, n, a = self.hanging, self.hanging.size, self.length
         found = np.zeros((n + 3, n + 3))
         found[: n + 1, : n + 1] = at.slope()
@@ -120,7 +129,7 @@ class _HeldChain:
         return found
 
     def changes(self) -> dict[str, Change]:
-        """By each datum of the chain and of the upper end, as if it hung from there."""
+        """The changes by each datum of the chain and of the upper end, as for a chain that hangs from there."""
         at, none = self.hanging, np.zeros((self.hanging.size, 1))
         found = changes_of(at)
         if self.weightless:
@@ -130,7 +139,7 @@ class _HeldChain:
         return found
 
     def loads(self, changes: dict[str, Change]) -> dict[str, Floats]:
-        """Derivatives of the equations by each datum, while the unknowns stay."""
+        """Derivatives of the equations with respect to each datum, at constant unknowns."""
         at, n = self.hanging, self.hanging.size
         loads = {name: np.vstack([load, np.zeros((2, load.shape[1]))]) for name, load in loads_of(at, changes).items()}
         loads["upper_radius"] = loads.pop("support_radius")
@@ -184,7 +193,7 @@ def held_shape_sensitivity(shape: HeldShape) -> ShapeSensitivity:
 
 
 def _hold(shape: HeldShape, found: dict[str, dict[str, Floats]]) -> None:
-    """At a given tension the span gives way; else nothing is known of a tension that was not given."""
+    """Make the derivatives those at constant tension if the tension was given; mark the other datum of the ends NaN."""
     if shape.system.tension is None:
         for by in found.values():
             by["tension"] = np.full_like(by["span"], math.nan)

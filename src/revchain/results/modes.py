@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `revchain.modes` returns."""
+"""The results of `revchain.modes`."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ if TYPE_CHECKING:
 
 Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
-MOST_OFFSETS = 100_000  # that are computed for the nodes of a table
+MOST_OFFSETS = 100_000  # largest number of offsets to compute for the nodes of a table
 TURN64 = 2 * np.pi
-SPEED_ROUNDING = 2.1 * 2.0**-52  # of a speed found from a height
+SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 
 
 class Certificate(Result):
-    """Intervals that are proved to hold the conical heights, and the counts that prove it.
+    """Intervals that are proved to contain the conical heights, and the counts that prove it.
 
-    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]`` and ``above_upper[i]`` exceed
-    ``upper[i]``. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number lies in between:
-    ``lower < height <= upper``.
+    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]``, and ``above_upper[i]`` exceed
+    ``upper[i]``. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number lies in the
+    interval: ``lower < height <= upper``.
 
     Notes
     -----
-    `revchain.count_modes` gives the same counts at the very same numbers, in double precision. The heights are those of
-    the numbers stored, with another precision those of the rounded ones.
+    For results in double precision `revchain.count_modes` returns the same counts at these numbers. The heights are those
+    of the stored data; in single precision they are those of the rounded data.
 
     Examples
     --------
@@ -58,14 +58,16 @@ class Certificate(Result):
 
     __slots__ = ()
     number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-    lower: Field[Numbers] = Field("Lower end of each interval, shape (k,); 0 where nothing could be proved.", part=True)
-    upper: Field[Numbers] = Field("Upper ends, shape (k,); infinite where nothing could be proved.", part=True)
+    lower: Field[Numbers] = Field("Lower end of each interval, m, shape (k,); 0 if nothing could be proved.", part=True)
+    upper: Field[Numbers] = Field("Upper end of each interval, m, shape (k,); infinite if nothing could be proved.", part=True)
     above_lower: Field[Whole] = Field("Proved count of the heights above each lower end, shape (k,).", part=True)
     above_upper: Field[Whole] = Field("Proved count of the heights above each upper end, shape (k,).", part=True)
     lower_low: Field[Floats | None] = Field(
-        "With ``precision='double-double'`` the second double of each lower end, else None.", part=True
+        "Second double of each lower end with ``precision='double-double'``, else None.", part=True
     )
-    upper_low: Field[Floats | None] = Field("Likewise of each upper end.", part=True)
+    upper_low: Field[Floats | None] = Field(
+        "Second double of each upper end with ``precision='double-double'``, else None.", part=True
+    )
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -80,7 +82,7 @@ class Certificate(Result):
 
 
 def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
-    """A number of each mode: `compiled` finds it from height and gravity, `extended` from the speed in longdouble."""
+    """A function of each mode: `compiled` computes it from height and gravity, `extended` from a longdouble speed."""
 
     def compute(modes: Modes) -> Numbers:
         if modes.precision == "extended":
@@ -88,7 +90,7 @@ def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[An
                 found: Numbers = extended(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(modes.conical_height))
             return found
         height = modes.conical_height.astype(np.float64, copy=False)
-        good = height > 0  # rounding may leave others in the dense references
+        good = height > 0  # the dense references may return others by rounding
         numbers = compiled(np.where(good, height, 1.0), np.asarray(modes.gravity))
         return numbers if good.all() else np.where(good, numbers, np.nan)
 
@@ -96,10 +98,10 @@ def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[An
 
 
 class Modes(Result):
-    """The modes of a system, slowest first: speeds, shapes, nodes and error bounds; `k` modes of `N` links.
+    """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes of N links.
 
-    Heights and bounds are known at once; shapes, nodes, residuals and sensitivities are computed when they are first
-    read, and kept. Arrays are read-only. There may be no modes (k = 0) in a window.
+    Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first
+    read, then kept. Arrays are read-only. A window may contain no modes (k = 0).
 
     Examples
     --------
@@ -119,63 +121,64 @@ class Modes(Result):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The system that was asked about.", part=True)
+    system: Field[Any] = Field("The system.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     number: Field[Whole] = Field("Mode numbers, shape (k,): the slowest of all modes has number 1.", part=True)
     angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, rad/s, shape (k,): for a hanging chain also the natural angular frequency of its "
-        "swing in a plane. ``sqrt(gravity / conical_height)``; longdouble with ``precision='extended'``, else float64.",
+        "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,). For a hanging chain it is also the "
+        "natural angular frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
         _speeds(_core.conical_pendulum_angular_speed, lambda speed: speed),
     )
     frequency: Field[Numbers] = Field(
-        "Revolutions in a second, Hz, shape (k,).",
+        "Revolutions per second, Hz, shape (k,).",
         _speeds(_core.conical_pendulum_revolutions_per_second, lambda speed: speed / TURN),
     )
-    rpm: Field[Numbers] = Field("Revolutions in a minute, shape (k,).", lambda m: 60 * m.frequency)
+    rpm: Field[Numbers] = Field("Revolutions per minute, shape (k,).", lambda m: 60 * m.frequency)
     period: Field[Numbers] = Field(
         "Time of one revolution, s, shape (k,).",
         _speeds(_core.conical_pendulum_period, lambda speed: TURN / speed),
     )
     speed_error_bound: Field[Floats] = Field(
-        "Bound of the relative error of each angular speed, frequency and period, shape (k,), for gravity as given.",
+        "Bound of the relative error of each angular speed, frequency and period, shape (k,), for the given gravity.",
         lambda m: _speed_bound(m.error_bound.astype(np.float64)),
     )
     conical_height: Field[Numbers] = Field(
-        "Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, m, shape (k,), descending.",
+        "Conical height ``gravity / angular_speed**2`` of each mode, m, shape (k,), descending.",
         part=True,
     )
     error_bound: Field[Numbers] = Field(
-        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored; proved, of cords "
-        "measured to hold.",
+        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
+        "cords it is checked by measurement.",
         part=True,
     )
     conical_height_low: Field[Floats | None] = Field(
-        "With ``precision='double-double'`` what is to be added to `conical_height`, else None; `error_bound` is that of "
-        "the sum.",
+        "Second double of each height with ``precision='double-double'``, to be added to `conical_height`; `error_bound` then "
+        "bounds the error of the sum. Else None.",
         part=True,
     )
     shape: Field[Numbers] = Field(
-        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last; the largest magnitude of "
-        "each mode is 1 and the free end positive."
+        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of "
+        "each mode is 1, and the free end is positive."
     )
     residual: Field[Numbers] = Field(
-        "Of each shape, shape (k,): largest force left unbalanced at a pin over the largest sum of forces at a pin."
+        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the sizes of "
+        "the forces at a pin."
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end, along the chain, at which it crosses the axis, without the "
+        "For each mode the distances from the free end along the chain at which it crosses the axis, without the "
         "support."
     )
     certificate: Field[Certificate | None] = Field(
-        "What proves the error bounds, if ``certify=True`` was asked.",
+        "The proof of the error bounds with ``certify=True``, else None.",
         lambda m: _certificate(m.number, m._found().certificate),
         part=True,
     )
     method: Field[str] = Field("The method that found the heights.", part=True)
     status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", part=True)
-    precision: Field[str] = Field("As asked of `revchain.modes`, which says what it means.", part=True)
-    rtol: Field[float | None] = Field("Relative tolerance asked; None: full accuracy.", part=True)
+    precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", part=True)
+    rtol: Field[float | None] = Field("Wanted relative tolerance; None for full accuracy.", part=True)
     sensitivity: Field[Sensitivity | RigSensitivity] = Field(
-        "Derivatives with respect to every datum of every link; 2 microseconds a link and mode.",
+        "Derivatives with respect to each datum of each link. Cost: 2 microseconds for each link and mode.",
         lambda m: _sensitivity(m),
     )
 
@@ -183,23 +186,23 @@ class Modes(Result):
         return int(self.conical_height.size)
 
     def at(self, gravity: float) -> Self:
-        """Return the same modes under another gravity.
+        """Return the modes at another acceleration of gravity.
 
         Parameters
         ----------
         gravity : float
-            In m/s^2, positive.
+            Acceleration of gravity, m/s^2, positive.
 
         Returns
         -------
         Modes
-            Conical heights, shapes and nodes of chains and cords do not depend on gravity; speeds do.
+            The modes with other speeds. Conical heights, shapes and nodes of chains and cords do not depend on gravity.
 
         Raises
         ------
         ValueError
-            If gravity is not positive and finite; for a rig, and for what a tension holds, by mass or without gravity:
-            springs, flywheels and tensions in newtons do not scale with gravity.
+            If gravity is not positive and finite; if the system is a rig, or is held by a tension and given by mass or
+            weightless, because springs, flywheels and tensions in newtons do not scale with gravity.
 
         Examples
         --------
@@ -229,35 +232,36 @@ class Modes(Result):
         radius_of_gyration: ArrayLike | None = None,
         length_in_proportion: ArrayLike | None = None,
     ) -> Uncertainty:
-        """Return how uncertain conical heights and speeds are where the data are.
+        """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
         Parameters
         ----------
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
-            Standard deviation of each: one number for all links, shape (N,) one for each, or shape (N, N) the
-            covariance of the links (its diagonal variances, not deviations). Left out: exactly known. `Sensitivity`
-            says what is held while one changes. Deviations of different links are independent unless a covariance says
-            otherwise, those of different quantities always. Text such as ``"5 %"``: that part of each link's datum,
-            ``["5 %", 0]`` of the lowest link's alone.
+            Standard deviation of the quantity: a number for all links, or shape (N,). Shape (N, N) is a covariance of the
+            links, with variances on its diagonal. Text such as ``"5 %"`` is relative to each link's datum; ``["5 %", 0]`` is
+            for the lowest of two links only. A quantity that is left out is exact. Deviations of different quantities are
+            independent, and so are those of different links without a covariance. See `Sensitivity` for the data that are
+            constant while one changes.
 
         Returns
         -------
         Uncertainty
+            The standard deviations, and the part of each datum in them.
 
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a chain
-            that is held at both ends.
+            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if the chain is
+            held at both ends.
 
         Notes
         -----
-        First order: heights are taken as linear in the data. Where a derivative is nearly 0, or a deviation is a large
-        part of its datum, sample instead.
+        The result is to first order: heights are linear in the data. If a derivative is nearly 0, or a deviation is large
+        compared with its datum, sample instead. Cost: that of the sensitivities, 2 microseconds for each link and mode.
 
         Examples
         --------
-        A thread known to 1 per cent gives the speed to half a per cent:
+        A thread known to 1 percent gives the conical height to 1 percent, and the speed to half a percent:
 
         >>> import revchain as rc
         >>> rc.modes(rc.Chain(mass=1.0, length=2.0)).uncertainty(length_in_proportion="1 %").relative
@@ -283,27 +287,28 @@ class Modes(Result):
     def plot(
         self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
     ) -> Axes:
-        """Draw the system at rest, and beside it the shapes, each along its own axis; rings mark the nodes.
+        """Draw the system at rest and beside it the mode shapes, each along its own axis; rings mark the nodes.
 
-        Forward modes of a rig with flywheels are blue, backward ones red; inverted links are stout.
+        Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         modes : iterable of int, optional
-            Which modes, by their numbers (of a rig of both directions); the six slowest of this result if left out.
+            Numbers of the modes to draw (for a rig, of both directions); the six slowest of this result if left out.
         carried : Response, optional
-            Of the same system at one speed, every pin: drawn first, its support on its circle.
+            Response of the same system at one speed with all pins, drawn first, with its support on its circle.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `modes` names one that is not there, there are none, or `carried` is no such response.
+            If `modes` has a number that is not in this result, the result is empty, or `carried` is not such a response.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -335,7 +340,7 @@ class Modes(Result):
         return _core.held_modes(held, int(self.number[0]), len(self), None, None, self.rtol, None, self.gravity)
 
     def _which(self) -> str:
-        """How many modes of how many, or which where they are not the slowest."""
+        """Text with the number of modes out of all, or with their numbers if they are not the slowest."""
         count = getattr(self.system, "mode_count", None)
         total = "infinitely many" if count is None else f"{count:,}"
         if len(self) == 0 or self.number[0] == 1:
@@ -356,7 +361,7 @@ class Modes(Result):
         ]
 
     def _shape_columns(self, brief: bool) -> list[Column]:
-        """A table is brief: it shows nodes where they are known or soon found."""
+        """Columns of the shapes; with `brief`, nodes only if they are known or cheap."""
         if brief and "nodes" not in self._kept and self.system.size * len(self) > MOST_OFFSETS:
             return []
         nodes = self._node_column()
@@ -390,21 +395,28 @@ class Modes(Result):
 
 
 class OtherModes(Result):
-    """The `m` solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
+    """The m solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
 
-    Infinite heights, speed 0, are those of links that weigh nothing in the fluid: these stay wherever they are put.
+    An infinite height (speed 0) belongs to a link without net weight in the fluid, which is at rest in any position.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> stick = rc.Rig(rc.Chain(mass=1.0, length=1.0), inverted=True)
+    >>> rc.modes(stick).other.growth_rate.round(4)
+    array([3.1316])
     """
 
     __slots__ = ()
     conical_height: Field[Complex] = Field("Conical heights, m, shape (m,).", part=True)
     angular_speed: Field[Complex] = Field(
-        "``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,); offsets turn and grow as ``exp(1j * n * t)``.",
+        "Speeds ``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,). Offsets vary as ``exp(1j * n * t)``.",
         part=True,
     )
     growth_rate: Field[Floats] = Field(
-        "Size of the imaginary part of each speed, 1/s: small offsets grow as ``exp(growth_rate * t)``.", part=True
+        "Size of the imaginary part of each speed, 1/s. Small offsets grow as ``exp(growth_rate * t)``.", part=True
     )
-    error_bound: Field[Floats] = Field("Of each height, relative to its size; proved.", part=True)
+    error_bound: Field[Floats] = Field("Proved bound of the error of each height, relative to its size.", part=True)
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
@@ -422,7 +434,7 @@ class OtherModes(Result):
 
 
 class RigModes(Modes):
-    """The modes of a rig, slowest first, whichever the direction of rotation.
+    """The modes of a rig, slowest first, of both directions of rotation.
 
     Examples
     --------
@@ -435,41 +447,44 @@ class RigModes(Modes):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Of each mode among those of its direction, shape (k,), from 1.", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,), from 1.", part=True)
     direction: Field[Whole] = Field(
-        "Of each mode, shape (k,): 1 forward, -1 backward; all 1 without momentum, where both are alike.", part=True
+        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum both are alike, and all are 1.",
+        part=True,
     )
     angular_speed: Field[Numbers] = Field(
         "Whirl speed of each mode, rad/s, shape (k,), negative for backward modes.", part=True
     )
-    frequency: Field[Numbers] = Field("Revolutions in a second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
+    frequency: Field[Numbers] = Field("Revolutions per second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
     period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
-    speed_error_bound: Field[Floats] = Field("Bound of the relative error of each speed, shape (k,); proved.", part=True)
+    speed_error_bound: Field[Floats] = Field("Proved bound of the relative error of each speed, shape (k,).", part=True)
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
     certificate: Field[Certificate | None] = Field(
-        "What proves the error bounds, if ``certify=True`` was asked; counts are those of the mode's direction.",
+        "The proof of the error bounds with ``certify=True``, else None. Its counts are those of the mode's direction.",
         lambda m: _certificate(m.number, m._found().certificate),
         part=True,
     )
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    rtol: Field[float | None] = Field("Relative tolerance asked, which is kept by full accuracy; None: none.", part=True)
-    available: Field[tuple[int, int]] = Field("Number of modes forward and backward, found or not.", part=True)
+    rtol: Field[float | None] = Field("Wanted relative tolerance; None if left out. Rigs have full accuracy.", part=True)
+    available: Field[tuple[int, int]] = Field("Number of existing modes, forward and backward.", part=True)
     has_momentum: Field[bool] = Field(
-        "Whether a flywheel has momentum of its own, so that the two directions differ.", part=True
+        "Whether a flywheel has constant momentum, so that the two directions differ.", part=True
     )
-    other_available: Field[int] = Field("Number of solutions that are not steady motions: counted, not found.", part=True)
+    other_available: Field[int] = Field("Number of solutions that are not steady motions, found by counting.", part=True)
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, found when first read: 1 microsecond for each and each link.",
+        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond for each and each link.",
         lambda m: m._others(),
     )
     slack_link: Field[Whole] = Field(
-        "Links, from 0, lowest first, whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
-        "and the fastest speed found in its direction.",
+        "Indices of links (0 is the lowest) whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
+        "and the fastest computed speed of its direction.",
         part=True,
     )
-    slack_speed: Field[Floats] = Field("The speeds at which it does, rad/s, signed, slowest first.", part=True)
+    slack_speed: Field[Floats] = Field(
+        "Speeds at which the effective tension of these links vanishes, rad/s, signed, slowest first.", part=True
+    )
     complete: Field[bool] = Field(
-        "Whether the numbers of modes and of other solutions are proved to be all there is.", part=True
+        "Whether the modes and the other solutions are proved to be all solutions.", part=True
     )
 
     def uncertainty(
@@ -488,33 +503,34 @@ class RigModes(Modes):
         stiffness: float | None = None,
         support_mass: float | None = None,
     ) -> RigUncertainty:
-        """Return how uncertain conical heights and speeds are where the data are.
+        """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
         Parameters
         ----------
         mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
-            Of the links: standard deviations or a covariance, as in `Modes.uncertainty`.
+            Standard deviations or a covariance of the links, as in `Modes.uncertainty`.
         momentum, spin : array_like, optional
-            Of the flywheels, in the same forms. Give one of them; `spin` where they were given by spin.
+            Those of the flywheels, in the same forms. Give only one: `spin` if the flywheels were given by spin.
         displaced_mass, added_mass : array_like, optional
-            Of the fluid, in the same forms; weights for a rig given by weight.
+            Those of the fluid, in the same forms; weights for a rig given by weight.
         stiffness, support_mass : float, optional
-            Of the support: a standard deviation, or text such as ``"5 %"``.
+            Standard deviation of the datum of the support, or text such as ``"5 %"``.
 
         Returns
         -------
         RigUncertainty
+            The standard deviations, and the part of each datum in them.
 
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; a spin
-            where flywheels were given by momentum.
+            If a deviation is negative or not finite, has another shape, or a covariance is not symmetric; if `spin` is
+            given for flywheels that were given by momentum.
 
         Notes
         -----
-        First order, from `RigSensitivity`, which says what is held while a datum changes. The radius of a support moves
-        no speed of small oscillations.
+        The result is to first order. See `RigSensitivity` for the data that are constant while one changes. The radius of
+        a support has no effect on the speeds of small oscillations.
 
         Examples
         --------
@@ -596,18 +612,18 @@ class RigModes(Modes):
 
 
 class CordModes(Modes):
-    """The modes of a cord, slowest first; `k` modes. Shapes are known at every place.
+    """The k modes of a cord, slowest first, with shapes at any place.
 
-    Of a cord held straight at both ends, distances begin at its lower end.
+    For a cord held straight at both ends, distances start at its lower end.
 
     Notes
     -----
-    Heights are zeros of Bessel functions, Greenhill (1908) section 4: of ``J0`` for a uniform cord, ``Jp`` for a density
-    s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends; all others are found by power series.
-    ``error_bound`` says their accuracy: 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: within
-    5 ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: a height in closed form 0.01 to 15 microseconds, by
-    power series 1 millisecond for each mode up to the last; a node as its height, a vertical point with a tip or by power
-    series as ten slopes. Heights are in proportion to the length: one question serves all lengths.
+    Heights are zeros of Bessel functions, Greenhill (1908), section 4: of ``J0`` for a uniform cord, of ``Jp`` for a density
+    s^p, of a cross product of ``J`` and ``Y`` for a uniform cord with a tip or held at both ends. All others are computed by
+    power series. Accuracy (``error_bound``): 3 ulp, 2 ulp with a tip, 4e-15 by power series. Nodes and vertical points: 5
+    ulp (uniform), 3 ulp (a power), else 1e-15 of the length. Cost: 0.01 to 15 microseconds for a height in closed form, 1
+    millisecond for each mode up to the last by power series; that of its height for a node; that of ten slopes for a
+    vertical point with a tip or by power series. Heights are proportional to the length.
 
     Examples
     --------
@@ -628,27 +644,27 @@ class CordModes(Modes):
         part=True,
     )
     arc_length: Field[Floats] = Field(
-        "Distances from the free end at which `shape` has offsets, m, shape (201,), equally far apart.",
+        "Distances from the free end of the places of `shape`, m, shape (201,), evenly spaced.",
         lambda m: np.linspace(0.0, m.system.length, 201),
     )
     shape: Field[Numbers] = Field(
-        "Offsets at these places from the axis, shape (k, 201); that of the free end is 1. Held at both ends: the largest, at "
-        "the lowest vertical point, is 1.",
+        "Offsets of the places `arc_length` from the axis, shape (k, 201); that of the free end is 1. For a cord held at both "
+        "ends the largest, at the lowest vertical point, is 1.",
         lambda m: m.offset(m.arc_length),
     )
     vertical_points: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end at which it is vertical, one above each node: what hangs below has "
-        "its centre of gravity on the axis, (13) and (14) of section 4 of the paper. Held at both ends: one below each node, "
-        "and one below the upper end.",
+        "For each mode the distances from the free end at which the cord is vertical, one above each node: the part below "
+        "has its centre of gravity on the axis, section 4 (13), (14) of the paper. For a cord held at both ends: one below "
+        "each node, and one below the upper end.",
         lambda m: m._points("vertical_points"),
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end at which it crosses the axis, without the ends held.",
+        "For each mode the distances from the free end at which it crosses the axis, without the held ends.",
         lambda m: m._points("nodes"),
     )
     residual: Field[Any] = Field("Always None: shapes are closed forms or power series.", lambda m: None)
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
-    certificate: Field[Certificate | None] = Field("Always None: `revchain.modes` certifies chains only.", lambda m: None)
+    certificate: Field[Certificate | None] = Field("Always None: only chains and rigs have one.", lambda m: None)
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
     sensitivity: Field[CordSensitivity] = Field(  # type: ignore[assignment]
         "Derivatives with respect to length, mass, tip, exponent of the density and tension.", lambda m: _sensitivity(m)
@@ -665,29 +681,31 @@ class CordModes(Modes):
         exponent: float | None = None,
         tension: float | str | None = None,
     ) -> CordUncertainty:
-        """Return how uncertain conical heights and speeds are where the data are.
+        """Return the standard deviations of conical heights and speeds for given standard deviations of the data.
 
         Parameters
         ----------
         mass, weight, length, tip_mass, tip_weight, tension : float or str, optional
-            Standard deviation of each, or text such as ``"5 %"``: that part of the datum. Left out: exactly known.
-            `CordSensitivity` says what is held while one changes; deviations of different data are independent.
+            Standard deviation of the datum, or text such as ``"5 %"``, which is relative to the datum. A datum that is left
+            out is exact. Deviations of different data are independent. See `CordSensitivity` for the data that are constant
+            while one changes.
         exponent : float, optional
             Standard deviation of the exponent of the density.
 
         Returns
         -------
         CordUncertainty
+            The standard deviations, and the part of each datum in them.
 
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, a mass of a cord given by weight, a tension of one that hangs,
-            a tip or an exponent of one that is held, an exponent where the density is a function.
+            If a deviation is negative or not finite, or the cord has no such datum: a mass if given by weight, a tension if
+            it hangs, a tip or an exponent if it is held, an exponent if the density is a function.
 
         Notes
         -----
-        First order: heights are taken as linear in the data.
+        The result is to first order: heights are linear in the data.
 
         Examples
         --------
@@ -712,10 +730,10 @@ class CordModes(Modes):
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            Over that of the free end; held at both ends, over the largest. Within 1e-15 times the mode number, twice that with a tip, for a density s^p 1e-15
-            times ``1 + 2 sqrt((p + 1) length / conical_height)``, by power series 1e-14; of the largest of each mode,
-            which exceeds 1 with a tip and for p below -1/2. Cost: 1 to 15 microseconds for each mode and place, 100 for
-            a density function.
+            Offsets divided by that of the free end; for a cord held at both ends, by the largest. Accuracy, relative to the
+            largest offset of each mode (which exceeds 1 with a tip and for p below -1/2): 1e-15 times the mode number, twice
+            that with a tip; for a density s^p 1e-15 times ``1 + 2 sqrt((p + 1) length / conical_height)``; 1e-14 by power
+            series. Cost: 1 to 15 microseconds for each mode and place, 100 for a density function.
 
         Raises
         ------
@@ -731,17 +749,18 @@ class CordModes(Modes):
         return self._along("offset", arc_length)
 
     def slope(self, arc_length: ArrayLike) -> Floats:
-        """Return ``d offset / d arc_length`` of all modes at places of the cord, ``-1 / conical_height`` at a free end.
+        """Return the slopes ``d offset / d arc_length`` of all modes at places of the cord.
 
         Parameters
         ----------
         arc_length : array_like
-            As in `offset`.
+            Distances from the free end, as in `offset`.
 
         Returns
         -------
         ndarray, shape (k,) or (k, places)
-            In 1/m, for offsets as `offset` returns them. Accuracy and cost are those of `offset`, of the largest slope.
+            Slopes in 1/m of the offsets that `offset` returns; ``-1 / conical_height`` at a free end. Accuracy (relative to
+            the largest slope) and cost are those of `offset`.
 
         Raises
         ------
@@ -750,9 +769,9 @@ class CordModes(Modes):
 
         Notes
         -----
-        A whirling cord of weight `W` and length `L`, its free end `b` off the axis, has to the second order in `b` the
-        kinetic energy ``W * L * (b * slope(L))**2 / 2``, if it has no tip and its density is a power: equal to its
-        potential energy, in joules for `W` in newtons.
+        A whirling cord of weight `W` and length `L`, without a tip, with a power as its density and with its free end at
+        the offset `b`, has the kinetic energy ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in
+        newtons. Its potential energy is equal.
 
         Examples
         --------
@@ -791,7 +810,7 @@ class CordModes(Modes):
 
 
 def _texts(nodes: Iterable[Numbers]) -> list[str]:
-    """How many nodes each mode has, and where the first and the last are."""
+    """Text with the number of nodes of each mode, and the places of the first and the last."""
 
     def text(places: Numbers) -> str:
         shown = [f"{place:.3g}" if place < 1000 else f"{place:.0f}" for place in places[[0, -1]]] if places.size else []
@@ -803,14 +822,14 @@ def _texts(nodes: Iterable[Numbers]) -> list[str]:
 
 
 def _speed_bound(error: Floats) -> Floats:
-    """Bound for a speed whose height is off by so much: ``(1 - error)**-0.5 - 1``, and rounding; infinite from 1 on."""
+    """Bound for the speed of a height with this error: ``(1 - error)**-0.5 - 1`` plus rounding; infinite from 1 on."""
     with np.errstate(divide="ignore", invalid="ignore"):
         bound = np.expm1(-0.5 * np.log1p(-np.minimum(error, 1.0)))
     return np.asarray(bound * (1 + 1e-9) + SPEED_ROUNDING)
 
 
 def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
-    """What a float of a dictionary or a text file cannot hold of the values, as a column; none where they are doubles."""
+    """The part of the values that a float of a dictionary or a text file cannot hold, as a column; none for doubles."""
     if low is None and values.dtype == np.longdouble:
         with np.errstate(invalid="ignore"):
             low = np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
@@ -840,5 +859,5 @@ def _sensitivity(modes: Modes) -> Any:
 
 
 def _facts(system: Any) -> dict[str, Any]:
-    """What every dictionary and file says of the system."""
+    """The data of the system in each dictionary and file."""
     return {"system": system.describe()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small motions: the response to a support carried round, and the swing after release."""
+"""Small motions: the response to a moving support, and the free swing after release."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 Flags = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
 TURN = 2 * np.pi
-BENT = 0.3  # of the length of a chain: offsets beyond are not of small amplitude
-MOST_RESONANCES = 60  # marked in a plot: more would blacken it
+BENT = 0.3  # part of the length of a chain; a larger offset is not a small amplitude
+MOST_RESONANCES = 60  # largest number that a plot marks; more would blacken it
 
 
 class Response(Result):
-    """What a chain or rig does whose support is carried round a circle, at one speed or many; returned by `response`.
+    """Forced motion of a chain or rig whose support moves in a circle, at one or more speeds; returned by `response`.
 
-    Arrays have the shape of the speeds asked, ``(...)``, those of pins one axis more. Carried to and fro along a line
-    instead (base excitation), the numbers are the same as amplitudes, everything in phase or in antiphase.
+    Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. If the support moves to and fro
+    along a line (base excitation), the numbers are amplitudes; all pins move in phase or in antiphase.
 
     Examples
     --------
@@ -48,66 +48,66 @@ class Response(Result):
     system: Field[Any] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).", part=True)
-    frequency: Field[Floats] = Field("Revolutions in a second, Hz, shape (...).", lambda r: r.angular_speed / TURN)
-    rpm: Field[Floats] = Field("Revolutions in a minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
+    frequency: Field[Floats] = Field("Revolutions per second, Hz, shape (...).", lambda r: r.angular_speed / TURN)
+    rpm: Field[Floats] = Field("Revolutions per minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
     period: Field[Floats] = Field("Time of one revolution, s, shape (...).", lambda r: TURN / np.abs(r.angular_speed))
-    conical_height: Field[Floats] = Field("Their conical heights, ``gravity / angular_speed**2``, m.", part=True)
+    conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).", part=True)
     support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
     pins: Field[Whole] = Field(
-        "Which pins, from 0 for the free end, shape (P,); of shape () where one was asked for by its number, and `offset` "
-        "then has no axis for it.",
+        "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and `offset` "
+        "has no axis for pins.",
         part=True,
     )
     offset: Field[Floats] = Field(
-        "Offsets of the pins from the axis, m, shape (..., P), positive on the side on which the support is. NaN at a "
-        "resonance.",
+        "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support. NaN at a resonance.",
         part=True,
     )
     amplification: Field[Floats] = Field(
-        "Offsets over the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
+        "Offsets divided by the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
     )
     error_bound: Field[Floats] = Field(
-        "Proved bound of the error of every offset of the chain, over the largest of them, shape (...): half an ulp but "
-        "next to a resonance, infinite at one.",
+        "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...): half an ulp, more "
+        "close to a resonance, infinite at a resonance.",
         part=True,
     )
     modes_below: Field[Whole] = Field(
-        "How many whirl speeds of the chain, with its support held, are below the speed, shape (...). A resonance that "
-        "the speed cannot be told from is not counted.",
+        "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance that "
+        "cannot be separated from the speed does not count.",
         part=True,
     )
     reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
-    resonant: Field[Flags] = Field("Whether the speed cannot be told from a resonance, shape (...).", part=True)
+    resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).", part=True)
     support_force: Field[Floats] = Field(
-        "Horizontal pull of the chain on what carries its support, outwards, N or in the unit of the weights, shape (...).",
+        "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...).",
         part=True,
     )
-    support_force_error: Field[Floats] = Field("Proved bound of its error, in the same unit.", part=True)
+    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.", part=True)
 
     def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
-        """Draw how far chosen pins are from the axis against the speed, the largest scale logarithmic.
+        """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
 
-        Dashed where a pin is on the side opposite to the support; vertical lines mark the resonances.
+        A line is dashed if the pin is on the side opposite to the support; vertical lines mark the resonances.
         A response at one speed is drawn as a shape: the offsets of the pins against their depths.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         pins : iterable of int, optional
-            Which pins of this result. If left out: the lowest and up to three others, evenly spaced; at one
-            speed all.
+            Numbers of the pins to draw. If left out: the lowest and up to three others, evenly spaced; all at a
+            single speed.
         resonances : bool
-            Whether to mark the whirl speeds in the range of the plot; never done for a `Rig`.
+            Whether to mark the whirl speeds in the range of the plot; a `Rig` has no marks.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `pins` names one that is not in this result, or the result has no speed.
+            If `pins` has a pin that is not in this result, or the result has no speed.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -126,7 +126,7 @@ class Response(Result):
         return plot_response(self, ax, pins, self._resonances() if marked else [])
 
     def _resonances(self) -> list[float]:
-        """Whirl speeds between the least and the largest speed."""
+        """Whirl speeds between the smallest and the largest speed."""
         speed, core = self.angular_speed.reshape(-1), self.system._compiled
         if speed.size == 0 or not 0 < speed.min() < speed.max():
             return []
@@ -189,7 +189,7 @@ SWING = (
 
 
 class Swing(Result):
-    """A hanging chain, or rig, swinging in a plane after release, as the sum of its modes; returned by `swing`.
+    """Free motion of a chain or rig in a plane after release, as a sum of its modes; returned by `swing`.
 
     Examples
     --------
@@ -203,9 +203,9 @@ class Swing(Result):
     __slots__ = ()
     system: Field[Chain | Rig] = Field("The chain of N links, or the rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
+    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
     offset: Field[Floats] = Field(
-        "Offsets of the pins, m, shape (T, N + 1), free end first, the support's last: sums of the k modes kept.",
+        "Offsets of the pins, m, shape (T, N + 1), free end first, support last: sums of the k modes used.",
         part=True,
     )
     velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
@@ -213,53 +213,55 @@ class Swing(Result):
         "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); no mode gives any to another.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); it is constant.", part=True
     )
     shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.", part=True)
     cosine: Field[Floats] = Field(
-        "Shape (k,): offsets are the sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.", part=True
-    )
-    sine: Field[Floats] = Field("Shape (k,), as said of `cosine`.", part=True)
-    start: Field[Floats] = Field(
-        "Offsets from which the chain starts, shape (N + 1,): those given, but pins without inertia are where the pull of "
-        "their neighbours has them at once.",
+        "Coefficients, shape (k,), in offset = sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.",
         part=True,
     )
-    projected: Field[bool] = Field("True if `start` differs from the offsets given.", part=True)
+    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
+    start: Field[Floats] = Field(
+        "Offsets at time 0, shape (N + 1,): those given; pins without inertia move at once to where their neighbours pull "
+        "them.",
+        part=True,
+    )
+    projected: Field[bool] = Field("Whether `start` differs from the given offsets.", part=True)
     energy_left_out: Field[float] = Field(
-        "Upper bound of the energy that the start has beside the modes kept.", part=True
+        "Upper bound of the energy of the start that is not in the modes used.", part=True
     )
     truncation_error: Field[Floats] = Field(
-        "Proved bound of what that may do to each offset at any time, shape (N + 1,).", part=True
+        "Proved bound of the effect of the modes not used on each offset at any time, shape (N + 1,).", part=True
     )
     error_bound: Field[Floats] = Field(
-        "Proved bound of the rounding error of every offset as a sum of the modes kept, shape (T,). It grows with time "
-        "only after some 1e9 swings.",
+        "Proved bound of the rounding error of each offset as a sum of the modes used, shape (T,). It grows with time "
+        "only after about 1e9 swings.",
         part=True,
     )
 
     def plot(
         self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,)
     ) -> Axes:
-        """Draw the chain at the times asked, or offsets of pins against time.
+        """Draw the chain at the given times, or offsets of pins against time.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         kind : {"shapes", "time"}
-            Shapes from dark (early) to light, offsets stretched; or offsets against time.
+            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets. ``"time"``: offsets against time.
         pins : iterable of int
-            For ``"time"``: which pins, 0 the free end.
+            For ``"time"``: numbers of the pins, 0 for the free end.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `kind` is neither, or for pins there are not.
+            If `kind` is another word, or there is no such pin.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -313,7 +315,9 @@ WHIRL_SWING = (
 
 
 class WhirlSwing(Result):
-    """A rig with flywheels after release, as the sum of its whirls; returned by `swing`. Offsets are x + i y.
+    """Free motion of a rig with flywheels after release, as a sum of its whirls; returned by `swing`.
+
+    Offsets are complex, x + i y.
 
     Examples
     --------
@@ -332,59 +336,60 @@ class WhirlSwing(Result):
     __slots__ = ()
     system: Field[Rig] = Field("The rig of N links.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
+    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
     offset: Field[Complex] = Field(
-        "Offsets of the pins in both level directions, x + i y, m, shape (T, N + 1), free end first, the support's last: "
-        "sums of the k whirls kept.",
+        "Offsets of the pins in the two horizontal directions, x + i y, m, shape (T, N + 1), free end first, support last: "
+        "sums of the k whirls used.",
         part=True,
     )
     velocity: Field[Complex] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
     angular_speed: Field[Floats] = Field(
-        "Speed of each whirl, rad/s, negative backwards, shape (k,), slowest first: those of `modes`, where no link turns "
-        "about its own axis.",
+        "Speed of each whirl, rad/s, negative for backward ones, shape (k,), slowest first: those of `modes` for links that do "
+        "not turn about their own axes.",
         part=True,
     )
     amplitude: Field[Complex] = Field(
-        "Shape (k,): offsets are the sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
+        "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
     )
     energy: Field[Floats] = Field(
-        "Energy of each whirl, J (weight times length), shape (k,); no whirl gives any to another. Negative where momentum "
-        "keeps a standing link from falling.",
+        "Energy of each whirl, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps a "
+        "standing link from falling.",
         part=True,
     )
     shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.", part=True)
     energy_left_out: Field[float] = Field(
-        "Upper bound of the energy that the start has beside the whirls kept; infinite where a link stands.", part=True
+        "Upper bound of the energy of the start that is not in the whirls used; infinite if a link stands.", part=True
     )
     truncation_error: Field[Floats] = Field(
-        "Proved bound of what that may do to each offset at any time, shape (N + 1,).", part=True
+        "Proved bound of the effect of the whirls not used on each offset at any time, shape (N + 1,).", part=True
     )
     error_bound: Field[Floats] = Field(
-        "Proved bound of the rounding error of every offset as a sum of the whirls kept, shape (T,); infinite where a link "
+        "Proved bound of the rounding error of each offset as a sum of the whirls used, shape (T,); infinite if a link "
         "stands.",
         part=True,
     )
 
     def plot(self, ax: Axes | None = None, *, kind: str = "path", pins: Iterable[int] = (0,)) -> Axes:
-        """Draw the paths of pins as seen from above, or their offsets along x and y against time.
+        """Draw the paths of pins seen from above, or their offsets along x and y against time.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
         kind : {"path", "time"}
-            Paths from above; or offsets against time, those along y dashed.
+            ``"path"``: paths seen from above. ``"time"``: offsets against time, those along y dashed.
         pins : iterable of int
-            Which pins, 0 the free end.
+            Numbers of the pins, 0 for the free end.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
         ValueError
-            If `kind` is neither, or for pins there are not.
+            If `kind` is another word, or there is no such pin.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -424,7 +429,7 @@ class WhirlSwing(Result):
 
 
 def energy_words(energy: Floats, what: str = "mode") -> str:
-    """How many modes a swing has, and which hold most of its energy."""
+    """Text with the number of modes of a swing, and the modes with most of its energy."""
     share = energy / energy.sum() if energy.sum() > 0 else energy
     most = np.argsort(share)[::-1][:3]
     words = ", ".join(f"{100 * share[k]:.3g} % in {what} {k + 1}" for k in most if share[k] > 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How conical heights and speeds change with the data of a chain or a rig, and how uncertain they are."""
+"""Sensitivity and uncertainty of the conical heights and speeds of a chain or a rig."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class _ByDatum(Result):
 
 
 def datum_columns(result: Result, names: tuple[str, ...]) -> list[Column]:
-    """A column for each field; of those with a number for each link the lowest link's is shown."""
+    """A column for each field; a field with a number for each link shows that of the lowest link."""
     columns = []
     for name in names:
         values = getattr(result, name)
@@ -52,7 +52,7 @@ def datum_columns(result: Result, names: tuple[str, ...]) -> list[Column]:
 
 
 class Derivatives(_ByDatum):
-    """One number for each mode and link, by the datum of the link that it belongs to.
+    """Numbers for each mode, link and datum of the link.
 
     Examples
     --------
@@ -63,11 +63,15 @@ class Derivatives(_ByDatum):
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field("Shape (k, N), links lowest first; see `Sensitivity.mass`.", part=True)
-    length: Field[Floats] = Field("Shape (k, N); see `Sensitivity.length`.", part=True)
-    centroid: Field[Floats] = Field("Shape (k, N); see `Sensitivity.centroid`.", part=True)
-    radius_of_gyration: Field[Floats] = Field("Shape (k, N); see `Sensitivity.radius_of_gyration`.", part=True)
-    length_in_proportion: Field[Floats] = Field("Shape (k, N); see `Sensitivity.length_in_proportion`.", part=True)
+    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `Sensitivity.mass`.", part=True)
+    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N); see `Sensitivity.length`.", part=True)
+    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N); see `Sensitivity.centroid`.", part=True)
+    radius_of_gyration: Field[Floats] = Field(
+        "Numbers for the radii of gyration, shape (k, N); see `Sensitivity.radius_of_gyration`.", part=True
+    )
+    length_in_proportion: Field[Floats] = Field(
+        "Numbers for lengths in proportion, shape (k, N); see `Sensitivity.length_in_proportion`.", part=True
+    )
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Numbers by datum; the lowest link is shown", self._columns())
@@ -76,13 +80,14 @@ class Derivatives(_ByDatum):
 class Sensitivity(_ByDatum):
     """Derivatives of the conical heights of k modes with respect to the data of N links.
 
-    While one datum of one link changes, all others are held.
+    All other data are constant.
 
     Notes
     -----
-    From the shape alone, in double-double: ``(y' dM y - height y' dK y) / (y' K y)``, O(N) a mode. Masses act by their
-    ratios: relative masses of a mode add up to 0. Relative lengths, centroids and radii of gyration add up to 1, and so
-    do relative lengths in proportion, each a link's share of the potential energy.
+    Method: ``(y' dM y - height y' dK y) / (y' K y)`` in double-double, from the shape y alone. Heights depend on ratios of
+    masses: the relative derivatives of a mode by masses add up to 0. Those by lengths, centroids and radii of gyration add
+    up to 1. Those by lengths in proportion also add up to 1; each is the link's share of the potential energy. Cost: O(N)
+    for each mode.
 
     Examples
     --------
@@ -98,28 +103,31 @@ class Sensitivity(_ByDatum):
 
     __slots__ = ()
     mass: Field[Floats] = Field(
-        "d(conical height)/d(mass), m/kg, shape (k, N), links lowest first; of a chain given by weight, by its weights.",
+        "d(conical height)/d(mass), m/kg, shape (k, N), links lowest first; for a chain given by weight, with respect to its "
+        "weights.",
         part=True,
     )
     length: Field[Floats] = Field(
-        "With respect to the distance between the pins: the lower pin moves, centre of gravity and radius of gyration "
-        "stay where they are. 0 for the lowest link. A point mass does not stay one.",
+        "Derivative with respect to the distance between the pins, at constant centre of gravity and radius of gyration: only "
+        "the lower pin moves. 0 for the lowest link. A point mass becomes a body.",
         part=True,
     )
     centroid: Field[Floats] = Field(
-        "With respect to the distance of the centre of gravity from the upper pin.", part=True
+        "Derivative with respect to the distance of the centre of gravity below the upper pin.", part=True
     )
-    radius_of_gyration: Field[Floats] = Field("Never negative; 0 where the radius is.", part=True)
+    radius_of_gyration: Field[Floats] = Field(
+        "Derivative with respect to the radius of gyration: never negative, 0 if the radius is 0.", part=True
+    )
     length_in_proportion: Field[Floats] = Field(
-        "With respect to length, centroid and radius of gyration growing in proportion: the thread of a point mass, the "
-        "length of a rod. Never negative.",
+        "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
+        "of a point mass or a rod. Never negative.",
         part=True,
     )
     error_bound: Field[Derivatives] = Field(
-        "Bound of the error of each, absolute and proved: in most cases half an ulp.", part=True
+        "Proved bound of the absolute error of each derivative: in most cases half an ulp.", part=True
     )
     relative: Field[Derivatives] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 of it.", part=True
+        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these.", part=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -144,21 +152,27 @@ class Uncertainty(Result):
     number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
     conical_height: Field[Floats] = Field("Standard deviation of each conical height, m, shape (k,).", part=True)
     relative: Field[Floats] = Field(
-        "The same over the heights, shape (k,). For speeds, periods and frequencies half as much.", part=True
+        "Standard deviation of each height divided by the height, shape (k,). For speeds, periods and frequencies it is half "
+        "as much.",
+        part=True,
     )
-    angular_speed: Field[Floats] = Field("Of each whirl speed, rad/s, shape (k,); gravity is taken as exact.", part=True)
-    frequency: Field[Floats] = Field("Of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi))
-    period: Field[Floats] = Field("Of each period, s, shape (k,).", part=True)
+    angular_speed: Field[Floats] = Field(
+        "Standard deviation of each whirl speed, rad/s, shape (k,), for exact gravity.", part=True
+    )
+    frequency: Field[Floats] = Field(
+        "Standard deviation of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi)
+    )
+    period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", part=True)
     share: Field[Derivatives] = Field(
-        "What part of each variance comes from which datum of which link; those of a mode add up to 1. With a covariance "
-        "a part may be negative.",
+        "Part of each variance that comes from each datum of each link; the parts of a mode add up to 1. With a covariance a "
+        "part may be negative.",
         part=True,
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
         "For each mode the datum that contributes most, and its link, counted from 0.", part=True
     )
 
-    names: Field[tuple[str, ...] | None] = Field("Names of the links; None where none were given.", part=True)
+    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.", part=True)
 
     def _most(self, row: int) -> str:
         datum, link = self.largest[row]
@@ -195,7 +209,7 @@ def _part(place: str, text: str) -> float:
 
 
 def _parts_of_data(place: str, value: Any, data: Floats) -> list[Any]:
-    """Deviations, those given in per cent as parts of the data."""
+    """Deviations; those given in percent are multiplied by the data."""
     of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
     return [
         _part(place, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
@@ -255,8 +269,8 @@ class _ByRigDatum(_ByDatum):
 
     __slots__ = ()
     _known = (*DATA, "momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
-    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
-    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
+    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
 
     def _columns(self) -> list[Column]:
         mode, *columns = super()._columns()
@@ -264,7 +278,7 @@ class _ByRigDatum(_ByDatum):
 
 
 class RigDerivatives(_ByRigDatum):
-    """One number for each mode, link and datum of a rig.
+    """Numbers for each mode, link and datum of a rig.
 
     Examples
     --------
@@ -276,28 +290,32 @@ class RigDerivatives(_ByRigDatum):
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field("Shape (k, N), links lowest first; see `RigSensitivity.mass`.", part=True)
-    length: Field[Floats] = Field("Shape (k, N); see `RigSensitivity.length`.", part=True)
-    centroid: Field[Floats] = Field("Shape (k, N).", part=True)
-    radius_of_gyration: Field[Floats] = Field("Shape (k, N).", part=True)
-    length_in_proportion: Field[Floats] = Field("Shape (k, N).", part=True)
-    momentum: Field[Floats] = Field("Shape (k, N).", part=True)
-    spin: Field[Floats] = Field("Shape (k, N).", part=True)
-    displaced_mass: Field[Floats] = Field("Shape (k, N).", part=True)
-    added_mass: Field[Floats] = Field("Shape (k, N).", part=True)
-    stiffness: Field[Floats] = Field("Shape (k,).", part=True)
-    support_mass: Field[Floats] = Field("Shape (k,).", part=True)
+    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `RigSensitivity`.", part=True)
+    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N).", part=True)
+    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N).", part=True)
+    radius_of_gyration: Field[Floats] = Field("Numbers for the radii of gyration, shape (k, N).", part=True)
+    length_in_proportion: Field[Floats] = Field("Numbers for lengths in proportion, shape (k, N).", part=True)
+    momentum: Field[Floats] = Field("Numbers for the momenta of flywheels, shape (k, N).", part=True)
+    spin: Field[Floats] = Field("Numbers for the spins of flywheels, shape (k, N).", part=True)
+    displaced_mass: Field[Floats] = Field("Numbers for the displaced masses, shape (k, N).", part=True)
+    added_mass: Field[Floats] = Field("Numbers for the added masses, shape (k, N).", part=True)
+    stiffness: Field[Floats] = Field("Numbers for the stiffness of the support, shape (k,).", part=True)
+    support_mass: Field[Floats] = Field("Numbers for the mass that moves with the support, shape (k,).", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Numbers by datum; the lowest link is shown", self._columns())
 
 
 class RigSensitivity(_ByRigDatum):
-    """Derivatives of the whirl speeds of k modes of a rig with respect to every datum of it; all else is held.
+    """Derivatives of the whirl speeds of k modes of a rig with respect to each of its data; all other data are constant.
 
-    As accurate as the shapes: 1e-14 of the largest. From ``y' (K + n G - n^2 M / g) y = 0``, stationary in y. Of the
-    conical height ``lambda = gravity / n**2``: ``d lambda = -2 * lambda / n * dn``. Cost O(N) a mode. The radius of the
-    support moves no speed of small oscillations.
+    The derivatives of the conical height ``lambda = gravity / n**2`` follow from ``d lambda = -2 * lambda / n * dn``. The
+    radius of the support has no effect on the speeds of small oscillations.
+
+    Notes
+    -----
+    Method: ``y' (K + n G - n^2 M / g) y = 0`` is stationary in the shape y. Accuracy: that of the shapes, 1e-14 of the
+    largest. Cost: O(N) for each mode.
 
     Examples
     --------
@@ -314,27 +332,41 @@ class RigSensitivity(_ByRigDatum):
 
     __slots__ = ()
     mass: Field[Floats] = Field(
-        "With respect to the mass of each link, shape (k, N); of a chain given by weight, to its weights, here and below.",
+        "Derivative with respect to the mass of each link, shape (k, N). For a chain given by weight, masses here and below are "
+        "weights.",
         part=True,
     )
     length: Field[Floats] = Field(
-        "With respect to the distance between its pins: the lower pin moves; flywheels keep their momentum, what is "
-        "displaced its place and size.",
+        "Derivative with respect to the distance between the pins of each link, shape (k, N): only the lower pin moves; the "
+        "momentum of the flywheel and the place and size of the displaced fluid are constant.",
         part=True,
     )
-    centroid: Field[Floats] = Field("With respect to its centre of gravity, from the upper pin.", part=True)
-    radius_of_gyration: Field[Floats] = Field("With respect to its radius of gyration.", part=True)
+    centroid: Field[Floats] = Field(
+        "Derivative with respect to the distance of the centre of gravity below the upper pin, shape (k, N).", part=True
+    )
+    radius_of_gyration: Field[Floats] = Field(
+        "Derivative with respect to the radius of gyration of each link, shape (k, N).", part=True
+    )
     length_in_proportion: Field[Floats] = Field(
-        "With respect to a length that takes centroid and radius of gyration with it.", part=True
+        "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, shape (k, N).",
+        part=True,
     )
-    momentum: Field[Floats] = Field("With respect to the angular momentum of each link's flywheel.", part=True)
+    momentum: Field[Floats] = Field(
+        "Derivative with respect to the angular momentum of each flywheel, shape (k, N).", part=True
+    )
     spin: Field[Floats] = Field(
-        "With respect to the spin of each link's flywheel, rad/s; 0 where flywheels were given by momentum.", part=True
+        "Derivative with respect to the spin of each flywheel, shape (k, N); 0 if flywheels were given by momentum.", part=True
     )
-    displaced_mass: Field[Floats] = Field("With respect to the mass of fluid that each link displaces.", part=True)
-    added_mass: Field[Floats] = Field("With respect to the fluid that has to move with each link.", part=True)
-    stiffness: Field[Floats] = Field("Of the support, shape (k,); 0 where it is firm.", part=True)
-    support_mass: Field[Floats] = Field("Of what moves with the support, shape (k,); 0 where it is firm.", part=True)
+    displaced_mass: Field[Floats] = Field(
+        "Derivative with respect to the mass of fluid that each link displaces, shape (k, N).", part=True
+    )
+    added_mass: Field[Floats] = Field("Derivative with respect to the added mass of each link, shape (k, N).", part=True)
+    stiffness: Field[Floats] = Field(
+        "Derivative with respect to the stiffness of the support, shape (k,); 0 if it is firm.", part=True
+    )
+    support_mass: Field[Floats] = Field(
+        "Derivative with respect to the mass that moves with the support, shape (k,); 0 if it is firm.", part=True
+    )
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Derivatives of the whirl speeds; those for the lowest link are shown", self._columns())
@@ -353,15 +385,15 @@ class RigUncertainty(Uncertainty):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
-    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
+    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
     share: Field[RigDerivatives] = Field(  # type: ignore[assignment]
-        "What part of each variance comes from which datum; those of a mode add up to 1. With a covariance a part may be "
+        "Part of each variance that comes from each datum; the parts of a mode add up to 1. With a covariance a part may be "
         "negative.",
         part=True,
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0 (of the support: 0).", part=True
+        "For each mode the datum that contributes most, and its link, counted from 0 (0 for the support).", part=True
     )
 
     def _most(self, row: int) -> str:
@@ -382,7 +414,7 @@ def of_rig(modes: RigModes) -> RigSensitivity:
 
 
 def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[str, Floats]:
-    """Those of `RigSensitivity`, of modes given by their speeds and shapes."""
+    """The derivatives of `RigSensitivity` for modes with given speeds and shapes."""
     under = rig._under(gravity)
     rows = [_core.rig_sensitivity(under, float(n), y, gravity) for n, y in zip(speeds, shapes, strict=True)]
     names = [name for name in _ByRigDatum._known if name != "spin"]
@@ -398,7 +430,7 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
 
 
 def shared_out(parts: dict[str, Floats]) -> tuple[Floats, Floats, dict[str, Floats]]:
-    """Of the parts of the variance of each mode by datum: all side by side, their sum, and what share of it each is."""
+    """The parts of the variance of each mode side by side, their sum, and the share of each datum in it."""
     table = np.column_stack([*parts.values()])
     variance = np.maximum(table.sum(axis=1), 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -452,7 +484,7 @@ def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigU
 
 
 def _rig_data(rig: Rig, name: str, gravity: float) -> Any:
-    """The data themselves, one number or one for each link."""
+    """The data of a rig by name, a number or one for each link."""
     if name in DATA:
         return _data(rig.chain)[name]
     if name == "momentum":
@@ -465,7 +497,7 @@ def _rig_data(rig: Rig, name: str, gravity: float) -> Any:
 
 
 def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
-    """Standard deviations, one number or one for each datum, or their covariance."""
+    """Standard deviations (a number, or one for each datum), or their covariance."""
     value, size = unpacked(given), data.size
     if isinstance(value, str):
         value = [value] * size
@@ -483,7 +515,7 @@ def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
 
 
 def _refuse_no_deviations(place: str, name: str, array: Floats) -> None:
-    """A ValueError where they are no deviations and no covariance."""
+    """Raise a ValueError if the numbers are neither deviations nor a covariance."""
     if array.ndim < 2:
         refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{place}: {name} must be finite and not negative")
     elif not (np.isfinite(array).all() and (array == array.T).all() and (array.diagonal() >= 0).all()):

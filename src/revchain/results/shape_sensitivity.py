@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a steady shape changes with the speed and with the data of its chain or rig."""
+"""Sensitivity of a steady shape to the speed and to the data of its chain or rig."""
 
 from __future__ import annotations
 
@@ -26,21 +26,29 @@ OF_SUPPORT = ("stiffness", "support_mass")
 
 
 class DerivativesByLink(Result):
-    """What derivatives of numbers of a shape have in common, one row for each number; see `ShapeSensitivity`."""
+    """The base of derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
-    angular_speed: Field[Floats] = Field("With respect to the speed, per rad/s, shape (M,).", part=True)
+    angular_speed: Field[Floats] = Field("Derivatives with respect to the speed, per rad/s, shape (M,).", part=True)
     mass: Field[Floats] = Field(
-        "With respect to the mass of each link, per kg, shape (M, N); of a chain given by weight, to its weight.", part=True
-    )
-    length: Field[Floats] = Field(
-        "With respect to the distance between its pins: centre of gravity and radius of gyration stay where they are.",
+        "Derivatives with respect to the mass of each link, per kg, shape (M, N); for a chain given by weight, its weight.",
         part=True,
     )
-    centroid: Field[Floats] = Field("With respect to its centre of gravity, from the upper pin.", part=True)
-    radius_of_gyration: Field[Floats] = Field("With respect to its radius of gyration.", part=True)
+    length: Field[Floats] = Field(
+        "Derivatives with respect to the distance between the pins of each link, shape (M, N), at constant centre of gravity "
+        "and radius of gyration.",
+        part=True,
+    )
+    centroid: Field[Floats] = Field(
+        "Derivatives with respect to the distance of the centre of gravity below the upper pin, shape (M, N).", part=True
+    )
+    radius_of_gyration: Field[Floats] = Field(
+        "Derivatives with respect to the radius of gyration of each link, shape (M, N).", part=True
+    )
     length_in_proportion: Field[Floats] = Field(
-        "With respect to length, centroid and radius of gyration growing in proportion: a point mass's thread.", part=True
+        "Derivatives with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
+        "of a point mass, shape (M, N).",
+        part=True,
     )
 
     def _names(self) -> tuple[str, ...]:
@@ -53,35 +61,46 @@ class DerivativesByLink(Result):
 
 
 class ShapeDerivatives(DerivativesByLink):
-    """Derivatives of some numbers of a shape, one row for each; see `ShapeSensitivity`."""
+    """Derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
-    support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
+    support_radius: Field[Floats] = Field("Derivatives with respect to the radius of the support, shape (M,).", part=True)
 
     def _names(self) -> tuple[str, ...]:
         return ("angular_speed", "support_radius", *DATA)
 
 
 class RigShapeDerivatives(ShapeDerivatives):
-    """Derivatives of some numbers of a shape of a rig, one row for each; see `ShapeSensitivity`.
+    """Derivatives of M numbers of a shape of a rig, one row for each number; see `ShapeSensitivity`.
 
-    While a datum of a link changes, the fluid that it displaces keeps its place and size, and its flywheel its momentum.
-    Names with "mass" are weights, and numbers in their unit, where the chain was given by weight.
+    The place and size of the displaced fluid and the momentum of the flywheel are constant while a datum of a link
+    changes. For a chain given by weight, data with "mass" in their names are weights.
     """
 
     __slots__ = ()
-    stiffness: Field[Floats] = Field("With respect to that of the support, per N/m, (M,); 0 where it is firm.", part=True)
-    support_mass: Field[Floats] = Field("With respect to what moves with the support, (M,); 0 where it is firm.", part=True)
-    momentum: Field[Floats] = Field("With respect to the angular momentum that each link keeps, shape (M, N).", part=True)
+    stiffness: Field[Floats] = Field(
+        "Derivatives with respect to the stiffness of the support, per N/m, shape (M,); 0 if it is firm.", part=True
+    )
+    support_mass: Field[Floats] = Field(
+        "Derivatives with respect to the mass that moves with the support, shape (M,); 0 if it is firm.", part=True
+    )
+    momentum: Field[Floats] = Field(
+        "Derivatives with respect to the constant angular momentum of each link, shape (M, N).", part=True
+    )
     spin: Field[Floats] = Field(
-        "With respect to the spin of each link's flywheel, per rad/s; 0 where flywheels were given by momentum.", part=True
+        "Derivatives with respect to the spin of each flywheel, per rad/s, shape (M, N); 0 if flywheels were given by "
+        "momentum.",
+        part=True,
     )
     axial_moment: Field[Floats] = Field(
-        "With respect to the moment of inertia about its axis of what turns with each link.", part=True
+        "Derivatives with respect to the moment of inertia of the turning parts of each link about its axis, shape (M, N).",
+        part=True,
     )
-    displaced_mass: Field[Floats] = Field("With respect to the mass of fluid that each link displaces.", part=True)
+    displaced_mass: Field[Floats] = Field(
+        "Derivatives with respect to the mass of fluid that each link displaces, shape (M, N).", part=True
+    )
     added_mass: Field[Floats] = Field(
-        "With respect to the still fluid that has to move with each link; 0 where the fluid turns.", part=True
+        "Derivatives with respect to the added mass of each link, shape (M, N); 0 in a fluid that turns.", part=True
     )
 
     def _names(self) -> tuple[str, ...]:
@@ -91,22 +110,21 @@ class RigShapeDerivatives(ShapeDerivatives):
 class ShapeSensitivity(Result):
     """Derivatives of a steady shape with respect to the speed and to the data of N links.
 
-    While one datum changes, all others are held. At a fold of a branch they are infinite: there is no shape beyond. Of a
-    `Rig` there are also those by what it is rigged with: stiffness and mass of the support, momentum, spin and axial
-    moment of flywheels, fluid displaced and added. Of a chain held at both ends, `offset` and `tension` have a row for each of
-    the N + 1 pins, and each part is `HeldShapeDerivatives`, with those by what holds the ends.
+    All other data are constant. At a fold of a branch the derivatives are infinite, because no shape exists beyond it. A
+    `Rig` has more derivatives: with respect to stiffness and mass of the support, to momentum, spin and axial moment of
+    flywheels, and to displaced and added mass. For a chain held at both ends, `offset` and `tension` have a row for each of
+    the N + 1 pins, and each part is a `HeldShapeDerivatives`, with derivatives by the data of the ends.
 
     Notes
     -----
-    The moments about the pins stay 0, and so does the force on a support that yields: a linear equation for the change of
-    the inclinations, with the second derivatives of the effective energy as its matrix (implicit function theorem).
-    Relative to the largest of their kind, derivatives are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where
-    that is more. Cost O(N^3), 20 ms for 200 links, and memory for some ten N-by-N arrays; of a rig twenty.
+    Method: implicit function theorem. The moments about the pins, and the force on a support that yields, stay 0. This is
+    a linear equation for the change of the inclinations, whose matrix has the second derivatives of the effective energy.
+    Accuracy, relative to the largest derivative of a kind: 1e-12, or 1e-13 times `SteadyShape.condition` if that is more.
+    Cost: O(N^3), 20 ms for 200 links; memory for about ten N-by-N arrays, for a rig twenty.
 
     Examples
     --------
-    How much farther out does the mass at the tip fly for each rad/s more? And the seat of a carousel for each metre of its
-    arm?
+    The change of the offset of the tip for each rad/s more, and that of the seat of a carousel for each metre of its arm:
 
     >>> import revchain as rc
     >>> shape = rc.steady_shapes(rc.Chain(mass=[1.0, 3.0], length=1.0), angular_speed=4.0)[0]
@@ -120,13 +138,15 @@ class ShapeSensitivity(Result):
 
     __slots__ = ()
     inclination: Field[ShapeDerivatives] = Field(
-        "Of the inclination of each link, rad; M = N. Of a `Rig` this and the next two are `RigShapeDerivatives`.", part=True
+        "Derivatives of the inclination of each link, rad; M = N. For a `Rig` this and the next two are "
+        "`RigShapeDerivatives`.",
+        part=True,
     )
     offset: Field[ShapeDerivatives] = Field(
-        "Of the distance of each pin from the axis, m; row 0: the tip. M = N + 1.", part=True
+        "Derivatives of the offset of each pin from the axis, m; row 0 is the tip; M = N + 1.", part=True
     )
     tension: Field[ShapeDerivatives] = Field(
-        "Of the reaction at the upper pin of each link, N or in the unit of the weights; M = N.", part=True
+        "Derivatives of the reaction at the upper pin of each link, N or in the unit of the weights; M = N.", part=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -145,13 +165,13 @@ class ShapeSensitivity(Result):
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """What balances in a shape: moments about the N pins and the force on the support,
+    """The equations of balance of a shape: moments about the N pins, and the force on the support,
 
         (kappa + n H) sin d - turning cos d / lambda = 0,    E (y - b) - (sum of moves times out + carriage y) / lambda = 0,
 
-    or y = b where it is firm, y the offset of the uppermost pin. Bodies are the links' own and, after those, the fluid
-    that each displaces: `bears` and `moves` are weights that bear and that move, masses where those were given; bodies
-    are at out = y + reach sin d from the axis. kappa and turning are moments of what bears and of what moves.
+    or y = b for a firm support, with y the offset of the uppermost pin. The bodies are the links and, after them, the fluid
+    that each displaces. `bears` are their net weights, `moves` the weights of their inertia (masses if those were given).
+    A body is at out = y + reach sin d from the axis. kappa and turning are the moments of `bears` and of `moves`.
     """
 
     link: NDArray[np.intp]
@@ -188,7 +208,7 @@ class Balance:
 
     @property
     def own(self) -> Floats:
-        """What resists a link's turning about its bodies' centres of gravity."""
+        """Resistance of each link to rotation about the centres of gravity of its bodies."""
         of_bodies = np.bincount(self.link, weights=self.moves * self.gyration**2, minlength=self.size)
         return of_bodies - self.axial
 
@@ -198,11 +218,11 @@ class Balance:
 
     @property
     def carried(self) -> NDArray[np.bool_]:
-        """Which bodies hang from the upper pin of which link, (N, bodies)."""
+        """Whether a body hangs from the upper pin of a link, shape (N, bodies)."""
         return self.link <= np.arange(self.size)[:, None]
 
     def slope(self) -> Floats:
-        """Derivatives of all that balances by the inclinations and by the uppermost pin's offset, (N + 1, N + 1)."""
+        """Derivatives of the equations by the inclinations and the offset of the uppermost pin, shape (N + 1, N + 1)."""
         moved = self.reach.T @ (self.moves[:, None] * self.reach) + np.diag(self.own)
         beside = self.cosine * (self.moves @ self.reach) / self.height
         pull = (self.kappa + self.speed * self.momentum) * self.cosine + self.sine * self.turning / self.height
@@ -215,8 +235,8 @@ class Balance:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What data change while nothing moves, a column for each: kappa and turning; the force on a support that yields; lambda times
-    the sideways pull on upper pins; what hangs there; the offsets of the pins."""
+    """Changes by data at constant shape, a column for each: kappa and turning; the force on a support that yields; lambda
+    times the sideways pull on the upper pins; the weight there; the offsets of the pins."""
 
     kappa: Any = 0.0
     turning: Any = 0.0
@@ -273,7 +293,7 @@ def _balance(shape: SteadyShape) -> Balance:
 
 
 def by_weight(at: Balance, bodies: slice, bears: float, moves: float) -> Change:
-    """By the weights of bodies, one for each link, of which each bears and moves as its part."""
+    """The change by the weights of bodies, one for each link, with the given parts in net weight and in inertia."""
     reach, out = at.reach[bodies], at.out[bodies]
     above = np.tril(np.ones((at.size, at.size)))
     return Change(
@@ -286,7 +306,7 @@ def by_weight(at: Balance, bodies: slice, bears: float, moves: float) -> Change:
 
 
 def changes_of(at: Balance) -> dict[str, Change]:
-    """By the data of each link that a chain has, and by its speed and the radius of its support."""
+    """The changes by the data of each link of a chain, by the speed and by the radius of the support."""
     n, sine, solid = at.size, at.sine, slice(0, at.size)
     above, lower = np.tril(np.ones((n, n))), at.link[:, None] < np.arange(n)
     drawn, moves = at.moves[:, None] * lower * sine, at.moves[solid]
@@ -307,7 +327,7 @@ def changes_of(at: Balance) -> dict[str, Change]:
             sideways=above * (moves * sine),
         ),
         "radius_of_gyration": Change(turning=np.diag(2 * moves * at.gyration[solid] * sine)),
-        # 1/height falls: as if all that moves were lighter
+        # 1/height falls: it acts as a smaller inertia of all bodies
         "angular_speed": Change(
             kappa=np.copysign(1.0, at.speed) * at.momentum[:, None],
             turning=(2 / abs(at.speed) * turning)[:, None],
@@ -319,7 +339,7 @@ def changes_of(at: Balance) -> dict[str, Change]:
 
 
 def _rigged(at: Balance, rig: Rig) -> dict[str, Change]:
-    """By the data that a rig has beside."""
+    """The changes by the other data of a rig."""
     fluid, turns, none = slice(at.size, None), rig.fluid == "turning", np.zeros((at.size, 1))
     return {
         "momentum": Change(kappa=at.speed * np.eye(at.size)),
@@ -332,7 +352,7 @@ def _rigged(at: Balance, rig: Rig) -> dict[str, Change]:
 
 
 def loads_of(at: Balance, changes: dict[str, Change]) -> dict[str, Floats]:
-    """By each datum, while nothing moves: what changes of the moments and of the balance of the upper end, (N + 1, data)."""
+    """The changes of the moments and of the force at the upper end by each datum at constant shape, (N + 1, data)."""
     loads = {}
     for name, change in changes.items():
         moments = at.sine[:, None] * change.kappa - at.cosine[:, None] * change.turning / at.height
@@ -342,19 +362,19 @@ def loads_of(at: Balance, changes: dict[str, Change]) -> dict[str, Floats]:
 
 
 def solved(slope: Floats, loads: dict[str, Floats]) -> dict[str, Floats]:
-    """What moves by each datum so that the balance is kept."""
+    """The change of the shape by each datum that keeps the balance."""
     ends = np.cumsum([load.shape[1] for load in loads.values()])[:-1]
     moved = np.split(-np.linalg.solve(slope, np.concatenate([*loads.values()], axis=1)), ends, axis=1)
     return dict(zip(loads, moved, strict=True))
 
 
 def reach_of_pins(length: Floats, n: int) -> Floats:
-    """Offsets of the pins are those of the uppermost plus this times the sines of the inclinations, (N + 1, N)."""
+    """Matrix (N + 1, N) that turns sines of inclinations into offsets of the pins from that of the uppermost pin."""
     return np.vstack([np.triu(np.broadcast_to(length, (n, n))), np.zeros(n)])
 
 
 def named(given: dict[str, Floats], chain: Chain, single: tuple[str, ...]) -> None:
-    """Adds the derivatives by a length in proportion; those by data of which there is `single` one become columns."""
+    """Add the derivatives by a length in proportion; make those by `single` data one-dimensional."""
     turned = given["centroid"] * chain.centroid + given["radius_of_gyration"] * chain.radius_of_gyration
     given["length_in_proportion"] = given["length"] + turned / chain.length
     for name in single:
@@ -388,7 +408,7 @@ def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
 
 
 def _named(shape: SteadyShape, given: dict[str, Floats]) -> ShapeDerivatives:
-    """The derivatives, with those that follow from others, by data in their own units."""
+    """The derivatives by data in their own units, with those that follow from others."""
     rig = shape.system if isinstance(shape.system, Rig) else None
     chain = rig.chain if rig is not None else shape.system
     named(given, chain, ("angular_speed", "support_radius", *OF_SUPPORT))

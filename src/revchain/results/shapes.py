@@ -27,20 +27,20 @@ TURN = 2 * math.pi
 
 
 def is_driven(place: str, frame: str) -> bool:
-    """Whether `frame` is the driven one; a ValueError unless it is that or the free one."""
+    """Whether `frame` is ``driven``; a ValueError unless it is ``driven`` or ``free``."""
     if not isinstance(frame, str) or frame not in ("free", "driven"):
         raise ValueError(f"{place}: frame must be 'free' or 'driven', got {shown(frame)}")
     return frame == "driven"
 
 
 class Stability(Result):
-    """Linear stability of a steady shape; times in units of 1/n, n the turning speed.
+    """Linear stability of a steady shape; times are in units of 1/n, with n the turning speed.
 
     Notes
     -----
-    No damping is modelled in exponents and verdict. A minimum stays stable with friction at the pins. A shape that is
-    only ``spectrally stable`` is held by gyroscopic forces: the slightest friction at the pins makes those of its motions
-    grow whose energy is negative. `internal_damping` and `external_damping` say which, to first order.
+    Exponents and verdict are without damping. A minimum stays stable with friction at the pins. A shape that is only
+    ``spectrally stable`` is stabilized by gyroscopic forces: any friction at the pins makes its motions of negative energy
+    grow. `internal_damping` and `external_damping` give the effect on each motion, to first order.
 
     References
     ----------
@@ -54,7 +54,7 @@ class Stability(Result):
     >>> shape.stability().verdict, round(shape.stability().growth_rate, 4)
     ('unstable', 0.1091)
 
-    A shape that is stable without friction, and not with it:
+    A shape that is stable without friction and unstable with it:
 
     >>> pair = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0, mass=1.0), conical_height=0.2)[1].stability()
     >>> pair.verdict, bool(pair.internal_damping.max() > 0)
@@ -62,33 +62,36 @@ class Stability(Result):
     """
 
     __slots__ = ()
-    frame: Field[str] = Field("``'free'`` or ``'driven'``.", part=True)
+    frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", part=True)
     verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
     exponents: Field[NDArray[np.complex128]] = Field(
-        "All ``s`` of ``exp(s n t)``, by imaginary part, without those of the rotation itself: ``4 N - 2`` for N links in "
-        "the free frame, ``2 N`` in the driven one; links are rods without inertia about their own axes. There are fewer "
-        "where a pin carries no mass: the two links that meet there stay in line. A support that yields adds 4 in the free "
-        "frame, 2 in the driven one; one that is carried round adds 2 in the free frame, where no rotation is left out.",
+        "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N links "
+        "in the free frame, ``2 N`` in the driven frame. The links are rods without inertia about their own axes. A pin "
+        "without mass reduces the number: the two links that meet there stay in line. A support that yields adds 4 in the "
+        "free frame, 2 in the driven frame. A support carried round adds 2 in the free frame, because no rotation is left "
+        "out.",
         part=True,
     )
     internal_damping: Field[Floats] = Field(
-        "What friction at the pins does to each exponent: times a small damping c it is added to the growth rate (1/s). c, "
-        "N m s, is the moment at every pin over the rate at which its links turn against one another, as seen from the "
-        "turning chain; in 1/(kg m^2). NaN where two exponents coincide.",
+        "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added to the "
+        "growth rate (1/s). The damping c, N m s, is the moment at each pin divided by the relative angular speed of its "
+        "links in the turning frame. NaN if two exponents coincide.",
         part=True,
     )
     external_damping: Field[Floats] = Field(
-        "The same for drag in still air: c, N s/m^2, is the force on a metre of link over its velocity in space; in m/kg. "
-        "(Drag in proportion to mass lowers the growth rate by half of drag over mass, whatever the shape, where no link "
-        "has a flywheel.)",
+        "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the growth rate. "
+        "The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. (Without flywheels, a drag "
+        "proportional to mass lowers each growth rate by half the ratio of drag to mass.)",
         part=True,
     )
     growth_rate: Field[float] = Field(
-        "The largest real part, over the turning speed; NaN where it is not known, in a fluid that turns.", part=True
+        "Largest real part of the exponents, in units of the turning speed; NaN in a fluid that turns, where it is unknown.",
+        part=True,
     )
-    margin: Field[float] = Field("What rounding may explain of the growth rate where exponents meet.", part=True)
+    margin: Field[float] = Field("Part of the growth rate that rounding may cause where exponents meet.", part=True)
     negative_directions: Field[int] = Field(
-        "Of the energy in the turning frame, at constant angular momentum if free.", part=True
+        "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free frame.",
+        part=True,
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -107,14 +110,14 @@ class Stability(Result):
 
 
 def judged(found: _core.Stability, frame: str, shape: Shape) -> Stability:
-    """The compiled verdict on a shape; what damping does, per mass."""
+    """The stability of a shape from the compiled one; the effects of damping are converted to masses."""
     per = 1.0 if shape.system.by_mass or shape.gravity == 0 else shape.gravity
     damping = {name: per * getattr(found, name) for name in ("internal_damping", "external_damping")}
     return Stability._made(found, frame=frame, **damping)
 
 
 def forced(name: str) -> Any:
-    """A force of the compiled shape: where masses were given, times gravity."""
+    """A function that returns a force of the compiled shape, times gravity if masses were given."""
 
     def compute(shape: Any) -> Any:
         value, per = getattr(shape._found(), name), shape._per
@@ -124,21 +127,21 @@ def forced(name: str) -> Any:
 
 
 class Shape(Result):
-    """One steady shape (relative equilibrium) of a system at one speed; arrays begin at the free, or lower, end."""
+    """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
 
     __slots__ = ()
     system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity))
-    frequency: Field[float] = Field("Revolutions in a second, Hz.", lambda s: s.angular_speed / TURN)
-    rpm: Field[float] = Field("Revolutions in a minute.", lambda s: s.angular_speed * (60 / TURN))
+    frequency: Field[float] = Field("Revolutions per second, Hz.", lambda s: s.angular_speed / TURN)
+    rpm: Field[float] = Field("Revolutions per minute.", lambda s: s.angular_speed * (60 / TURN))
     period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
-    conical_height: Field[float] = Field("Height of the equivalent conical pendulum, m; 0 without gravity.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
 
     @property
     def _per(self) -> float:
-        """Forces over those of the compiled shape."""
+        """Factor from the forces of the compiled shape to those of the result."""
         return self.system._force(self.gravity)  # type: ignore[no-any-return]
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -147,11 +150,12 @@ class Shape(Result):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
@@ -171,14 +175,14 @@ class Shape(Result):
 
     @classmethod
     def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
-        """Of a list of shapes."""
+        """Columns of the table of a list of shapes."""
         raise NotImplementedError
 
 
 class SteadyShape(Shape):
     """One steady shape (relative equilibrium) of a chain or rig: links lowest first, pins free end first.
 
-    Returned by `steady_shapes`, `steady_shape` and branches.
+    `steady_shapes`, `steady_shape` and the branches return it.
 
     Examples
     --------
@@ -191,13 +195,13 @@ class SteadyShape(Shape):
     """
 
     __slots__ = ()
-    direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
     inclination: Field[Floats] = Field(
         "Inclination of each link to the downward vertical, rad, shape (N,), within (-pi, pi].", part=True
     )
     offset: Field[Floats] = Field(
-        "Distance of each pin from the axis, m, shape (N + 1,); the last is the support's, 0 but for a `Rig` that moves "
-        "it.",
+        "Signed distance of each pin from the axis, m, shape (N + 1,). The last is that of the support; it is 0 unless a `Rig` "
+        "moves it.",
         part=True,
     )
     height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).", part=True)
@@ -207,66 +211,67 @@ class SteadyShape(Shape):
         part=True,
     )
     reaction_inclination: Field[Floats] = Field(
-        "Inclination of that reaction to the vertical, rad, shape (N,).", part=True
+        "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,).", part=True
     )
     residual: Field[float] = Field(
-        "Largest moment about a pin of all that hangs there, over total weight times total length.", part=True
+        "Largest moment about a pin of the chain below it, divided by total weight times total length.", part=True
     )
     error_bound: Field[float] = Field(
-        "Bound of the error of every inclination, rad. Proved; at a fold of a branch only an estimate.", part=True
+        "Bound of the error of each inclination, rad. It is proved, except at a fold of a branch, where it is an estimate.",
+        part=True,
     )
     condition: Field[float] = Field(
-        "Largest change of an inclination, rad, over the relative change of the forces that causes it. Forces are weights "
-        "and centrifugal forces, each changed by the same share of itself, whatever the signs.",
+        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each weight and "
+        "each centrifugal force changes by up to this part of itself, with any sign.",
         part=True,
     )
     moment_of_inertia: Field[float] = Field(
-        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
     )
     effective_energy: Field[float] = Field(
-        "Potential energy less half of moment of inertia times speed squared, J: stationary at a steady shape.",
+        "Potential energy less half the moment of inertia times the speed squared, J; it is stationary at a steady shape.",
         forced("effective_energy"),
         part=True,
     )
     sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`.",
+        "Derivatives of inclinations, offsets and tensions by the speed and by each datum; see `ShapeSensitivity`.",
         shape_sensitivity,
     )
     angular_momentum: Field[float] = Field(
-        "About the axis, kg m^2/s, or in the unit of the weights; for a `Rig` with what its flywheels keep, negative "
-        "where all that turns the other way.",
+        "Angular momentum about the axis, kg m^2/s, or with the unit of the weights. For a `Rig` it includes that of the "
+        "flywheels, and is negative if the total is opposite to a positive speed.",
         lambda s: s._angular_momentum(),
     )
 
     def stability(self, *, frame: str = "free") -> Stability:
-        """Say what becomes of a small disturbance.
+        """Return the linear stability of the shape: the growth or decay of small disturbances.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            ``free``: ball joints and no torque about the axis, so that angular momentum is kept; if the support is carried
-            round, that has its speed kept instead. ``driven``: axles at right angles to a plane that is made to turn at
-            constant speed, so that links, and a support that yields, move in that plane alone.
+            ``free``: the links have ball joints and no torque acts about the axis, so that the angular momentum is constant;
+            a support that is carried round keeps its speed instead. ``driven``: the links have hinges; they, and a support
+            that yields, move in a plane that is driven at constant speed.
 
         Returns
         -------
         Stability
-            Exponents to about 1e-13 of the largest where they are simple. No damping is modelled; what little of it does
-            is in `Stability.internal_damping` and `Stability.external_damping`. Cost
-            ``(4 N)**3 / 2``: half a millisecond for twenty links, a tenth of a second for a hundred.
+            The stability. Accuracy: about 1e-13 of the largest exponent for simple ones. The exponents are without damping;
+            `Stability.internal_damping` and `Stability.external_damping` give the effect of a little of it. Cost:
+            ``(4 N)**3 / 2`` operations: half a millisecond for twenty links, a tenth of a second for a hundred.
 
         Raises
         ------
         ValueError
-            If `frame` is neither; for a `Rig`, if a motion moves no mass, or if a flywheel acts on a support that yields and
+            If `frame` is another word; if a motion of a `Rig` moves no mass, or a flywheel acts on a support that yields and
             has no mass.
 
         Notes
         -----
-        Links of a `Rig` in the free frame keep the angular momentum about their own axes, wheels and all, on free bearings
-        or driven: ball joints pass no torque along a link. Still fluid resists with its added mass alone. How a fluid that
-        turns moves around a disturbed link is not modelled: there are no exponents. A shape whose energy is least, at
-        constant speed and but for a rotation, is a minimum, and stable in any such fluid; any other is undecided.
+        In the free frame each link of a `Rig` keeps its angular momentum about its own axis (with its wheel, free or
+        driven), because ball joints transmit no torque along a link. Still fluid acts only by its added mass. The motion of
+        a turning fluid around a disturbed link is not modelled, so there are no exponents. A shape of least energy at
+        constant speed (except for a rotation) is then a minimum and stable in any such fluid; any other is undecided.
 
         Examples
         --------
@@ -275,7 +280,7 @@ class SteadyShape(Shape):
         >>> [shape.stability().verdict for shape in pair]
         ['minimum', 'unstable']
 
-        A chair of a carousel, outwards and in its two places inwards; friction upsets the last:
+        A chair of a carousel outwards and in two shapes inwards; friction makes the last one unstable:
 
         >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
         >>> chair = [shape.stability() for shape in rc.steady_shapes(carousel, angular_speed=3.0)]
@@ -298,8 +303,8 @@ class SteadyShape(Shape):
         Returns
         -------
         ForceDiagram
-            Rays are sums of weights and centrifugal forces from below: that they are parallel to the links proves the
-            shape anew.
+            The diagram. Its rays are sums of weights and centrifugal forces from below; they are parallel to the links,
+            which is an independent check of the shape.
 
         Raises
         ------
@@ -308,7 +313,7 @@ class SteadyShape(Shape):
 
         Notes
         -----
-        Greenhill (1908) section 3, figures 3 and 5.
+        Source: Greenhill (1908), section 3, figures 3 and 5.
 
         Examples
         --------
@@ -327,13 +332,13 @@ class SteadyShape(Shape):
         return ForceDiagram._made(found, **forces)
 
     def transferred_to_axis(self) -> Chain:
-        """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
+        """Return the straight chain whose weights hang on the axis at the heights that they have in the shape.
 
         Returns
         -------
         Chain
-            Each link is as long as it reaches down. One of its conical heights is the shape's, and that mode has the
-            shape's offsets, for links of any kind; for point masses it is mode ``half_waves``.
+            The chain; each link has the length of its vertical projection. One of its modes has the conical height and
+            the offsets of the shape, for links of any kind; for point masses it is mode ``half_waves``.
 
         Raises
         ------
@@ -342,8 +347,8 @@ class SteadyShape(Shape):
 
         Notes
         -----
-        Greenhill (1908) section 8 (21): inclinations enter through ``conical_height / cos(inclination)`` alone.
-        Perpendicular to the turning plane the shape is as stiff as this chain.
+        Inclinations enter relation (21) only through ``conical_height / cos(inclination)``. Perpendicular to the turning
+        plane the shape is as stiff as this chain. Source: Greenhill (1908), section 8 (21).
 
         Examples
         --------
@@ -430,7 +435,15 @@ _CORE = (
 
 
 class SteadyShapes(Results[Any]):
-    """The steady shapes of a system at one speed, by half waves, then inclination of the lowest link."""
+    """The steady shapes of a system at one speed, ordered by half waves, then inclination of the lowest link.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> shapes = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.1)
+    >>> [shape.half_waves for shape in shapes], shapes.complete
+    ([1, 2], True)
+    """
 
     __slots__ = ()
     system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
@@ -438,15 +451,15 @@ class SteadyShapes(Results[Any]):
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
     complete: Field[bool] = Field(
-        "Whether it is proved that none is missing; with both ends held, none of as many half waves as were asked for.",
+        "Whether it is proved that no shape is missing; for a held system, no shape of up to `max_half_waves` half waves.",
         part=True,
     )
     undecided: Field[Floats] = Field(
-        "Ranges of the lowest link's inclination in which there may be more, rad, shape (k, 2).", part=True
+        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2).", part=True
     )
-    cells: Field[int] = Field("How many parts of the range had to be looked at.", part=True)
+    cells: Field[int] = Field("Number of parts of the range that were examined.", part=True)
     missing: Field[tuple[int, ...]] = Field(
-        "With both ends held: half waves, of those asked for, with which nothing was found.", part=True
+        "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", part=True
     )
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -455,11 +468,12 @@ class SteadyShapes(Results[Any]):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
@@ -514,14 +528,14 @@ def _speed(height: float, gravity: float) -> float:
 
 
 def table(rows: list[Floats]) -> Floats:
-    """Arrays of one length as rows; as they are where the lengths differ."""
+    """Arrays of one length as rows of an array; unchanged if the lengths differ."""
     return np.array(rows) if rows else np.empty((0, 0))
 
 
 def shapes_made(
     found: _core.SteadyShapes, system: Chain | Rig, height: float, speed: float, gravity: float, direction: int
 ) -> SteadyShapes:
-    """A list around compiled shapes."""
+    """The list of the compiled shapes of a chain or rig."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     items = tuple(SteadyShape._made(shape, direction=direction, **given) for shape in found.shapes)
     return SteadyShapes._made(found, _items=items, conical_height=height, angular_speed=speed, missing=(), **given)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A result as a table: what people read, and what goes into dictionaries, files, pandas and xarray."""
+"""A result as a table, for people and for dictionaries, files, pandas and xarray."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ class Column:
     Attributes
     ----------
     name : str
-        In programs and files.
+        Name in programs and files.
     values : array or list
-        A list of arrays where rows have different lengths.
+        Values; a list of arrays if rows have different lengths.
     heading : str
-        In tables for people, with the unit; a column without one is not shown there.
+        Heading in printed tables, with the unit; a column without a heading is not printed.
     digits : int
-        Significant digits in tables.
+        Number of significant digits in printed tables.
     axes : tuple of str
         Names of the axes after the first.
     shown : array, optional
-        What tables show instead, such as degrees or words.
+        Values to print instead, such as degrees or words.
     left : bool
-        Whether tables align it on the left, as words are.
+        Whether printed tables align the column on the left.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Column:
     left: bool = False
 
     def cell(self, row: int) -> str:
-        """What a table shows in a row."""
+        """Text of a row in a printed table."""
         value = (self.values if self.shown is None else self.shown)[row]
         if isinstance(value, str):
             return value
@@ -69,18 +69,19 @@ class Sheet:
     Attributes
     ----------
     row : str
-        What a row is, such as ``"mode"``.
+        Name of a row, such as ``"mode"``.
     heading : str
-        Above the table.
+        Line above the table.
     columns : list of Column
+        Columns of the table.
     facts : dict
-        What belongs to the whole.
+        Data of the whole result.
     notes : list of str
-        Below the table.
+        Lines below the table.
     good : bool
         Whether everything was found and proved.
     spread : bool
-        Whether a table too long to be shown shows rows evenly spaced, not the first.
+        Whether a long table prints evenly spaced rows instead of the first ones.
     """
 
     row: str
@@ -96,7 +97,7 @@ class Sheet:
 
 
 def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
-    """Speeds, given in rad/s, in both units."""
+    """Columns of speeds, given in rad/s, in both units."""
     return [
         Column("angular_speed", speed, "speed (rad/s)", digits),
         Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits),
@@ -104,12 +105,12 @@ def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
 
 
 def digits(number: float, count: int) -> str:
-    """`number` with `count` significant digits, zeros at the end kept."""
+    """`number` as text with `count` significant digits, with zeros at the end."""
     return f"{number:#.{count}g}".removesuffix(".")
 
 
 def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
-    """Headings, some rows as text, and the lines below."""
+    """Headings, the printed rows as text, and the lines below."""
     shown = [column for column in sheet.columns if column.heading]
     if not shown:
         return [], [], sheet.notes
@@ -156,7 +157,7 @@ def as_dict(sheet: Sheet) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """As Python's numbers, text, lists and dictionaries; a complex number as a pair."""
+    """`value` as Python's numbers, text, lists and dictionaries; a complex number as a pair."""
     if isinstance(value, dict):
         return {name: plain(item) for name, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):
@@ -169,7 +170,7 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any) -> Any:
-    """The same for JSON, which has no infinity and no NaN: None in their place."""
+    """`value` for JSON: None in place of infinity and NaN, which JSON does not have."""
     if isinstance(value, dict):
         return {name: finite(item) for name, item in value.items()}
     if isinstance(value, list):
@@ -178,7 +179,7 @@ def finite(value: Any) -> Any:
 
 
 def as_csv(sheet: Sheet) -> str:
-    """One line for each row, with all digits; arrays as numbers separated by blanks."""
+    """The table as CSV: one line for each row, with all digits; arrays as numbers separated by blanks."""
     import csv
     import io
 
@@ -195,7 +196,7 @@ def _cell(value: Any) -> Any:
 
 
 def as_dataframe(sheet: Sheet) -> Any:
-    """A row of pandas for each row; facts are its ``attrs``; columns of arrays are left out."""
+    """The table as a pandas data frame; facts are its ``attrs``; columns of arrays are left out."""
     pandas = require("pandas", "sweep", "to_dataframe")
     columns = {column.name: column.values for column in sheet.columns if not column.axes}
     table = pandas.DataFrame(columns)
@@ -206,7 +207,7 @@ def as_dataframe(sheet: Sheet) -> Any:
 
 
 def as_dataset(sheet: Sheet) -> Dataset:
-    """A data set of xarray: the first axis counts the rows; facts are variables (arrays) or attributes."""
+    """The table as an xarray data set: the first axis counts the rows; facts are variables (arrays) or attributes."""
     xarray = require("xarray", "netcdf", "to_xarray")
     variables = {
         column.name: ((sheet.row, *column.axes), padded(column.values, 1 + len(column.axes)))
@@ -223,7 +224,7 @@ def as_dataset(sheet: Sheet) -> Dataset:
 
 
 def _attribute(value: Any) -> str | int | float:
-    """As netCDF can hold it: it has no bool and no nested data."""
+    """A value as a netCDF attribute, which cannot be a bool or nested data."""
     import json
 
     value = plain(value)

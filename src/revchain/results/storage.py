@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results in files: .npz with numpy alone, .nc (netCDF 4) through xarray. Nothing is pickled."""
+"""Results in files: .npz by numpy, .nc (netCDF 4) by xarray. Nothing is pickled."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from .base import Result, restored
 from .files import hdf5_file, naming, written_aside
 
 FORMAT = "revchain 2"
-HEADER = "revchain"  # the name under which a file says what it holds
-SEAL = b"revchain"  # then the CRC-32 of all bytes before it
+HEADER = "revchain"  # name of the entry that describes the contents of a file
+SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes before it
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> None:
@@ -31,14 +31,14 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
     arrays: dict[str, np.ndarray[Any, Any]] = {}
     if ending == ".nc":
         _netcdf("saving .nc files")
-        labelled = result.to_xarray()  # reads what it shows: that is saved, too
+        labelled = result.to_xarray()  # computes the fields of the table, so that they are saved, too
     header = json.dumps({"format": FORMAT, "result": _packed(result, type(result).__name__, arrays, {})})
     dataset = _dataset(labelled, header, arrays) if ending == ".nc" else None
     with naming(path), written_aside(path) as [aside]:
         if dataset is not None:
             _write_netcdf(dataset, aside)
         else:
-            with open(aside, "wb") as file:  # given a name, numpy may add to it
+            with open(aside, "wb") as file:  # numpy may add an ending to a name
                 np.savez(file, allow_pickle=False, **{HEADER: np.asarray(header)}, **arrays)
         if aside.is_file():
             with open(aside, "r+b") as whole:
@@ -46,24 +46,24 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
 
 
 def load(path: str | os.PathLike[str]) -> Any:
-    """Read a result that its method `save` wrote.
+    """Return a result from a file that its method `save` wrote.
 
     Parameters
     ----------
     path : path-like
-        Ends in ``.npz`` or ``.nc``.
+        Path that ends in ``.npz`` or ``.nc``.
 
     Returns
     -------
     Modes or another result
-        Equal to what was saved, bit for bit.
+        The result, equal to the saved one bit for bit.
 
     Raises
     ------
     ValueError
-        If the path has another ending, or the file holds something else or is damaged: its checksum tells.
+        If the path has another ending, or the file does not contain a result or is damaged (its checksum is wrong).
     ImportError
-        If what ``.nc`` needs is not installed; the message says how to install it.
+        If a package for ``.nc`` is not installed; the message says how to install it.
     OSError
         If the file cannot be read.
 
@@ -79,7 +79,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     ending = _ending("revchain.load", path)
     if ending == ".nc":
         xarray = _netcdf("reading .nc files")
-    with open(path, "rb") as file:  # the ordinary OSError where it cannot be read
+    with open(path, "rb") as file:  # raises the ordinary OSError if it cannot be read
         size = max(os.fstat(file.fileno()).st_size - len(SEAL) - 4, 0)
         if _seal(file, size) != file.read():
             reason = "not a result that revchain saved, or damaged since; compute and save it again"
@@ -104,7 +104,7 @@ def _loaded(path: str | os.PathLike[str], header: Any, arrays: Mapping[str, Any]
 
 
 def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str]) -> Any:
-    """`value` as JSON has it; its arrays go into `arrays` by name, and each system once, named in `made`."""
+    """`value` for JSON; its arrays go into `arrays` by name, and each system once, named in `made`."""
     if isinstance(value, np.ndarray):
         if value.dtype.kind != "c":
             arrays[name] = value
@@ -159,7 +159,7 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
 
 
 def _dataset(dataset: Any, header: str, arrays: dict[str, Any]) -> Any:
-    """The labelled data set, and beside it, exactly, what the result is made of again from."""
+    """The labelled data set with the exact data from which the result is restored."""
     dataset = dataset.assign_attrs({HEADER: header})
     for name in [name for name, column in dataset.variables.items() if column.dtype.kind == "c"]:
         dataset[f"{name}_real"], dataset[f"{name}_imaginary"] = dataset[name].real, dataset[name].imag
@@ -170,7 +170,7 @@ def _dataset(dataset: Any, header: str, arrays: dict[str, Any]) -> Any:
 
 
 def _seal(file: IO[bytes], size: int | None = None) -> bytes:
-    """What ends a file of ours, by its first `size` bytes. Readers of .npz and .nc files pass over it."""
+    """The end of a file of ours, from its first `size` bytes. Readers of .npz and .nc files ignore it."""
     checksum = 0
     while chunk := file.read(2**20 if size is None else min(2**20, size)):
         checksum = zlib.crc32(chunk, checksum)
@@ -187,7 +187,7 @@ def _write_netcdf(dataset: Any, path: Path) -> None:
 
 
 def _netcdf(purpose: str) -> Any:
-    """xarray, once what it needs for .nc files is known to be there."""
+    """The package xarray, after a check that its packages for .nc files are installed."""
     for module in ("h5py", "h5netcdf"):
         require(module, "netcdf", purpose)
     return require("xarray", "netcdf", purpose)

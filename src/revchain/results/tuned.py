@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `revchain.tune` returns."""
+"""The result of `revchain.tune`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Pair = tuple[float, float]
 
 
 class Tuned(Result):
-    """Which value of a datum gives a mode the speed wanted; returned by `tune`.
+    """The value of a datum that gives a mode a wanted speed; returned by `tune`.
 
     Examples
     --------
@@ -29,34 +29,35 @@ class Tuned(Result):
 
     __slots__ = ()
     status: Field[str] = Field(
-        "``'found'``; ``'no_value'`` where none does in the range; ``'undecided'`` where none was found and that there is "
-        "none could not be shown.",
+        "``'found'``; ``'no_value'`` if no value in the range gives the speed; ``'undecided'`` if none was found but it is not "
+        "proved that there is none.",
         part=True,
     )
-    vary: Field[str] = Field("What was changed, as in the question.", part=True)
-    system: Field[Any] = Field("The system with `value` in place; None where none was found.", part=True)
+    vary: Field[str] = Field("Path of the datum, as given.", part=True)
+    system: Field[Any] = Field("The system with the new `value`; None if none was found.", part=True)
     value: Field[float | None] = Field(
-        "The one nearest to the present value (for weights, in ratio, and but for others within a few per cent of it); "
-        "None where none was found.",
+        "The value nearest to the present one; for weights the nearest by ratio, or another within a few percent of it. None "
+        "if none was found.",
         part=True,
     )
     error_bound: Field[float | None] = Field(
-        "Absolute, proved: `value` is that near to one that does exactly (of cords, whose own bounds are measured to hold, "
-        "so is this). None where none was found, and of a rig's stiffness, momentum and spin, which are formed to 1e-15: "
-        "the bound of the new rig's speed is proved.",
+        "Proved bound of the absolute error of `value` (for cords checked by measurement, as their own bounds). None if no "
+        "value was found, and for stiffness, momentum and spin of a rig, which are computed to 1e-15; the bound of the new "
+        "rig's speed is then proved.",
         part=True,
     )
-    values: Field[Floats] = Field("All that were found in the range, ascending.", part=True)
+    values: Field[Floats] = Field("All values found in the range, ascending.", part=True)
     complete: Field[bool] = Field(
-        "Whether `values` are all there are in the range. For a weight of a chain, what is known is the nearest on either "
-        "side of the present value; of what is searched for, those between neighbours of 65 values.",
+        "Whether `values` has all values in the range. For a weight of a chain it has only the nearest on either side of the "
+        "present value; in a search, those between neighbours of 65 values.",
         part=True,
     )
-    present: Field[float] = Field("The datum as it is.", part=True)
-    between: Field[Pair] = Field("The range searched.", part=True)
+    present: Field[float] = Field("Present value of the datum.", part=True)
+    between: Field[Pair] = Field("Range of the search.", part=True)
     reachable: Field[Pair | None] = Field(
-        "Where none was found: the least and the largest conical height seen in the range, at 33 or 65 places; None of "
-        "what has one value for each speed.", part=True
+        "If no value was found: the smallest and the largest conical height in the range, at 33 or 65 values; None for a "
+        "datum with one value for each speed.",
+        part=True,
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:

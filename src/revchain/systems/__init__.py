@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What hangs: chains and rigs; numbers, units and their checks."""
+"""The four systems (`Chain`, `Rig`, `Cord`, `Held`), and the checks of numbers and units."""

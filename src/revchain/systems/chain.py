@@ -24,45 +24,45 @@ _GROUPS = 6  # of equal links that are described in words
 class Chain(System):
     """A chain of rigid links that hangs from a support, listed from the free end up.
 
-    Give each quantity as one number for every link, or as an array with one number for each link; at least one array
-    unless the chain has a single link. With only mass and length a link is a point mass on a massless thread
-    (plummet); with `centroid` and an inertia it is a rigid body. Numbers are in SI units; text with a unit
+    Give each quantity as one number for every link, or as an array with one number for each link. At least one must be
+    an array, unless the chain has a single link. With only mass and length a link is a point mass on a massless thread
+    (plummet). With `centroid` and an inertia it is a rigid body. Numbers are in SI units. Text with a unit
     (``"39 inch"``) and pint quantities are converted.
 
     Parameters
     ----------
     mass : array_like, shape (N,) or scalar
-        Mass of each link, kg, not negative; the lowest must be positive, 0 is a massless thread.
+        Mass of each link, kg, not negative. A link of mass 0 is a massless thread; the lowest link must have mass.
     weight : array_like, shape (N,) or scalar
-        Instead of `mass`: the weight of each link, N or any unit, as speeds depend on ratios only. Forces in results
-        are in the unit of the weights, with `mass` in newtons.
+        Weight of each link, instead of `mass`. Any unit will do, because speeds depend only on the ratios. Forces in
+        results are in this unit; with `mass` they are in newtons.
     length : array_like, shape (N,) or scalar
         Distance between the pins of each link, m, positive.
     centroid : array_like, shape (N,) or scalar, optional
-        Distance of the centre of gravity from the *upper* pin, m, positive downwards, of any sign.
-        Left out: point masses, with all the weight at the lower pin.
+        Distance of the centre of gravity below the *upper* pin, m; negative if it lies above the pin. If left out,
+        the links are point masses: all the weight is at the lower pin.
     pendulum_length : array_like, shape (N,) or scalar, optional
         Length of the equivalent simple pendulum about the upper pin, m.
     radius_of_gyration : array_like, shape (N,) or scalar, optional
-        Radius of gyration about the centre of gravity, m, not negative. With `centroid` give either
+        Radius of gyration about the centre of gravity, m, not negative. With `centroid`, give either
         this or `pendulum_length`.
     order : {"free end first", "support first"}
-        The order of the links in the arrays given. All results begin at the free end.
+        Order of the links in the arrays you give. All results begin at the free end.
     names : sequence of str, optional
         A name for each link, in the order given, for reports and pictures.
 
     Raises
     ------
     ValueError
-        For anything but real finite numbers, arrays of more than one dimension or of different
-        lengths, no links, a length that is not positive, a negative mass, a massless lowest link,
-        masses whose sum overflows, an imaginary radius of gyration, a link that would stand rather
-        than hang, a `centroid` without exactly one of the two arguments that go with it, another order, or a unit of
-        another kind.
+        If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
+        different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
+        no mass, or the sum of the masses overflows; if a radius of gyration is imaginary, or a link would stand instead
+        of hang; if `centroid` comes without exactly one of `pendulum_length` and `radius_of_gyration`; if `order` is
+        another word.
 
     Notes
     -----
-    One number given for all links stays one number inside. Cost O(N), once.
+    A number given for all links is stored once. Cost: O(N), when the chain is made.
 
     References
     ----------
@@ -80,7 +80,7 @@ class Chain(System):
     array([0.3048, 0.3   ])
     """
 
-    __slots__ = ("_compiled", "_names", "by_mass")
+    __slots__ = {"_compiled": None, "_names": None, "by_mass": "Whether the chain was given by mass, not by weight."}
     _compiled: _core.Chain
     _names: tuple[str, ...] | None
     by_mass: bool
@@ -151,8 +151,8 @@ class Chain(System):
 
         Notes
         -----
-        ``length / (count * conical_height)`` are the zeros of the Laguerre polynomial of degree
-        `count`. Greenhill (1908) sections 2 and 3. Memory O(1).
+        The values ``length / (count * conical_height)`` are the zeros of the Laguerre polynomial of degree `count`.
+        Memory: O(1). Source: Greenhill (1908), sections 2 and 3.
 
         Examples
         --------
@@ -191,8 +191,8 @@ class Chain(System):
 
         Notes
         -----
-        Greenhill (1908) section 8 (17). The conical heights tend to those of a uniform `Cord` as 1 / count**2. Memory
-        O(1).
+        The conical heights tend to those of a uniform `Cord` with an error proportional to 1 / count**2. Memory: O(1).
+        Source: Greenhill (1908), section 8 (17).
 
         Examples
         --------
@@ -220,25 +220,26 @@ class Chain(System):
         weight, mass : float, optional
             Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
         exponent : float
-            Of the line density, which is as the distance from the free end to this power; above -1 and at most
-            1000. 0: uniform rods; 1: a cord that thickens upwards; towards -1 the weight gathers at the free end.
+            The line density is proportional to the distance from the free end to this power, above -1 and at most 1000.
+            With 0 the links are uniform rods; with 1 the cord thickens upwards; towards -1 the weight gathers at the
+            free end.
 
         Returns
         -------
         Chain
-            It remembers the exponent, `taper`.
+            The chain. Its `taper` is the exponent.
 
         Raises
         ------
         ValueError
-            If `count` is below 1, `length` or `weight` is not positive and finite, the exponent is out of range, or
-            leaves the lowest link with less weight than 1e-292.
+            If `count` is below 1, `length` or `weight` is not positive and finite, the exponent is out of range, or it
+            leaves the lowest link a weight below 1e-292.
 
         Notes
         -----
-        Greenhill (1908) section 4. The conical heights tend to those of the `Cord` as 1 / count**2; `revchain.modes`
-        with `rtol` makes use of it. Weights within 0.51 ulp, and centroids for the length of a link as it is stored.
-        Cost: 0.5 to 2 microseconds a link.
+        The conical heights tend to those of the `Cord` with an error proportional to 1 / count**2; `revchain.modes`
+        with `rtol` uses this. Accuracy: weights within 0.51 ulp; centroids too, for the stored length of a link.
+        Cost: 0.5 to 2 microseconds a link. Source: Greenhill (1908), section 4.
 
         Examples
         --------
@@ -254,7 +255,7 @@ class Chain(System):
 
     @property
     def taper(self) -> float | None:
-        """Exponent of the line density of a chain that `tapered` made; None of others, and of what is made of one."""
+        """Exponent of the line density, if `tapered` made the chain; None for any other, also one derived from it."""
         return self._compiled.taper
 
     @property
@@ -264,60 +265,60 @@ class Chain(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes: `size`, less one for every massless link that takes a motion away."""
+        """Number of modes: `size`, less one for each massless link that has no motion of its own."""
         return self._compiled.mode_count
 
     @property
     def total_length(self) -> float:
-        """Length of the straight chain, from the support to the free end."""
+        """Length of the straight chain from the support to the free end, m."""
         return self._compiled.total_length
 
     @property
     def total_mass(self) -> float:
-        """Mass of all links together, kg, of a chain given by mass."""
+        """Mass of all links together, kg; an AttributeError if the chain was given by weight."""
         return self._measured("total_mass", True) and self._compiled.total_weight
 
     @property
     def total_weight(self) -> float:
-        """Weight of all links together, of a chain given by weight."""
+        """Weight of all links together; an AttributeError if the chain was given by mass."""
         return self._measured("total_weight", False) and self._compiled.total_weight
 
     @property
     def mass(self) -> Floats:
-        """Mass of each link, kg, shape (N,), lowest first, of a chain given by mass; read-only."""
+        """Mass of each link, kg, shape (N,), lowest first; an AttributeError if the chain was given by weight."""
         self._measured("mass", True)
         return self._column(self._compiled.weight)
 
     @property
     def weight(self) -> Floats:
-        """Weight of each link, shape (N,), lowest first, of a chain given by weight; read-only."""
+        """Weight of each link, shape (N,), lowest first; an AttributeError if the chain was given by mass."""
         self._measured("weight", False)
         return self._column(self._compiled.weight)
 
     @property
     def names(self) -> tuple[str, ...] | None:
-        """Names of the links, lowest first; None where none were given."""
+        """Names of the links, lowest first; None if no names were given."""
         return self._names
 
     @property
     def length(self) -> Floats:
-        """Distance between the pins of each link, shape (N,), lowest first; read-only."""
+        """Distance between the pins of each link, m, shape (N,), lowest first; read-only."""
         return self._column(self._compiled.length)
 
     @property
     def centroid(self) -> Floats:
-        """Distance of each centre of gravity below the upper pin, shape (N,); read-only."""
+        """Distance of each centre of gravity below the upper pin, m, shape (N,); read-only."""
         return self._column(self._compiled.centroid)
 
     @property
     def pendulum_length(self) -> Floats:
-        """Length of the equivalent simple pendulum of each link, shape (N,); infinite where the
+        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the
         centre of gravity lies in the upper pin; read-only."""
         return self._column(self._compiled.pendulum_length)
 
     @property
     def radius_of_gyration(self) -> Floats:
-        """Radius of gyration of each link about its centre of gravity, shape (N,); read-only."""
+        """Radius of gyration of each link about its centre of gravity, m, shape (N,); read-only."""
         return self._column(self._compiled.radius_of_gyration)
 
     def with_body(
@@ -328,18 +329,18 @@ class Chain(System):
         Parameters
         ----------
         mass, weight : float
-            Positive; the mass, in kg, if the chain was given by mass, else the weight.
+            Mass in kg if the chain was given by mass, else the weight; positive.
         pin : int
-            0 for the free end, else the number of links below the pin, less than N.
+            Number of links below the pin, from 0 (the free end) to N - 1.
         radius_of_gyration : float
-            Of a body, m, about its centre of gravity, which lies in the pin; it turns with the link above. A
-            point mass has none.
+            Radius of gyration of the body about its centre of gravity, m; 0 for a point mass. The centre of gravity
+            lies in the pin, and the body turns with the link above.
 
         Returns
         -------
         Chain
-            The link above the pin and the body are one body in it: mass and centroid rounded once, the
-            radius of gyration kept in two words. Heights within 3 ulp of the exact body's.
+            A chain in which the link above the pin includes the body. Its mass and centroid are rounded once, and its
+            radius of gyration is kept in double-double. Conical heights are within 3 ulp of the exact body's.
 
         Raises
         ------
@@ -360,19 +361,19 @@ class Chain(System):
         return self._wrap(made, self.by_mass, self._names)
 
     def with_thread(self, length: float, pin: int) -> Chain:
-        """Return the chain with a massless thread put in.
+        """Return the chain with a massless thread inserted at one of its pins.
 
         Parameters
         ----------
         length : float
-            Positive.
+            Length of the thread, m, positive.
         pin : int
-            Where: the number of links below it, 1 to N; N is the support, which the thread then hangs from.
+            Number of links below the thread, 1 to N. With N the thread hangs from the support.
 
         Returns
         -------
         Chain
-            Of N + 1 links.
+            The chain, with N + 1 links.
 
         Raises
         ------
@@ -391,7 +392,7 @@ class Chain(System):
         return self._wrap(made, self.by_mass, self._names and (*self._names[:at], "thread", *self._names[at:]))
 
     def clamped(self, link: int) -> Chain:
-        """Return the chain with two neighbouring links locked in line, as one rigid link.
+        """Return the chain with two neighbouring links locked in line as one rigid link.
 
         Parameters
         ----------
@@ -401,7 +402,7 @@ class Chain(System):
         Returns
         -------
         Chain
-            Of N - 1 links. Its conical heights lie between those of this chain.
+            The chain, with N - 1 links. Its conical heights lie between those of the original chain.
 
         Raises
         ------
@@ -424,7 +425,7 @@ class Chain(System):
         return ["support: firm", *self._link_words()]
 
     def _link_words(self) -> list[str]:
-        """Its links from the support down, equal ones together, some left out where there are many kinds."""
+        """Descriptions of the links from the support down: equal neighbours together, the middle left out if long."""
         starts = self._groups()
         ends = [*starts[1:], self.size]
         words = [self._group(start, end - start) for start, end in zip(starts, ends, strict=True)][::-1]
@@ -434,7 +435,7 @@ class Chain(System):
         return words
 
     def _groups(self) -> list[int]:
-        """Where links begin that are unlike those below."""
+        """Index of the first link of each run of equal links, from the free end up."""
         numbers = (self._compiled.weight, self._compiled.length, self._compiled.centroid, self._compiled.radius_of_gyration)
         columns = [np.asarray(numbers_of) for numbers_of in numbers if numbers_of.ndim]
         if not columns and self._names is None:
@@ -448,7 +449,7 @@ class Chain(System):
         return [int(k) for k in np.flatnonzero(unlike)]
 
     def _group(self, first: int, count: int) -> str:
-        """In words, so many equal links."""
+        """Description of `count` equal links."""
         core = self._compiled
         numbers = (core.weight, core.length, core.centroid, core.radius_of_gyration)
         heavy, long, centroid, radius = (float(x[first] if x.ndim else x) for x in numbers)
@@ -468,7 +469,7 @@ class Chain(System):
         return "kg" if self.by_mass else "N"
 
     def _measured(self, name: str, by_mass: bool) -> bool:
-        """True; an AttributeError where a mass is asked of a chain given by weight, or a weight of one given by mass."""
+        """True if the chain was given by the quantity of that name, mass or weight; an AttributeError if not."""
         if self.by_mass != by_mass:
             given, other = ("mass", "weight") if self.by_mass else ("weight", "mass")
             raise AttributeError(
@@ -503,12 +504,12 @@ class Chain(System):
         return self._compiled
 
     def _state(self) -> tuple[Any, ...]:
-        """All it is made of: numbers and arrays."""
+        """The numbers and arrays that make up the chain."""
         return self._compiled.__getstate__(), self.by_mass, self._names
 
     @classmethod
     def _from_state(cls, state: Any) -> Chain:
-        """For every pickle protocol, which the compiled one is not."""
+        """The chain from its state, for every pickle protocol (the compiled class knows only some)."""
         parts, by_mass, names = state
         compiled = _core.Chain.__new__(_core.Chain)
         compiled.__setstate__(tuple(parts))
@@ -545,7 +546,7 @@ class Chain(System):
 
 
 def like(place: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:
-    """A mass where the chain was given by mass, else a weight; a ValueError for the other."""
+    """The mass if the chain was given by mass, else the weight; a ValueError if the wrong one was given."""
     by_mass, heavy = mass_or_weight(place, mass, weight, of)
     if by_mass != chain.by_mass:
         given, other = ("mass", "weight") if chain.by_mass else ("weight", "mass")
@@ -554,7 +555,7 @@ def like(place: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:
 
 
 def _whole(place: str, mass: float | None, weight: float | None) -> tuple[bool, float]:
-    """Whether the mass of a whole chain is given, and the number; its weight is 1 if nothing is."""
+    """Whether the mass of a whole chain is given, and its mass or weight; the weight is 1 if neither is given."""
     if mass is None and weight is None:
         return False, 1.0
     by_mass, heavy = mass_or_weight(place, mass, weight)
@@ -587,7 +588,7 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
 
 
 def checked(place: str, by_mass: bool, make: Callable[..., Any], *given: Any, **named: Any) -> Any:
-    """What `make` returns; its errors name `place`, and masses where masses were given."""
+    """The result of `make`. Its errors name `place`, and say "mass" if masses were given."""
     try:
         return make(*given, **named)
     except ValueError as error:
@@ -596,7 +597,7 @@ def checked(place: str, by_mass: bool, make: Callable[..., Any], *given: Any, **
 
 
 def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:
-    """What the compiled module takes; a TypeError for anything but a chain, a ValueError for too many links."""
+    """The compiled chain; a TypeError if `chain` is not a Chain, a ValueError if it has too many links."""
     if not isinstance(chain, Chain):
         raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
     if link_by_link:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Paths to the data of a system, such as ``links[0].mass``: what is there, and the system with another number there."""
+"""Paths to the data of a system, such as ``links[0].mass``: the number there, and the system with another number."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ class Datum:
     Attributes
     ----------
     path : str
-        Where it is.
+        Path of the number.
     present : float
-        What it is.
+        Present value.
     change : callable
-        The system with another value; a ValueError where it cannot have that.
+        Returns the system with another value; raises a ValueError if the system cannot have that value.
     typical : float
         A value of ordinary size, positive.
     floor : float or None
-        All values lie above it; None: they have either sign.
+        Lower limit of all values; None if they may have either sign.
     ceiling : float
-        Where a search for values of either sign ends, if the present one is not beyond it.
+        End of a search for values of either sign, unless the present value lies beyond it.
     rate : (str, ndarray) or None
-        The field of the sensitivities of a `Chain` or a `Rig` that has its derivatives, and how much each link has part in
-        it; None where there is none.
+        Field of the sensitivities of a `Chain` or a `Rig` that has the derivatives, and the weight of each link in the
+        sum; None if there is none.
     link : int
-        The link that it is of, from 0 for the lowest; 0 where it is of none.
+        Index of the link, from 0 for the lowest; 0 if the number belongs to no link.
     one_way : bool
-        Whether every speed is known to change one way with it, so that there is at most one value for each.
+        Whether every speed is known to be monotonic in the number, so that each speed has at most one value.
     """
 
     path: str
@@ -60,17 +60,17 @@ class Datum:
 
     @property
     def quantity(self) -> str:
-        """What it is, by the name that its unit has."""
+        """Name of the quantity, which decides the unit."""
         return self.path.rpartition(".")[2]
 
     @property
     def has_scale(self) -> bool:
-        """Whether a search in ratio can start where it is."""
+        """Whether a search by ratio can start at the present value."""
         return self.floor is None or self.floor < self.present < math.inf
 
 
 def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
-    """The datum of a path; a ValueError for another, with those that there are."""
+    """The datum of a path; for an unknown path a ValueError that lists the known ones."""
     name, link = path, None
     if isinstance(path, str) and (found := re.fullmatch(r"(links|flywheels|displaced)\[(\d+)\]\.(\w+)", path)):
         name, link = f"{found[1]}[k].{found[3]}", int(found[2])
@@ -107,7 +107,7 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
 
 
 def refuse_overlap(place: str, paths: Iterable[str]) -> None:
-    """A ValueError for two paths that change the same number."""
+    """Raise a ValueError if two paths change the same number."""
     before: list[str] = []
     for path in paths:
         for other in before:
@@ -119,7 +119,7 @@ def refuse_overlap(place: str, paths: Iterable[str]) -> None:
 
 
 def _holds(one: str, other: str) -> bool:
-    """Whether a change of `one` changes what `other` is."""
+    """Whether a change of the datum `one` changes the datum `other`."""
     where, _, name = other.rpartition(".")
     if one in ("mass", "weight", "length"):
         return where.startswith("links") and (name == one or (one == "length" and name in _LENGTHS))
@@ -133,7 +133,7 @@ def _kind(system: Any) -> str:
 
 
 def _paths(system: Any, heavy: str) -> list[str]:
-    """The paths of a system, with k for the number of a link."""
+    """The paths of a system, with k for the index of a link."""
     if isinstance(system, Cord):
         return ["length", heavy, f"tip_{heavy}"]
     own = [f"links[k].{name}" for name in (heavy, *_LENGTHS)]
@@ -175,7 +175,7 @@ def _of_chain(place: str, chain: Chain, path: str, link: int | None) -> Datum:
 
 
 def _scaled(place: str, chain: Chain, heavier: float, longer: float) -> Chain:
-    """All masses, all lengths times a factor."""
+    """The chain with all masses multiplied by one factor and all lengths by another."""
     size, heavy, length, centroid, *rest = chain._compiled.__getstate__()
     return _chain(place, chain, (size, heavier * heavy, longer * length, longer * centroid, *rest))
 
@@ -267,7 +267,7 @@ def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float
         least = 0.0 if held.weightless else held._force(gravity) * held._total
         return Datum(path, held.tension, lambda x: made(held.system, x), held.tension, floor=least, one_way=True)
     own = _of_cord(place, held.system, path) if isinstance(held.system, Cord) else _of_chain(place, held.system, path, link)
-    # More mass anywhere slackens what is below, and has more inertia: all speeds fall.
+    # More mass anywhere lowers the tension below it and adds inertia: all speeds fall.
     heavy = path.rpartition(".")[2] in ("mass", "weight")
     floor = held.span if path == "length" and held.span is not None else own.floor
     return replace(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packages that are not always there, imported when first needed."""
+"""Optional packages, imported when first needed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 def require(module: str, extra: str, purpose: str) -> Any:
-    """Import `module`; where it is missing, say which extra of revchain brings it."""
+    """Import `module`; if it is missing, raise an ImportError that names the extra of revchain to install."""
     try:
         return import_module(module)
     except ModuleNotFoundError as error:

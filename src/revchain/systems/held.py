@@ -22,32 +22,32 @@ class Held(System):
     Parameters
     ----------
     system : Chain or Cord
-        Its free end is the lower end, held too. A cord must be uniform and without a tip.
+        The chain or cord; its free end becomes the lower end. A cord must be uniform and without a tip.
     span : float
-        Distance of the two ends along the axis, m, positive, less than the length.
+        Distance between the two ends along the axis, m, positive, less than the length.
     tension : float
-        Instead of `span`: the tension at the upper end, in N (for a system given by weight in the unit of the
-        weights), positive.
+        Tension at the upper end, instead of `span`; positive, in N or, for a system given by weight, in its unit.
     weightless : bool
-        Without gravity. A system given by weight is then taken to have those numbers as masses.
+        True to leave gravity out. The weights of a system given by weight then count as masses.
     lower, upper : Support, optional
-        What holds an end of a chain, if not a firm point on the axis: `stiffness` of a spring that lets it move across the
-        axis, the `mass` that moves with it, the `radius` of the circle in which it is carried round. Both radii lie in
-        one plane with the axis; one below 0 is on the other side of it. Under a tension both ends must be on the axis.
+        Support of an end of a chain; a firm point on the axis if left out. `stiffness` is that of a spring across the
+        axis, `mass` moves with the end, and `radius` is that of the circle in which the end is carried round. Both radii
+        lie in one plane with the axis; a negative one is on the other side. With a tension both radii must be 0.
 
     Raises
     ------
     ValueError
-        Unless exactly one of `span` and `tension` is given, for numbers out of their range, a span that is not less
-        than the length, firm ends farther apart than it, a radius with a tension, `lower` or `upper` of a cord, a cord that
-        is not uniform.
+        If not exactly one of `span` and `tension` is given; if a number is out of its range; if the span, or the
+        distance between firm ends, is not less than the length; if a radius comes with a tension; if a cord is not
+        uniform, or comes with `lower` or `upper`.
     TypeError
-        If `system` is neither a `Chain` nor a `Cord`, `lower` or `upper` no `Support`.
+        If `system` is not a `Chain` or a `Cord`, or `lower` or `upper` is not a `Support`.
 
     Notes
     -----
-    A span is the question of `steady_shapes`: the chain is bent at every speed. Under a tension that exceeds its weight
-    it can also hang straight, with the speeds of `modes`; without gravity under any tension.
+    With a span the chain is bent at every speed: use `steady_shapes`. With a tension greater than its weight (without
+    gravity, with any tension) the chain can also be straight; `modes` returns its critical speeds. Cost: O(1). Source:
+    Greenhill (1908), section 3 for weights on a taut string, section 5 for the cord, section 8 (21) for links.
 
     Examples
     --------
@@ -59,7 +59,7 @@ class Held(System):
     >>> round(float(shape.offset.max()), 4)
     2.7383
 
-    The same blade on arms of 0.5 m and 1 m, which could bow inwards, too:
+    The same blade on arms of 0.5 m and 1 m; it can bow outwards or inwards:
 
     >>> arms = {"lower": rc.Support(radius=0.5), "upper": rc.Support(radius=1.0)}
     >>> shapes = rc.steady_shapes(rc.Held(blade.system, span=8.0, **arms), angular_speed=12.0, budget=0)
@@ -67,7 +67,14 @@ class Held(System):
     [3.4513, -1.9888]
     """
 
-    __slots__ = ("lower", "span", "system", "tension", "upper", "weightless")
+    __slots__ = {
+        "lower": "Support of the lower end.",
+        "span": "Distance between the two ends along the axis, m; None if the tension was given.",
+        "system": "The chain or cord.",
+        "tension": "Tension at the upper end; None if the span was given.",
+        "upper": "Support of the upper end.",
+        "weightless": "Whether gravity is left out.",
+    }
     system: Chain | Cord
     span: float | None
     tension: float | None
@@ -116,28 +123,30 @@ class Held(System):
 
     @property
     def is_on_axis(self) -> bool:
-        """Whether the ends, or the places of rest of their springs, are on the axis, so that shapes have mirror images."""
+        """Whether both ends (with springs: their places of rest) are on the axis, so that shapes have mirror images."""
         return self.lower.radius == self.upper.radius == 0.0
 
     @property
     def is_firm(self) -> bool:
-        """Whether neither end is on a spring."""
+        """Whether both ends are firm: neither is on a spring."""
         return math.isinf(self.lower.stiffness) and math.isinf(self.upper.stiffness)
 
     @property
     def length(self) -> float:
-        """Of the chain or cord, m."""
+        """Length of the chain or cord, m."""
         return self.system.length if isinstance(self.system, Cord) else self.system.total_length
 
     @property
     def size(self) -> int:
-        """Number of links; 0 of a cord."""
+        """Number of links; 0 for a cord."""
         return self.system.size if isinstance(self.system, Chain) else 0
 
     @property
     def mode_count(self) -> int | None:
-        """Number of modes of the straight chain: N - 1 of N links, one more for each end on a spring, less one for each
-        pin that moves without mass; None of a cord."""
+        """Number of modes of the straight chain; None for a cord.
+
+        It is N - 1 for N links, one more for each end on a spring, and one less for each movable pin without mass.
+        """
         if not isinstance(self.system, Chain):
             return None
         if self.is_firm or self.tension is None:
@@ -154,14 +163,14 @@ class Held(System):
 
     @property
     def _total(self) -> float:
-        """All that weighs, as it was given."""
+        """Mass or weight of the whole system, as given."""
         return self.system._compiled.weight if isinstance(self.system, Cord) else self.system._compiled.total_weight
 
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
 
     def _pull(self, gravity: float) -> float | None:
-        """The tension for the compiled system."""
+        """Tension that the compiled system takes."""
         return None if self.tension is None else self.tension / self._force(gravity)
 
     def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
@@ -170,12 +179,12 @@ class Held(System):
         return _core.Held(self.system._compiled, self.span, self._pull(gravity), self.weightless, *self._ends(gravity))
 
     def _between_its_ends(self, system: Chain | Cord, span: float | None, tension: float | None) -> Held:
-        """Another chain or cord, or at another span or tension, between the same ends."""
+        """The same ends with another chain or cord, span or tension."""
         ends = {} if isinstance(system, Cord) else {"lower": self.lower, "upper": self.upper}
         return Held(system, span=span, tension=tension, weightless=self.weightless, **ends)
 
     def _ends(self, gravity: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Stiffness, weight and radius of what holds the ends, for the compiled system."""
+        """Stiffness, weight and radius of each end, as the compiled system takes them."""
         force = self._force(gravity)
         lower, upper = ((end.stiffness / force, end.carriage, end.radius) for end in (self.lower, self.upper))
         return lower, upper

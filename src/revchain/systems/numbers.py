@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What users pass in, as the float64 arrays that the compiled module takes."""
+"""Checks of the arguments of users, and conversion to the float64 arrays that the compiled module takes."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
 
 
 def array_of(value: object) -> NDArray[Any]:
-    """`value` as numpy has it; an array of None for what it refuses, ragged lists among others."""
+    """`value` as a numpy array; an array of None if numpy refuses it (a ragged list, for example)."""
     try:
         return np.asarray(value)
     except (TypeError, ValueError, OverflowError):
@@ -73,7 +73,7 @@ def place_of(place: str, name: str, value: object, size: int) -> int:
 
 
 def count(place: str, name: str, value: object, each: int = 0) -> int:
-    """`value` as an int from 1 on; a ValueError where so many results of `each` bytes do not fit in the memory."""
+    """`value` as an int of at least 1; a ValueError if so many results of `each` bytes exceed the memory."""
     number = _whole(place, name, value)
     if number < 1:
         raise ValueError(f"{place}: {name} must be at least 1, got {shown(number)}")
@@ -84,7 +84,7 @@ def count(place: str, name: str, value: object, each: int = 0) -> int:
 
 
 def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
-    """A ValueError where so many numbers of `each` bytes are more than the memory of this machine."""
+    """Raise a ValueError if so many numbers of `each` bytes exceed the memory of this machine."""
     if number < 100_000:
         return
     if number * each > (memory := _memory()):
@@ -97,14 +97,14 @@ def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
 
 @cache
 def _memory() -> int:
-    """Bytes of this machine; where it does not tell, what a process can address."""
+    """Memory of this machine in bytes; if unknown, what a process can address."""
     with suppress(AttributeError, ValueError, OSError):
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     return 2**47
 
 
 def limit(place: str, name: str, value: object) -> int:
-    """`value` as an int; beyond what the compiled module can hold, the largest that it can."""
+    """`value` as an int, at most the largest that the compiled module can hold."""
     return int(min(max(_whole(place, name, value), -LARGEST), LARGEST))
 
 
@@ -116,7 +116,7 @@ def _whole(place: str, name: str, value: object) -> int:
 
 
 def listed(place: str, name: str, value: object) -> list[Any]:
-    """`value` as a list; a ValueError for what holds nothing one after another."""
+    """`value` as a list; a ValueError if it is not iterable."""
     try:
         return list(value)  # type: ignore[call-overload,no-any-return]
     except (TypeError, ValueError):
@@ -138,7 +138,7 @@ def text(place: str, name: str, value: object) -> str:
 
 
 def file_path(place: str, name: str, value: object) -> str:
-    """`value` as the path of a file; a TypeError or a ValueError for what is none."""
+    """`value` as the path of a file; a TypeError or a ValueError if it is not a path."""
     if not isinstance(value, str | os.PathLike) or not isinstance(path := os.fspath(value), str):
         raise TypeError(f"{place}: {name} must be a path, that is text or a pathlib.Path, got {shown(value)}")
     if "\0" in path:
@@ -147,14 +147,14 @@ def file_path(place: str, name: str, value: object) -> str:
 
 
 def boolean(place: str, name: str, value: object) -> bool:
-    """`value` as a bool; anything else, 0 and 1 too, is refused with a TypeError."""
+    """`value` as a bool; a TypeError for anything else, 0 and 1 included."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{place}: {name} must be True or False, got {shown(value)}")
     return bool(value)
 
 
 def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
-    """A ValueError with the first of the wrong numbers."""
+    """Raise a ValueError that shows the first wrong number, if there is one."""
     if wrong.any():
         raise ValueError(f"{message}, got {array[wrong].flat[0]:g}")
 
@@ -170,7 +170,7 @@ def real(place: str, name: str, value: object) -> float:
 
 
 def reals(place: str, **given: object) -> dict[str, float]:
-    """Single real numbers by name; their ranges are left to the compiled module."""
+    """Single real numbers by name; the compiled module checks their ranges."""
     return {name: real(place, name, value) for name, value in given.items()}
 
 
@@ -187,7 +187,7 @@ def one_positive(place: str, name: str, value: object) -> float:
 
 
 def exactly_one(place: str, **given: float | None) -> tuple[str, float]:
-    """Name and value, positive and finite, of the only one that is not None."""
+    """Name and value of the only argument that is not None; the value must be positive and finite."""
     known = [name for name, value in given.items() if value is not None]
     if len(known) != 1:
         *others, last = given
@@ -205,7 +205,7 @@ def height_of(
     height_name: str = "conical_height",
     speed_name: str = "angular_speed",
 ) -> float:
-    """The conical height given, or that of the speed given."""
+    """The given conical height, or the conical height of the given speed."""
     name, value = exactly_one(place, **{height_name: conical_height, speed_name: speed})
     if name == height_name:
         return value
@@ -216,7 +216,7 @@ def height_of(
 
 
 def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
-    """The arrays broadcast to one shape; a ValueError names those whose shapes do not go together."""
+    """The arrays broadcast to one shape; a ValueError lists the shapes if they cannot be broadcast."""
     try:
         return list(np.broadcast_arrays(*arrays.values()))
     except ValueError:
@@ -225,14 +225,14 @@ def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
 
 
 def beside(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
-    """The arrays broadcast to one shape; a single number after the first stays one, compiled functions repeat it."""
+    """The arrays broadcast to one shape; single numbers after the first stay single, as compiled functions repeat them."""
     first, *others = together(place, **arrays)
     given = list(arrays.values())[1:]
     return [first, *(one if one.ndim == 0 else many for one, many in zip(given, others, strict=True))]
 
 
 def as_length(place: str, name: str, value: Any) -> Any:
-    """`value`, a force given as the length of chain that weighs as much; a ValueError if it has a unit."""
+    """`value`, a force expressed as a length of chain of that weight; a ValueError if it has a unit."""
     if units.are_there(value):
         why = "it is the length of chain or rope that weighs as much"
         raise ValueError(f"{place}: {name} must be a number without a unit ({why}), got {shown(value)}")
@@ -245,12 +245,12 @@ def positives(place: str, **given: ArrayLike) -> list[Floats]:
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
-    """The arrays, or their numbers where they have no axis."""
+    """The arrays; those without an axis as numbers."""
     return (array[()] for array in arrays)
 
 
 def mass_or_weight(place: str, mass: Any, weight: Any, of: str = "") -> tuple[bool, Any]:
-    """Whether the mass is given, and which number it is; a ValueError unless exactly one of the two is."""
+    """Whether the mass is given, and the value of mass or weight; a ValueError unless exactly one is given."""
     if (mass is None) == (weight is None):
         both = "both" if mass is not None else "neither"
         raise ValueError(f"{place}: give either {of}mass, in kg, or {of}weight, in N, got {both}")
@@ -258,7 +258,7 @@ def mass_or_weight(place: str, mass: Any, weight: Any, of: str = "") -> tuple[bo
 
 
 def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
-    """The numbers of links as arrays by name: mass or weight, length and, for bodies, what goes with them."""
+    """The data of links as arrays by name: mass or weight, length and, for bodies, centroid and inertia."""
     centroid, pendulum, radius = given["centroid"], given["pendulum_length"], given["radius_of_gyration"]
     if centroid is None and not (pendulum is None and radius is None):
         raise ValueError(f"{place}: {'pendulum_length' if radius is None else 'radius_of_gyration'} needs centroid beside it")
@@ -268,7 +268,7 @@ def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
 
 
 def shown(value: object, width: int = 60) -> str:
-    """`value` as an error message shows it: its repr, cut where it is long; its type where it has no repr."""
+    """`value` as an error message shows it: its repr, shortened if it is long; its type if it has no repr."""
     try:
         text = repr(value)
     except Exception:  # a whole number of more than 4300 digits, or any object of a caller

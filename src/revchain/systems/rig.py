@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain and what it is rigged with: a support that yields or is carried round, flywheels, a fluid, inverted links."""
+"""A chain and its fittings: a support that yields or is carried round, flywheels, a fluid, inverted links."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FLUIDS = ("still", "turning")
 
 
 class _Fitting(Unchangeable):
-    """Something that a rig has beside its chain: numbers by name."""
+    """A fitting of a rig: numbers by name."""
 
     __slots__ = ("_given",)
     _given: dict[str, Any]
@@ -60,7 +60,7 @@ class _Fitting(Unchangeable):
 
 
 def _alike(one: Any, other: Any) -> bool:
-    """Whether numbers are equal; one number equals an array of it."""
+    """Whether two values are equal; a number equals an array that repeats it."""
     shapes = {np.shape(one), np.shape(other)} - {()}
     return len(shapes) < 2 and bool(np.all(np.equal(one, other)))
 
@@ -70,22 +70,28 @@ def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
 
 
 class Support(_Fitting):
-    """What the uppermost pin is held by; a firm point on the axis where no support is given.
+    """The support of the uppermost pin: firm, on a sideways spring, or carried round in a circle.
+
+    A rig without a support hangs from a firm point on the axis.
 
     Parameters
     ----------
     stiffness : float
-        Of a spring that holds it sideways, N/m, positive; infinite: firm.
+        Sideways stiffness of the spring, N/m, positive; infinite for a firm support.
     mass, weight : float, optional
-        Of what moves sideways with a support that yields, kg or N, as the chain was given.
+        Mass (kg) or weight (N) that moves sideways with the pin, in the same quantity as the chain.
     radius : float
-        Radius of the circle in which the support (the place of rest of its spring) is carried round, m; 0 on the axis.
-        At an end of a `Held` it may be negative: on the other side of the axis.
+        Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is that of the
+        place of rest. At an end of a `Held` it may be negative: on the other side of the axis.
 
     Raises
     ------
     ValueError
-        For numbers that are not finite or out of their range.
+        If a number is not finite or is out of its range.
+
+    References
+    ----------
+    Greenhill (1908), sections 1 (9) and 2 (7).
 
     Examples
     --------
@@ -116,17 +122,17 @@ class Support(_Fitting):
 
     @property
     def stiffness(self) -> float:
-        """Of the spring, N/m; infinite where it is firm."""
+        """Stiffness of the spring, N/m; infinite for a firm support."""
         return float(self._given.get("stiffness", math.inf))
 
     @property
     def radius(self) -> float:
-        """Of the circle in which it is carried round, m."""
+        """Radius of the circle in which the support is carried round, m."""
         return float(self._given.get("radius", 0.0))
 
     @property
     def carriage(self) -> float:
-        """Mass or weight of what moves with it."""
+        """Mass or weight that moves with the pin."""
         return float(self._given.get("mass", self._given.get("weight", 0.0)))
 
     def _words(self, unit: str) -> str:
@@ -136,36 +142,39 @@ class Support(_Fitting):
 
 
 class Flywheel(_Fitting):
-    """Wheels that spin about the axes of links. Numbers are one for all links or arrays with one for each, lowest first.
+    """Wheels that spin about the axes of links.
+
+    Give each quantity as one number for every link, or as an array with one number for each link, lowest first.
 
     Parameters
     ----------
     mass, weight : array_like, shape (N,) or scalar
-        Of each wheel, kg or N, as the chain was given; 0 where there is none. It is part of the link's own mass.
+        Mass (kg) or weight (N) of each wheel, in the same quantity as the chain; 0 if a link has no wheel. The mass of
+        the link includes it.
     radius_of_gyration : array_like
-        Of each wheel about its axis, which is that of the link, m.
+        Radius of gyration of each wheel about its axis, m. The axis is that of the link.
     spin : array_like
-        rad/s, positive where a hanging link's wheel turns as a positive speed does. On free bearings: as seen from
-        outside, and the wheel keeps it. Driven: as seen from the link.
+        Spin of each wheel, rad/s; positive if the wheel of a hanging link turns in the direction of a positive speed.
+        A wheel on free bearings keeps its spin relative to the ground, a driven wheel relative to its link.
     driven : array_like of bool
         Whether a motor turns the wheel relative to its link.
     momentum : array_like
-        Instead of all these: the angular momentum that each link carries along its axis and keeps, kg m^2/s; for a
-        chain given by weight, weight times length times time.
+        Constant angular momentum of each wheel along the axis of its link, instead of the four above, kg m^2/s; for a
+        chain given by weight, in weight times length times time.
     axial_moment : array_like, optional
-        With `momentum`: moment of inertia about the link's axis of what turns with it, kg m^2; for a chain given by
-        weight, weight times length squared.
+        With `momentum`: moment of inertia of the turning parts of each link about its axis, kg m^2; for a chain given
+        by weight, in weight times length squared.
 
     Raises
     ------
     ValueError
-        For numbers that are not finite, or negative where they must not be, and for combinations other than these.
+        If a number is not finite or is negative where it must not be, or if the arguments do not go together.
 
     Notes
     -----
-    With momentum H and axial moment of inertia C a link carries the angular momentum ``H + C n cos(inclination)`` along
-    its axis, `n` the speed. The wheel's mass, and its inertia across its axis, belong to the link's own numbers.
-    Greenhill (1908) section 8.
+    A link with momentum H and axial moment C has the angular momentum ``H + C n cos(inclination)`` along its axis at
+    the speed `n`. The data of the link include the wheel's mass and its inertia across the axis. Cost: O(N), when the
+    rig is made. Source: Greenhill (1908), section 8.
 
     Examples
     --------
@@ -229,7 +238,7 @@ class Flywheel(_Fitting):
             return np.asarray(given.get("mass", given.get("weight")) * radius * radius)
 
     def _about(self, gravity: float) -> tuple[Floats, Floats]:
-        """Momentum and axial moment; of wheels given by mass, the momentum is over gravity."""
+        """Momentum and axial moment; for wheels given by mass, the momentum is divided by gravity."""
         given = self._given
         if "momentum" in given:
             return given["momentum"], given.get("axial_moment", _NOTHING)
@@ -247,22 +256,29 @@ class Flywheel(_Fitting):
 
 
 class Displaced(_Fitting):
-    """What links displace of a fluid around them. Numbers are one for all links or arrays, lowest first.
+    """The fluid that links displace, and its added mass.
+
+    Give each quantity as one number for every link, or as an array with one number for each link, lowest first.
 
     Parameters
     ----------
     mass, weight : array_like, shape (N,) or scalar
-        Of the fluid that each link displaces, kg or N, as the chain was given.
+        Mass (kg) or weight (N) of the fluid that each link displaces, in the same quantity as the chain.
     centroid, radius_of_gyration : array_like, optional
-        Centre of gravity of that fluid, from the upper pin, and its radius of gyration about there, m; those of the
-        link if left out.
+        Distance of the centre of gravity of that fluid below the upper pin, and its radius of gyration about that
+        point, m; those of the link if left out.
     added_mass, added_weight : array_like, optional
-        Of still fluid that has to move with each link, spread as the fluid displaced; none where it turns.
+        Added mass (kg) or weight (N) of the still fluid that moves with each link, distributed as the displaced fluid.
+        Fluid that turns with the chain has none.
 
     Raises
     ------
     ValueError
-        For numbers that are not finite or out of their range.
+        If a number is not finite or is out of its range.
+
+    Notes
+    -----
+    Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples
     --------
@@ -304,36 +320,36 @@ class Displaced(_Fitting):
 
 
 class Rig(System):
-    """A chain and what it is rigged with. What is left out is not there, and costs nothing.
+    """A chain with a support, flywheels, a fluid or inverted links; what is left out costs nothing.
 
     Parameters
     ----------
     chain : Chain
-        The chain of N links. Its masses, lengths and inertia are those of the links with whatever
-        wheels they carry, in vacuum.
+        The chain of N links in vacuum. The masses and inertias of its links include their wheels.
     support : Support, optional
-        What holds the uppermost pin, if not a firm point on the axis.
+        Support of the uppermost pin; a firm point on the axis if left out.
     flywheels : Flywheel, optional
         Wheels that spin about the axes of links.
     displaced : Displaced, optional
-        What the links displace of a fluid.
+        Fluid that the links displace.
     fluid : {"still", "turning"}
-        Fluid at rest bears; fluid that turns with the chain also lessens what whirls.
+        Motion of the fluid. Still fluid reduces the weight of a link by its buoyancy. Fluid that turns with the chain
+        also reduces the mass that whirls.
     inverted : array_like of bool, shape (N,) or scalar
-        Links that stand on their upper pin (counted along the chain) rather than hang from it, in
-        the straight chain that small oscillations are about.
+        Links that stand on their upper pin (counted along the chain) instead of hanging from it, in the straight chain
+        about which small oscillations take place.
 
     Raises
     ------
     ValueError
-        For numbers out of the range given above, arrays that have not one number for each link, a mass where the chain
-        was given by weight; the message names the link.
+        If a number is out of its range, an array does not have one number for each link, or masses are mixed with
+        weights; the message names the link.
     TypeError
-        If an argument is of another class.
+        If an argument has another class.
 
     Notes
     -----
-    Cost O(N), once.
+    Cost: O(N), when the rig is made.
 
     References
     ----------
@@ -355,7 +371,15 @@ class Rig(System):
     Rig of a chain of 4 links: 2 links with momentum
     """
 
-    __slots__ = ("_at", "_inverted", "chain", "displaced", "flywheels", "fluid", "support")
+    __slots__ = {
+        "_at": None,
+        "_inverted": None,
+        "chain": "The chain of links, in vacuum.",
+        "displaced": "Fluid that the links displace; None if there is none.",
+        "flywheels": "Wheels that spin about the axes of links; None if there are none.",
+        "fluid": "Motion of the fluid: ``'still'`` or ``'turning'`` (with the chain).",
+        "support": "Support of the uppermost pin.",
+    }
     chain: Chain
     support: Support
     flywheels: Flywheel | None
@@ -410,16 +434,16 @@ class Rig(System):
 
     @property
     def inverted(self) -> NDArray[np.bool_]:
-        """Which links stand, shape (N,), lowest first; read-only."""
+        """Whether each link is inverted (stands on its upper pin), shape (N,), lowest first; read-only."""
         return np.broadcast_to(np.False_, self.size) if self._inverted is None else self._inverted
 
     def _momentum(self, gravity: float) -> Floats:
-        """Angular momentum that each link keeps, for the compiled rig, shape (N,)."""
+        """Constant angular momentum of each link, as the compiled rig takes it, shape (N,)."""
         momentum = _NOTHING if self.flywheels is None else self._turning(gravity)[0]
         return np.broadcast_to(momentum, self.size)
 
     def _turning(self, gravity: float) -> tuple[Floats, Floats]:
-        """Momentum and axial moment for the compiled rig, each a number or one for each link."""
+        """Momentum and axial moment as the compiled rig takes them, each a number or one for each link."""
         assert self.flywheels is not None
         momentum, moment = self.flywheels._about(gravity)
         if self.by_mass and "momentum" in self.flywheels._given:
@@ -429,7 +453,7 @@ class Rig(System):
 
     @property
     def has_momentum(self) -> bool:
-        """Whether a wheel keeps its own momentum, so that the two directions of rotation differ."""
+        """Whether a wheel has constant angular momentum, so that the two directions of rotation differ."""
         return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
     def _under(self, gravity: float) -> _core.Rig:
@@ -466,7 +490,7 @@ class Rig(System):
         return [f"support: {self.support._words(self.chain._unit)}", *self.chain._link_words(), *self._extras()]
 
     def _extras(self) -> list[str]:
-        """What links have beside themselves."""
+        """Descriptions of the inverted links, the wheels and the fluid."""
         borne = self.displaced is not None and np.broadcast_to(next(iter(self.displaced._given.values())), self.size)
         counts = (
             (np.count_nonzero(self.inverted), "inverted"),
@@ -500,7 +524,7 @@ class Rig(System):
         return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
-        """All it is made of."""
+        """The parts that make up the rig."""
         fittings = (self.support, self.flywheels, self.displaced)
         given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
         return self.chain, *given, self.fluid, self._inverted
@@ -561,7 +585,7 @@ def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
 
 
 def _column(place: str, name: str, column: Floats, size: int) -> Floats:
-    """The column, if it is a number or has one for each link."""
+    """The column; a ValueError unless it is a number or has one for each link."""
     if column.ndim > 1 or (column.ndim == 1 and column.size != size):
         raise ValueError(
             f"{place}: {name} must be a number or an array with one for each of the {size} links, "

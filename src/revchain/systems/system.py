@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all systems share: they cannot be changed, and can be compared, pickled, described and written as data."""
+"""The base of all systems: immutable values that can be compared, pickled, described and written as data."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class System(Unchangeable):
-    """What hangs: a `Chain`, a `Rig`, a `Cord` or a `Held`."""
+    """The base of `Chain`, `Rig`, `Cord` and `Held`."""
 
     __slots__ = ()
     by_mass: bool
@@ -24,15 +24,15 @@ class System(Unchangeable):
             System._kinds[cls.__name__] = cls
 
     def _under(self, gravity: float) -> Any:
-        """The compiled system. Of one given by mass it holds masses as weights, and forces over gravity."""
+        """The compiled system. If given by mass, it takes masses as weights, and forces divided by gravity."""
         raise NotImplementedError
 
     def _force(self, gravity: float) -> float:
-        """What a force of the compiled system is multiplied by."""
+        """Factor that turns a force of the compiled system into a force of the results."""
         return gravity if self.by_mass else 1.0
 
     def _state(self) -> tuple[Any, ...]:
-        """All it is made of: numbers, words, arrays, systems."""
+        """The numbers, words, arrays and systems that make up the system."""
         raise NotImplementedError
 
     @classmethod
@@ -40,12 +40,12 @@ class System(Unchangeable):
         raise NotImplementedError
 
     def describe(self) -> str:
-        """Say in words what it is, from the support down.
+        """Return a description of the system in words, from the support down.
 
         Returns
         -------
         str
-            A system given by mass in kilograms, one given by weight in newtons.
+            The description, in kilograms or, for a system given by weight, in newtons.
 
         Examples
         --------
@@ -64,13 +64,13 @@ class System(Unchangeable):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
-            Pins, centres of gravity (larger where heavier) and names of up to 40 links; inverted links stout, wheels
-            seen edge-on, bodies that float hollow; a cord as thick as it is heavy.
+            The drawing: pins, centres of gravity (larger dots are heavier) and names of up to 40 links. Inverted links
+            are thick, wheels are seen edge-on, bodies that float are hollow, and a cord is thicker where it is heavier.
 
         Raises
         ------
@@ -93,7 +93,7 @@ class System(Unchangeable):
         Returns
         -------
         dict
-            Ready for JSON, but for infinite numbers.
+            The data. They can be written as JSON unless a number is infinite.
 
         Examples
         --------
@@ -106,17 +106,28 @@ class System(Unchangeable):
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Self:
-        """Return the system that `to_dict` was asked of.
+        """Return the system from the data that `to_dict` returned.
 
         Parameters
         ----------
         data : dict
-            What `to_dict` returned.
+            Data that `to_dict` returned.
+
+        Returns
+        -------
+        Chain, Rig, Cord or Held
+            A system of the class on which the method is called.
 
         Raises
         ------
         ValueError
-            If the data are those of another kind of system, or of none.
+            If the data do not describe a system of that class.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Cord.from_dict({"system": "Cord", "length": 2.0, "mass": 0.5})
+        Cord of length 2, mass 0.5
         """
         place = f"revchain.{cls.__name__}.from_dict"
         name = data.get("system") if isinstance(data, dict) else None
@@ -151,12 +162,12 @@ class System(Unchangeable):
 
 
 def restored(kind: str, state: Any) -> System:
-    """A system from its state."""
+    """The system of a kind from its state."""
     return System._kinds[kind]._from_state(state)
 
 
 def from_data(data: dict[str, Any]) -> System:
-    """A system of any kind from what `to_dict` returned."""
+    """A system of any kind from the data that `to_dict` returned."""
     kind = System._kinds.get(data.get("system", "")) if isinstance(data, dict) else None
     if kind is None:
         raise ValueError(f'data of a system must have "system": one of {", ".join(System._kinds)}')
@@ -164,7 +175,7 @@ def from_data(data: dict[str, Any]) -> System:
 
 
 def plain(value: Any) -> Any:
-    """An array as lists, and numpy's numbers as Python's."""
+    """`value` in plain Python: arrays as lists, numpy's numbers as Python's."""
     return value.tolist() if hasattr(value, "tolist") else value
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI by the name of what they are."""
+"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI; the argument's name tells the kind."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _UNIT = r"([a-zA-Zµμ°]+((\^|\*\*)-?\d)?|%)"
 PATTERN = rf"^\s*{_NUMBER}\s*{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
 """A number and a unit, such as ``39.1396 inch`` or ``9.81 m/s^2``.
 
-Exponents have one digit: pint works out whatever stands there, and ``m**9**9**9`` would take it for ever.
+Exponents have one digit, because pint evaluates any expression, and ``m**9**9**9`` would never end.
 """
 
 _KINDS = {
@@ -49,11 +49,11 @@ _NAMES = {
     "a fraction": "rtol",
 }
 SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
-"""Quantity: its SI unit, its kind, an example."""
+"""SI unit, kind and an example of each quantity."""
 
 
 def unpacked(value: Any) -> Any:
-    """A numpy array of text or objects as lists, numbers that numpy has made text as numbers; all else as it is."""
+    """A numpy array of text or objects as lists, with the numbers that numpy turned into text; others unchanged."""
     kind = getattr(getattr(value, "dtype", None), "kind", "")
     if kind not in ("U", "T", "O") or isinstance(value, str):
         return value
@@ -68,7 +68,7 @@ def _numbers_of(text: Any) -> Any:
 
 
 def are_there(value: Any) -> bool:
-    """Whether a number with a unit is among what was given."""
+    """Whether a value contains a number with a unit."""
     value = unpacked(value)
     if isinstance(value, str) or hasattr(value, "dimensionality"):
         return True
@@ -76,7 +76,7 @@ def are_there(value: Any) -> bool:
 
 
 def in_si(place: str, name: str, value: Any) -> Any:
-    """`value` with all its numbers in SI units; a ValueError where they are of another kind than `name` is."""
+    """`value` with all its numbers in SI units; a ValueError if a unit does not fit the quantity `name`."""
     value = unpacked(value)
     if isinstance(value, list | tuple):
         return [in_si(place, name, item) for item in value]
@@ -94,7 +94,7 @@ def in_si(place: str, name: str, value: Any) -> Any:
 
 @lru_cache(maxsize=4096)  # pint takes half a millisecond, and files repeat their numbers
 def si_value(text: str, quantity: str) -> float:
-    """The number that `text` means in SI units; a ValueError says what is wrong with it."""
+    """The number of `text` in SI units; a ValueError says what is wrong with the text."""
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
         number = re.fullmatch(_NUMBER, point.strip())
@@ -124,7 +124,7 @@ def _converted(given: Any, quantity: str, text: str = "") -> Any:
         raise ValueError(f'must be {kind} such as "{example}", got "{text or given}"{hint}')
     number = given.m_as(unit or "dimensionless")
     if kind == "an angular speed" and "hertz" in str(given.units):
-        number = 2 * math.pi * number  # pint takes Hz for rad/s; it is a turn in a second
+        number = 2 * math.pi * number  # pint reads Hz as rad/s; here it is one turn per second
     return number
 
 
