@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import one_positive, refuse_beyond_memory, shown
-from .style import axes_or_new, checked_axes, keep_room, new_figure
+from .style import WIDEST, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -112,7 +112,7 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) ->
     _letter(forces, "N", 0.0, -scale * height, right=False)
     _finish(forces, "sideways (N)", "upwards (N)", "diagram of force")
     if not plummets:
-        forces.legend(fontsize="small")
+        legend_outside(forces)
     return figure, forces
 
 
@@ -150,8 +150,8 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None) -> Axes:
     ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
     ax.plot(places.x, places.offset, linewidth=1.6, label=label)
-    ax.set(xlabel="along the axis (m)", ylabel="from the axis (m)", aspect="equal")
-    ax.legend()
+    ax.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
+    legend_outside(ax)
     return ax
 
 
@@ -204,7 +204,7 @@ def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
     ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
     usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
     ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
-    ax.legend()
+    legend_outside(ax)
     return ax
 
 
@@ -220,5 +220,5 @@ def plot_vibration(turn: float, phase: float, links: int, ax: Axes | None) -> Ax
         ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
     ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
     ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
-    ax.legend(loc="lower center", ncols=2, fontsize="small")
+    legend_outside(ax)
     return ax

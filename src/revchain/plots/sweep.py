@@ -9,7 +9,7 @@ import numpy as np
 
 from ..systems.numbers import word
 from ..systems.units import SI
-from .style import axes_or_new, plain
+from .style import axes_or_new, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,9 +77,9 @@ def _curves(axis: Axis, values: np.ndarray[Any, Any], block: Block, random: bool
             ax.plot(at, values[:, k], color=colour, label=label)
     ax.set_ylabel(_label(block))
     if random:
-        ax.legend(title="median; 25 to 75 % and\n5 to 95 % of the points", fontsize="small", title_fontsize="small")
+        legend_outside(ax, title="median; 25 to 75 % and\n5 to 95 % of the points")
     elif values.shape[-1] > 1:
-        ax.legend()
+        legend_outside(ax)
     return ax
 
 
@@ -94,7 +94,7 @@ def _histograms(values: np.ndarray[Any, Any], block: Block, ax: Axes) -> Axes:
             ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=f"C{k}", label=text)
     ax.set(xlabel=f"{_label(block)}, % from its median", ylabel="share of the points per %")
     if ax.has_data():
-        ax.legend(fontsize="small")
+        legend_outside(ax)
     return ax
 
 

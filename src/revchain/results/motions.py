@@ -248,7 +248,7 @@ class Swing(Result):
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
         kind : {"shapes", "time"}
-            Shapes from dark (early) to light, offsets stretched; or offsets against time.
+            Shapes from dark (early) to light, offsets stretched, at most nine; or offsets against time.
         pins : iterable of int
             For ``"time"``: which pins, 0 the free end.
 
