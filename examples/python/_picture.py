@@ -7,6 +7,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 from revchain.plots.style import STYLE
 
@@ -45,7 +46,8 @@ def branch_of(shape, branches):
 
 def legend_below(axes, **more):
     """A legend under the frame and the label, where it covers no curve."""
-    axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, -0.7 / axes.figure.get_figheight()), "ncols": 2, **more})
+    down = axes.transAxes + ScaledTranslation(0, -0.55, axes.figure.dpi_scale_trans)  # inches
+    axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, 0), "bbox_transform": down, "ncols": 2, **more})
 
 
 def save(figure, name=None):

@@ -63,10 +63,10 @@ for rope, colour in zip(ropes, COLOURS, strict=False):
     curve.plot(rope.span, rope.angular_speed / (2 * np.pi), "o", color=colour)
 curve.set(xlabel="span of the ends (m)", ylabel="speed (turns/s)", title="same angular momentum", ylim=(0, None))
 for (turns, at), colour in zip(upright.items(), ["black", "0.35", "0.5", "0.65", "0.8"], strict=True):
-    vertical.plot(at.offset, at.height, color=colour, label=f"{turns:.1f} turns/s")
+    vertical.plot(at.offset, at.height, color=colour, label=f"{turns:.1f}")
 vertical.plot([0, 0], [0, SPAN], "o", color="black", markersize=4)
 vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
 vertical.set(xlabel="distance from axis (m)", ylabel="height above the lower hand (m)", title="with gravity")
 vertical.set_aspect("equal")
-legend_below(vertical, ncols=1)
+legend_below(vertical, ncols=3, title="turns/s", handlelength=1, columnspacing=1)
 save(figure)

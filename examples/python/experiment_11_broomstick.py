@@ -30,7 +30,7 @@ for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
     print(f"{back:15.3f}  {rest:24.3f}  {round(float(top), 3) + 0.0:+13.3f}  {thread:31.3f}  {alone:8.3f}")
 
 figure, (stand, curve) = panels(2, [1.5, 1], height=5.0)
-APART, HAND = 0.45, 0.1  # m, between neighbouring axes; how far the hand goes to each side
+APART, HAND = 0.5, 0.1  # m, between neighbouring axes; how far the hand goes to each side
 names = []
 for number, swings in enumerate((0.6, 0.788, 1.5)):
     rest, at = length + rc.conical_pendulum.height(2 * np.pi * swings), APART * number
@@ -42,7 +42,7 @@ for number, swings in enumerate((0.6, 0.788, 1.5)):
     stand.plot([at, at], [0, -1.6], color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
     stand.plot(at, -rest, "x", color="black", zorder=4)
     stand.annotate("C", (at, -rest), xytext=(8, -3), textcoords="offset points")
-    names.append(f"{swings} swings/s\nC at {rest:.2f} m")
+    names.append(f"{swings}\nswings/s\nC at {rest:.2f} m")
 side_view(stand, "a broomstick on a hand that goes to and fro", bottom=0.05, top=1.7, half_width=1)
 stand.lines[-1].remove()  # there are three axes
 stand.set_xticks(APART * np.arange(3), names)
