@@ -199,7 +199,7 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     straight = _Straight(system)
     straight.at_rest(ax)
     straight.finish(ax)
-    ax.set_xlim(-1.3, 1.3)
+    ax.set_xlim(-1.3, max(1.3, straight.reach()))
     if straight.few:
         ax.set_xlabel("dots: centres of gravity, larger where heavier; rings: pins;\nbars: rods of the same inertia", fontsize="small")
     ax.set_xticks([])
@@ -213,8 +213,10 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
     if ax is not None or system is None or not _Straight(system).few:
         return axes_or_new(ax, width, height)
-    left, right = new_figure(min(width + 1.8, WIDEST), height).subplots(1, 2, width_ratios=[1.8, width])
-    plot_system(system, left).set_xlabel(_Straight(system).said)
+    straight = _Straight(system)
+    own = 1.1 + 0.7 * max(1.0, straight.reach() / 1.3)
+    left, right = new_figure(min(width + own, WIDEST), height).subplots(1, 2, width_ratios=[own, width])
+    plot_system(system, left).set_xlabel(straight.said)
     axes: Axes = right
     return axes
 
