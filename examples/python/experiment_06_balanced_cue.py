@@ -77,7 +77,7 @@ stand.set(xlim=(places[0] - 0.2, places[-1] + 0.2), xlabel="inclination of the t
 stand.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
 stand.set_ylabel("height above the hand (m)")
 hang(hung, upright.offset, -upright.height, weights=[20, 90], color=COLOURS[1])
-hung.annotate("50 g", (upright.offset[0], -upright.height[0]), xytext=(-6, 4), textcoords="offset points", ha="right")
+hung.annotate("50 g", (upright.offset[0], -upright.height[0]), xytext=(7, 2), textcoords="offset points")
 hung.annotate("500 g", (upright.offset[1], -upright.height[1]), xytext=(-8, -12), textcoords="offset points", ha="right")
 side_view(hung, f"50 g standing on 500 g,\n{faster} turns/s", bottom=1.05, half_width=0.5)
 hung.set(ylabel="depth below the support (m)", xlim=(-0.15, 0.75))

@@ -259,10 +259,8 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
         way = ("\nforward" if modes.angular_speed[row] > 0 else "\nbackward") if turning else ""
         labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
     columns = len(labels) + (not len(rows))
-    longest = max((len(line) for label in labels for line in label.splitlines()), default=0)
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
-    width = max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
-    ax = axes_or_new(ax, width, 6.0)
+    ax = axes_or_new(ax, _width(labels, columns), 6.0)
     straight.at_rest(ax)
     ticks = [0.0, *(aside + SPACING * nth for nth in range(1, len(labels)))]
     if carried is not None:
@@ -285,6 +283,12 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     if rigged and system.displaced is not None:
         ax.set_facecolor(FLUID)
     return ax
+
+
+def _width(labels: list[str], columns: int) -> float:
+    """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
+    longest = max(len(line) for label in labels for line in label.splitlines())
+    return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
 def _speed_label(name: str, speed: float) -> str:

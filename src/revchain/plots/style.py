@@ -24,8 +24,8 @@ STYLE = {
     "savefig.dpi": 200,
     "svg.hashsalt": "revchain",
 }
-"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and colours that can be told apart without seeing red or green
-(Okabe and Ito 2008)."""
+"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and colours that can be told apart without
+seeing red or green (Okabe and Ito 2008)."""
 
 WIDEST = 8.0  # inches, of a new figure
 MOST_PINS_AS_DOTS = 40
