@@ -148,7 +148,7 @@ def _swing(
             name = "free end" if column == 0 and depth[0] == depth.max() else f"{what} {column}"
             ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
         ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
-        ax.set(xlabel="time (s)", ylabel="distance from the axis (m)")
+        ax.set(xlabel="time (s)", ylabel="distance from axis (m)")
         if chosen:
             legend_outside(ax)
         return ax
@@ -171,7 +171,7 @@ def _swing(
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
-    ax.set(xlabel="distance from the axis (m), own scale", ylabel="depth below the support (m)")
+    ax.set(xlabel="distance from axis (m), own scale", ylabel="depth below the support (m)")
     if drawn.size:
         legend_outside(ax, title=f"{drawn.size} of {order.size} times" if drawn.size < order.size else None)
     return ax

@@ -49,7 +49,7 @@ def plot_shapes(shapes: Sequence[Shape], ax: Axes | None) -> Axes:
             if top:
                 ax.plot([0.0, top], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=1)
             ax.plot(top, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set(xlabel="distance from the axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
+    ax.set(xlabel="distance from axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
     keep_room(ax)
     if named:
         legend_outside(ax)
