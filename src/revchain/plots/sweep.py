@@ -9,7 +9,7 @@ import numpy as np
 
 from ..systems.numbers import word
 from ..systems.units import SI
-from .style import axes_or_new, legend_outside, plain
+from .style import WIDEST, axes_or_new, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     grids = [axis for axis in plan.axes if axis.values is not None]
     random = len(grids) < len(plan.axes)
     values = result[name].astype(float).reshape(*plan.shape, -1)[..., :MAX_CURVES]
-    ax = axes_or_new(ax, 6.4, 4.8)
+    ax = axes_or_new(ax, WIDEST, 4.8)
     if not grids:
         return _histograms(values, block, ax)
     ax.set_xlabel(_label_of_axis(grids[0]))
