@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Pictures of what bench_convergence measured: python bench/plot_convergence.py results/convergence-DATE.csv
 
-Writes convergence-DATE.png (relative difference against the number of links) and convergence-DATE-coefficients.png (the
+Writes convergence-DATE.svg (relative difference against the number of links) and convergence-DATE-coefficients.svg (the
 same times N^2, where the laws lie on level lines) beside the file. Needs numpy and matplotlib.
 """
 
@@ -9,11 +9,8 @@ import csv
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+from picture import WIDTH, decades, plt, save
 
 MODES = (1, 2, 3)
 # Colours that colour-blind readers tell apart (Okabe and Ito).
@@ -29,8 +26,6 @@ STYLE = {
     "shifted ends": ("#7B3FA0", "h"),
 }
 OVERVIEW = ("lower pins", "l = a", "rods", "l = 3a/4", "shifted ends")
-plt.rcParams.update({"font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
-                     "legend.frameon": False, "savefig.dpi": 130})
 
 
 def read(path):
@@ -49,13 +44,8 @@ def read(path):
     return curves, comments[1]
 
 
-def power_of_ten(x):
-    digits, exponent = f"{x:.1e}".split("e")
-    return f"${digits} \\times 10^{{{int(exponent)}}}$"
-
-
-def overview(curves, source):
-    figure, axes = plt.subplots(1, 3, figsize=(13, 6.2), sharex=True, sharey=True, layout="constrained")
+def overview(curves):
+    figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 6.6), sharex=True, sharey=True, layout="constrained")
     floor = max(curve["error_bound"].max() for curve in curves.values())
     for mode, ax in zip(MODES, axes):
         for name in OVERVIEW:
@@ -72,22 +62,21 @@ def overview(curves, source):
         ax.set_title(f"mode {mode}" + (" (the slowest)" if mode == 1 else ""))
         ax.set_xlabel("number of links $N$")
         ax.grid(True, which="major", color="0.93", zorder=0)
-    axes[0].text(1.3, floor / 1.6, f"rounding: certified bound {power_of_ten(floor)}", va="top", fontsize=9, color="0.35")
+    axes[0].text(1.3, floor / 1.6, "below the proved bound", va="top", fontsize="small", color="0.35")
     axes[0].set_ylabel(r"relative difference of the conical height,  $|\lambda_N / \lambda_\infty - 1|$")
+    decades(axes[0].xaxis, 0, 5, 1)
     axes[0].set_xlim(0.8, 2e5)
     axes[0].set_ylim(3e-17, 10)
 
     handles = [plt.Line2D([], [], color=STYLE[n][0], marker=STYLE[n][1], linewidth=1,
                           label=f"{curves[n, 1]['description']}:  $\\propto N^{{-{int(curves[n, 1]['order'][0])}}}$")
                for n in OVERVIEW]
-    handles += [plt.Line2D([], [], color="0.3", linewidth=1, label="line: the law, coefficient and all (derived, but for the steepest: fitted)"),
-                plt.Line2D([], [], color="0.3", marker="o", linestyle="", label="point: computed, filled if the height is too large"),
+    handles += [plt.Line2D([], [], color="0.3", linewidth=1, label="line: the law (the steepest: fitted)"),
+                plt.Line2D([], [], color="0.3", marker="o", linestyle="", label="filled: the height is too large"),
                 plt.Line2D([], [], color="0.3", marker="o", linestyle="", markerfacecolor="white",
-                           label="point: computed, hollow if it is too small")]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2)
-    figure.suptitle("A uniform chain cut into $N$ links: how fast its whirl heights tend to those of the uncut chain\n"
-                    "($a$ length of a link, $l$ its equivalent pendulum length)", fontsize=12)
-    figure.text(0.995, 0.003, source, ha="right", fontsize=7, color="0.5")
+                           label="hollow: the height is too small")]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize="small")
+    figure.suptitle("heights of a uniform chain cut into $N$ links", fontsize="large")
     return figure
 
 
@@ -104,10 +93,9 @@ def spread(places, gap):
     return result
 
 
-def coefficients(curves, source):
-    figure, axes = plt.subplots(1, 3, figsize=(13, 5.6), sharex=True, layout="constrained")
+def coefficients(curves):
+    figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 6), sharex=True, layout="constrained")
     names = [name for name in STYLE if curves[name, 1]["order"][0] == 2]
-    rounding = 0.0
     for mode, ax in zip(MODES, axes):
         laws = [curves[name, mode]["law_coefficient"][0] for name in names]
         reach = max(laws) - min(laws)
@@ -117,14 +105,14 @@ def coefficients(curves, source):
             scale = curve["length_in_links"] ** 2
             ax.axhline(law, color=colour, linewidth=1, alpha=0.6, zorder=1)
             ax.plot(curve["links"], curve["difference"] * scale, marker, color=colour, markersize=5, zorder=2)
-            rounding = max(rounding, (curve["error_bound"] * scale).max())
         bottom, top = min(laws) - 0.12 * reach, max(laws) + 0.12 * reach
         for name, law, place in zip(names, laws, spread(laws, 0.05 * (top - bottom))):
-            ax.annotate(f"{law:.4g}".replace("-", "\N{MINUS SIGN}"), (1.6e5, law), xytext=(3.2e5, place), color=STYLE[name][0], fontsize=9, va="center",
+            ax.annotate(f"{law:.4g}".replace("-", "\N{MINUS SIGN}"), (1.6e5, law), xytext=(3.2e5, place), color=STYLE[name][0], fontsize="small", va="center",
                         annotation_clip=False, arrowprops={"arrowstyle": "-", "color": STYLE[name][0], "linewidth": 0.6})
         ax.axhline(0, color="0.5", linewidth=0.8, linestyle=":")
         ax.set_xscale("log")
         ax.set_xlim(0.8, 1.6e5)
+        decades(ax.xaxis, 0, 5, 1)
         ax.set_ylim(bottom, top)
         ax.set_title(f"mode {mode}" + (" (the slowest)" if mode == 1 else ""))
         ax.set_xlabel("number of links $N$")
@@ -133,10 +121,8 @@ def coefficients(curves, source):
     note = {"cell centres": r",  times $(N+\frac{1}{2})^2$"}  # that chain is so much longer
     handles = [plt.Line2D([], [], color=STYLE[n][0], marker=STYLE[n][1], linewidth=1,
                           label=curves[n, 1]["description"] + note.get(n, "")) for n in names]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
-    figure.suptitle("The cuttings of second order: points are computed, lines and figures are the laws\n"
-                    f"(certified rounding error at most {power_of_ten(rounding)}: smaller than the points)", fontsize=12)
-    figure.text(0.995, 0.003, source, ha="right", fontsize=7, color="0.5")
+    figure.legend(handles=handles, loc="outside lower center", ncols=1, fontsize="small")
+    figure.suptitle("cuttings of second order: points computed, lines and numbers the laws", fontsize="large")
     return figure
 
 
@@ -145,8 +131,8 @@ def main():
         sys.exit(__doc__)
     path = Path(sys.argv[1])
     curves, source = read(path)
-    overview(curves, source).savefig(path.with_suffix(".png"))
-    coefficients(curves, source).savefig(path.with_name(path.stem + "-coefficients.png"))
+    save(overview(curves), path.with_suffix(".svg"), source)
+    save(coefficients(curves), path.with_name(path.stem + "-coefficients.svg"), source)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Picture of what bench_shape_convergence measured: python bench/plot_shape_convergence.py FILE.csv
 
-Writes FILE.png: the largest difference of the pins' offsets from the uncut chain, against the number of links, and the
+Writes FILE.svg: the largest difference of the pins' offsets from the uncut chain, against the number of links, and the
 observed order beneath. Needs matplotlib.
 """
 
@@ -10,10 +10,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from picture import WIDTH, plt, save
 from plot_convergence import STYLE
 
 path = Path(sys.argv[1])
@@ -25,7 +22,7 @@ with path.open(encoding="utf-8") as file:
         difference.append(float(row["difference"]))
         order.append(float(row["order"] or "nan"))
 
-figure, axes = plt.subplots(2, 2, figsize=(11, 8), sharex=True, sharey="row", layout="constrained",
+figure, axes = plt.subplots(2, 2, figsize=(WIDTH, 7.5), sharex=True, sharey="row", layout="constrained",
                             height_ratios=(3, 2))
 for (name, half_waves), (links, difference, order) in curves.items():
     if name not in STYLE:
@@ -40,6 +37,6 @@ for half_waves, column in enumerate(axes.T, 1):
     column[1].grid(axis="y", color="0.9")
 axes[0, 0].set_ylabel("largest difference of an offset,\nover the length")
 axes[1, 0].set_ylabel("observed order")
-axes[0, 0].legend(fontsize=9, loc="lower left")
-figure.suptitle("A uniform chain ten conical heights long cut into $N$ links: how fast its shapes tend to those of the uncut chain")
-figure.savefig(path.with_suffix(".png"))
+figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+figure.suptitle("shapes of a uniform chain ten conical heights long, cut into $N$ links", fontsize="large")
+save(figure, path.with_suffix(".svg"))

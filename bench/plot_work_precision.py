@@ -7,17 +7,11 @@ the number of links. Needs matplotlib.
 
 import csv
 import sys
-import textwrap
 from collections import defaultdict
 from math import isfinite
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import matplotlib.ticker
-
+from picture import ACCURATE, WIDTH, decades, plt, save
 from plan import KINDS
 
 ULP = 2.0**-52
@@ -51,8 +45,6 @@ STYLE = {
     "scipy eigsh, factored inverse": ("#B8860B", "s"),
     "scipy roots_laguerre": ("#B8860B", "D"),
 }
-plt.rcParams.update({"font.size": 10, "axes.titlesize": 10.5, "axes.spines.top": False, "axes.spines.right": False,
-                     "legend.frameon": False, "savefig.dpi": 130, "axes.axisbelow": True})
 
 
 def read(path):
@@ -87,28 +79,29 @@ def marks(points):
             "markerfacecolor": colour if ours else "white"}
 
 
-def finish(figure, drawn, title, source):
+def explain(figure, drawn, title, key="filled: this library"):
     order = [*STYLE, *sorted(set(drawn) - set(STYLE))]
     handles = [plt.Line2D([], [], label=name, **drawn[name]) for name in order if name in drawn]
-    figure.legend(handles=handles, loc="outside right center")
-    figure.suptitle(title, fontsize=11, x=0.01, ha="left")
-    figure.get_layout_engine().set(rect=(0, 0.045, 1, 0.955))
-    lines = textwrap.wrap(source, int(18 * figure.get_figwidth()))
-    figure.text(0.01, 0.005, "\n".join(lines), ha="left", va="bottom", fontsize=6.5, color="0.5")
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, title=key)
+    figure.suptitle(title, fontsize="large")
     return figure
 
 
-def work_precision(rows, links, which, source):
+def high(panels, entries):
+    """Inches of a figure with so many rows of panels and so many entries of the legend."""
+    return 2.6 * panels + 0.22 * -(-entries // 3) + 1.4
+
+
+def work_precision(rows, links, which):
     kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
-    columns = min(3, len(kinds))
-    lines = -(-len(kinds) // columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns + 3.2, 3.5 * lines + 1.1), sharex=True,
-                                sharey=True, layout="constrained", squeeze=False)
+    lines = -(-len(kinds) // 2)
+    size = (WIDTH, high(lines, len({row["method"] for row in rows})))
+    figure, axes = plt.subplots(lines, 2, figsize=size, sharex=True, sharey=True, layout="constrained", squeeze=False)
     drawn = {}
     least = max(FLOOR, min(row["error"] for row in rows if isfinite(row["error"])))
     for axis in axes.flat[len(kinds):]:
         axis.remove()
-    for number, (kind, axis) in enumerate(zip(kinds, axes.flat)):
+    for kind, axis in zip(kinds, axes.flat):
         for name, points in curves([row for row in rows if row["kind"] == kind]).items():
             good = [(max(p["error"], FLOOR), p["ms"]) for p in points if isfinite(p["error"])]
             if good:
@@ -117,23 +110,20 @@ def work_precision(rows, links, which, source):
         axis.axvline(ULP, color="0.6", linewidth=0.8, linestyle=":", zorder=0)
         axis.grid(True, which="major", color="0.93")
         axis.set_title(KINDS[kind])
-        axis.set_xticks([10.0**-e for e in range(0, 36, 4 if least > 1e-20 else 8)])
-        axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
         axis.tick_params(labelbottom=True)
-        if number + columns >= len(kinds):
-            axis.set_xlabel("worst relative error of a conical height")
-        if number % columns == 0:
-            axis.set_ylabel("CPU time of one chain, ms")
     axes[0, 0].set_xlim(10, min(least, ULP) / 30)
-    title = (f"Work and precision: {which} of {links:,} links\nright is more accurate, down is faster; "
-             "filled: this library;\nlines join its tolerances; dotted: one ulp of double")
-    return finish(figure, drawn, title, source)
+    decades(axes[0, 0].xaxis, -36, 0, 4 if least > 1e-20 else 8)
+    for axis in axes.flat[max(len(kinds) - 2, 0):len(kinds)]:
+        axis.set_xlabel(ACCURATE)
+    figure.supylabel("CPU time of one chain (ms); faster is lower", fontsize="medium")
+    return explain(figure, drawn, f"{which} of {links:,} links", "filled: this library; dotted line: one ulp")
 
 
-def cost(rows, source):
+def cost(rows):
     """CPU time against the number of links, random plummets and rods, no tolerance asked."""
-    shown = [row for row in rows if not row["rtol"] and row["links"] >= 10 and row["modes"] == 10]
-    figure, axes = plt.subplots(1, 2, figsize=(13, 5.6), sharex=True, sharey=True, layout="constrained")
+    shown = [row for row in rows if not row["rtol"] and row["links"] >= 10 and row["modes"] == 10 and row["kind"] in "CR"]
+    size = (WIDTH, high(1.5, len({row["method"] for row in shown})))
+    figure, axes = plt.subplots(1, 2, figsize=size, sharex=True, sharey=True, layout="constrained")
     drawn = {}
     for kind, axis in zip("CR", axes):
         for name, points in curves([row for row in shown if row["kind"] == kind]).items():
@@ -143,9 +133,8 @@ def cost(rows, source):
         axis.set_title(KINDS[kind])
         axis.set_xlabel("number of links $N$")
         axis.grid(True, which="major", color="0.93")
-    axes[0].set_ylabel("CPU time of one chain, ms")
-    title = "The ten slowest modes: cost against size, no tolerance asked (filled: this library)"
-    return finish(figure, drawn, title, source)
+    axes[0].set_ylabel("CPU time of one chain (ms)")
+    return explain(figure, drawn, "the ten slowest modes, no tolerance asked")
 
 
 def main():
@@ -159,12 +148,9 @@ def main():
             here = [r for r in rows if r["links"] == links and (r["modes"] == links) == of_all]
             if here and links >= 10:
                 which = "all modes" if of_all else f"the {here[0]['modes']} slowest modes"
-                name = f"work-precision-{links}{'-all' if of_all and links > 10 else ''}.png"
-                figure = work_precision(here, links, which, source)
-                figure.savefig(path.with_name(name))
-                plt.close(figure)
-    figure = cost(rows, source)
-    figure.savefig(path.with_name("cost.png"))
+                name = f"work-precision-{links}{'-all' if of_all and links > 10 else ''}.svg"
+                save(work_precision(here, links, which), path.with_name(name), source)
+    save(cost(rows), path.with_name("cost.svg"), source)
 
 
 if __name__ == "__main__":

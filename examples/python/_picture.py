@@ -5,7 +5,9 @@ import sys
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 from revchain.plots.style import STYLE
 
@@ -13,9 +15,9 @@ matplotlib.rcParams.update(STYLE)
 COLOURS = matplotlib.rcParams["axes.prop_cycle"].by_key()["color"]
 
 
-def panels(count, widths=None):
-    """A figure with `count` panels side by side."""
-    figure = Figure(figsize=(8, 4.5), layout="constrained")
+def panels(count, widths=None, height=4.5):
+    """A figure with `count` panels side by side, 8 inches wide."""
+    figure = Figure(figsize=(8, height), layout="constrained")
     return figure, figure.subplots(1, count, width_ratios=widths, squeeze=False)[0]
 
 
@@ -31,6 +33,21 @@ def side_view(axes, title, *, bottom, top=0.05, half_width):
     axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
     axes.set(title=title, xlabel="distance from axis (m)", xlim=(-half_width, half_width), ylim=(bottom, -top))
     axes.set_aspect("equal")
+
+
+def branch_of(shape, branches):
+    """Number of the branch on which a shape lies: the one with the nearest point."""
+    apart = [
+        np.hypot(branch.angular_speed / shape.angular_speed - 1, branch.tip_inclination - shape.inclination[0]).min()
+        for branch in branches
+    ]
+    return int(np.argmin(apart))
+
+
+def legend_below(axes, **more):
+    """A legend under the frame and the label, where it covers no curve."""
+    down = axes.transAxes + ScaledTranslation(0, -0.55, axes.figure.dpi_scale_trans)  # inches
+    axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, 0), "bbox_transform": down, "ncols": 2, **more})
 
 
 def save(figure, name=None):

@@ -31,16 +31,17 @@ print(f"two shapes appear at a fold at {born.angular_speed[born.folds[0]]:.9f} s
 eight = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2)
 print(f"eight point masses at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
 
-BESIDE = {"A": (4, 5), "B": (7, 3), "C": (5, -12), "D": (5, -13), "E": (-14, -3)}  # of a point its letter, in points
 figure = Figure(figsize=(8, 4.5), layout="constrained")
 axes = figure.subplot_mosaic([["A", "B", "C", "all"], ["D", "E", ".", "all"]], width_ratios=[1.25, 1, 1, 3.4])
 curves = axes["all"]
-for branch in diagram:
-    colour = COLOURS[branch.half_waves[-1] - 1]
-    curves.plot(branch.angular_speed, np.degrees(branch.tip_inclination), color=colour)
-line = {"arrowstyle": "-", "color": COLOURS[2]}
-curves.annotate("isolated branch", (3.95, 80), (3.85, 70), color=COLOURS[2], ha="right", arrowprops=line)
-curves.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
+closer = curves.inset_axes((0.47, 0.44, 0.51, 0.37), xlim=(3.85, 4.6), ylim=(80.3, 85.9), xticks=[4.0, 4.4])
+for panel in (curves, closer):
+    for branch in diagram:
+        colour = COLOURS[branch.half_waves[-1] - 1]
+        panel.plot(branch.angular_speed, np.degrees(branch.tip_inclination), color=colour)
+    panel.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
+curves.indicate_inset_zoom(closer)
+closer.annotate("isolated branch", (3.92, 85.1), color=COLOURS[2])
 for letter, shape in zip("ABCDE", shapes, strict=True):
     panel, colour, tip = axes[letter], COLOURS[shape.half_waves - 1], np.degrees(shape.inclination[0])
     panel.plot(shape.offset, shape.height, "o-", color=colour, clip_on=False)
@@ -49,7 +50,9 @@ for letter, shape in zip("ABCDE", shapes, strict=True):
     panel.set(aspect="equal", xticks=[], yticks=[])
     panel.spines[:].set_visible(False)
     curves.plot(SPEED, tip, "o", color=colour)
-    curves.annotate(letter, (SPEED, tip), xytext=BESIDE[letter], textcoords="offset points")
+    closer.plot(SPEED, tip, "o", color=colour)
+    panel = closer if 80.3 < tip < 85.9 else curves
+    panel.annotate(letter, (SPEED, tip), xytext=(5, 4 if letter == "A" else -12), textcoords="offset points")
 curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$")
 curves.set_ylabel("inclination of the lowest thread (°)")
 save(figure)

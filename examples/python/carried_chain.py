@@ -14,7 +14,7 @@ Usage: ``python carried_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save
+from _picture import COLOURS, hang, legend_below, panels, save
 
 import revchain as rc
 
@@ -31,26 +31,28 @@ speeds = np.linspace(1, 28, 1400)
 sweep = rc.response(chain, angular_speed=speeds, support_radius=HAND)
 print(f"{speeds.size} speeds: error bounds up to {sweep.error_bound.max():.2g} of the largest offset")
 
-figure, (curve, shapes, time) = panels(3, [1.6, 0.8, 1.3])
+figure, (curve, shapes, time) = panels(3, [1.6, 0.9, 1.2], height=5.0)
 for pin, name in ((0, "free end"), (LINKS // 2, "half way")):
-    size, side = 1000 * np.abs(sweep.offset[:, pin]), np.sign(sweep.offset[:, pin])
+    size, side = np.abs(sweep.offset[:, pin]), np.sign(sweep.offset[:, pin])
     colour = COLOURS[0 if pin == 0 else 1]
     curve.plot(speeds / (2 * np.pi), np.where(side > 0, size, np.nan), color=colour, label=name)
     curve.plot(speeds / (2 * np.pi), np.where(side < 0, size, np.nan), color=colour, linestyle="--")
 for n in whirls:
     curve.axvline(n / (2 * np.pi), color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-curve.axhline(1000 * HAND, color="0.6", linewidth=0.8, zorder=0)
-curve.set(yscale="log", ylim=(0.3, 1000), xlabel="speed (turns/s)", ylabel="from the axis (mm)")
-curve.set_title("hand carried round 10 mm; dashed: opposite")
-curve.legend(loc="upper right")
+curve.axhline(HAND, color="0.6", linewidth=0.8, zorder=0)
+curve.plot([], [], color="0.3", linestyle="--", label="opposite to the hand")
+curve.set(yscale="log", ylim=(3e-4, 1), xlabel="speed (turns/s)", ylabel="distance from axis (m); grey: hand")
+curve.set_title("hand carried round 0.01 m")
+legend_below(curve, ncols=1)
 
 depth = np.linspace(LENGTH, 0, LINKS + 1)
 for number, turns in enumerate((0.5, 1.5, 2.8)):
     one = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
-    hang(shapes, 1000 * one.offset, depth, color=COLOURS[number], label=f"{turns}")
+    hang(shapes, one.offset, depth, color=COLOURS[number], label=f"{turns} turns/s")
 shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-shapes.set(xlabel="from the axis (mm)", ylabel="below the hand (m)", ylim=(0.37, -0.01), title="shapes, turns/s")
-shapes.legend(loc="upper left", fontsize=7)
+shapes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", title="shapes")
+shapes.set(xticks=[-0.02, 0.0, 0.02], ylim=(0.37, -0.01))
+legend_below(shapes, ncols=1)
 
 # Plucked in the middle by 1 cm: all 120 modes, and the three slowest.
 plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
@@ -63,8 +65,8 @@ print(
     f"three modes leave out at most {1000 * few.truncation_error[0]:.1f} mm of the free end; "
     f"all, with rounding, {(swing.truncation_error[0] + swing.error_bound.max()):.1g} m"
 )
-time.plot(moments, 1000 * swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="all modes")
-time.plot(moments, 1000 * few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three")
-time.set(xlabel="seconds", ylabel="free end (mm)", title="plucked 10 mm half way")
-time.legend(loc="lower right", fontsize=7)
+time.plot(moments, swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="all modes")
+time.plot(moments, few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three slowest modes")
+time.set(xlabel="time (s)", ylabel="offset of the free end (m)", title="plucked 0.01 m half way")
+legend_below(time, ncols=1)
 save(figure)

@@ -16,6 +16,7 @@ from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 CHAIR = 8.0  # kg, without the rider
 LIMIT = "22 rpm"
@@ -32,7 +33,7 @@ def rpm(speed):
     return 30 / np.pi * speed
 
 
-axes = (figure := Figure(figsize=(7, 4), layout="constrained")).subplots()
+axes = (figure := Figure(figsize=(8, 4), layout="constrained")).subplots()
 print("rider (kg)  chair at 12 rpm (m)  tension (N)  limit speed (rpm)  isolated from (rpm)  its shapes")
 for k, mass in enumerate((0, 40, 80, 120, 130)):
     rig = with_rider(mass)
@@ -51,5 +52,5 @@ for k, mass in enumerate((0, 40, 80, 120, 130)):
         axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=COLOURS[k % len(COLOURS)], label=label)
 axes.set(xlabel="speed (rpm)", ylabel="offset of the chair from the axis (m)", ylim=(-20, 40))
 axes.set_title("dashed: isolated branch, the chair on the other side of the axis")
-axes.legend()
+legend_outside(axes)
 save(figure)

@@ -16,7 +16,7 @@ spring.
 
 import matplotlib
 import numpy as np
-from _picture import panels, save
+from _picture import legend_below, panels, save
 
 import revchain as rc
 
@@ -40,9 +40,9 @@ for i, bell in enumerate(bells):
         if blow.strikes:
             angle[i, j], leading[i, j] = np.degrees(blow.bell_angle), 1.0 if blow.side == "leading" else -1.0
 
-figure, (axes,) = panels(1)
+figure, (axes,) = panels(1, height=5.0)
 drawn = axes.pcolormesh(joints, bells, angle, cmap=matplotlib.colormaps["viridis"], shading="nearest", rasterized=True)
-figure.colorbar(drawn, ax=axes, label="angle of the bell beyond its lowest place at the first blow (deg)")
+figure.colorbar(drawn, ax=axes, label="bell beyond its lowest place at the first blow (°)")
 axes.contour(joints, bells, leading, levels=[0.0], colors="white", linewidths=1.5)
 axes.plot([], [], color="white", linewidth=1.5, label="inside: strikes the trailing side")
 axes.plot(joints, 1 + joints, color="white", linestyle="--", label="one piece when in the middle")
@@ -52,7 +52,7 @@ axes.set(
     ylabel="pendulum length: bell / clapper",
     ylim=(bells[0], bells[-1]),
 )
-axes.legend(loc="lower right", frameon=True, facecolor="0.3", labelcolor="white")
+legend_below(axes, frameon=True, facecolor="0.3", labelcolor="white")
 print("axle to pin  bell  side      bell (deg)   (pendulum length of the clapper = 1)")
 for joint, bell in ((0.1, 1.2), (0.1, 2.2), (0.5, 1.2), (0.5, 2.1)):
     blow = first_blow(joint, bell)

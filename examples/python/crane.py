@@ -15,6 +15,7 @@ import numpy as np
 from _picture import panels, save
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 SLEWING = 0.8  # rad/s
 HOOK, LOAD = 400.0, 2500.0  # kg
@@ -49,6 +50,6 @@ figure, (axes,) = panels(1)
 axes.plot(lengths, speeds, label=["slower mode", "faster mode"])
 axes.axhline(SLEWING, color="0.4", linestyle="--", label="slewing")
 axes.axvline(met.value, color="0.4", linestyle=":", label=f"{met.value:.2f} m: keep away")
-axes.set(xlabel="rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None), title="2500 kg on slings of 6 m below a hook block of 400 kg")
-axes.legend()
+axes.set(xlabel="length of rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None), title="2500 kg on slings of 6 m below a hook block of 400 kg")
+legend_outside(axes)
 save(figure)

@@ -11,30 +11,33 @@ from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 STUDIES = Path(__file__).resolve().parent.parent / "studies"
 RPM = 60 / (2 * np.pi)
 
-figure = Figure(figsize=(11, 3.6), layout="constrained")
-spun, ratio, scatter = figure.subplots(1, 3)
+figure = Figure(figsize=(8, 7), layout="constrained")
+panels = figure.subplot_mosaic([["spun", "ratio"], ["scatter", "scatter"]], height_ratios=[1.3, 1])
+spun, ratio, scatter = (panels[name] for name in ("spun", "ratio", "scatter"))
 
 wheels = rc.sweep(STUDIES / "wheels_spun_up.toml")
-for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[1])):
+for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[3])):
     speeds = wheels[f"{sense}_angular_speed"] * RPM
-    lines = spun.plot(wheels["spin"] * RPM, speeds, color=colour)
-    lines[0].set_label(sense)
+    spun.plot(wheels["spin"] * RPM, speeds, color=colour)
+    modes = {f"forward {k}": speed for k, speed in enumerate(speeds[-1], 1)} if sense == "forward" else {}
+    for text, at in (modes or {"backward 1 to 3, from below": -24.0}).items():
+        spun.annotate(text, (600, at), (-6, 4), textcoords="offset points", color=colour, ha="right")
     print(f"twelve wheels at 600 rpm, {sense}: " + ", ".join(f"{speed:.2f}" for speed in speeds[-1]) + " rpm")
-spun.set(title="Twelve bicycle wheels spun up", xlabel="spin, rpm", ylabel="whirl, rpm")
-spun.legend()
+spun.set(title="Twelve bicycle wheels spun up", xlabel="spin (rpm)", ylabel="whirl speed (rpm)", ylim=(-25, None))
 
 weights = rc.sweep(STUDIES / "two_weights.toml").to_xarray()
 speed = weights["angular_speed"]
 mass, length = "links[0].mass", "links[0].length"
 closest = (speed.sel(mode=2) / speed.sel(mode=1)).transpose(length, mass)
 drawn = ratio.contourf(closest[mass], closest[length], closest, levels=[1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 40])
-figure.colorbar(drawn, ax=ratio, label="second speed over first")
+figure.colorbar(drawn, ax=ratio, label="second speed over first", location="bottom")
 ratio.set(
-    title="Two weights", xscale="log", yscale="log", xlabel="lower over upper weight", ylabel="lower over upper length"
+    title="Two weights", xscale="log", yscale="log", xlabel="lower weight over upper", ylabel="lower length over upper"
 )
 print(f"two weights: the second speed is at least {float(closest.min()):.3f} of the first")
 
@@ -45,6 +48,6 @@ for k, name in enumerate(("first", "second")):
     bins = np.linspace(-15, 15, 121)
     scatter.hist(deviation, bins, density=True, histtype="step", color=COLOURS[k], label=f"{name} mode")
     print(f"crane, {name} mode: period {periods.mean():.3f} s, deviation {periods.std():.3f} s")
-scatter.set(title="A crane known to some per cent", xlabel="period, % from its mean", ylabel="of 20,000 cranes, 1/%")
-scatter.legend(loc="upper left", frameon=False, fontsize="small")
+scatter.set(title="A crane known to some per cent", xlabel="period from its mean (%)", ylabel="share of 20,000 cranes (1/%)")
+legend_outside(scatter)
 save(figure, "studies")

@@ -43,6 +43,6 @@ for number, (name, result, height) in enumerate([("two weights", weights, 2 * TH
         title = f"{name}, mode {k + 1}\n{turns:.2f} turns/s"
         side_view(panel, title, bottom=1.06 * height, top=0.05 * height, half_width=0.22 * height)
         panel.locator_params(axis="x", nbins=3)
-axes[0].set_ylabel("below the support (m)")
+axes[0].set_ylabel("depth below the support (m)")
 figure.suptitle("Whirling chains seen from the side at seven moments of half a turn", fontsize=10)
 save(figure)

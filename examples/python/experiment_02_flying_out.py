@@ -10,7 +10,7 @@ Usage: ``python experiment_02_flying_out.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
 
@@ -27,7 +27,7 @@ swing = rc.plummet.inclined_pendulum(LONG, height)
 for row in zip(table, height, np.degrees(swing.inclination), swing.radius, swing.tension, strict=True):
     print("{:14.2f}  {:17.4f}  {:20.2f}  {:9.4f}  {:14.3f}".format(*row))
 
-figure, (side, curve) = panels(2, [1.45, 1])
+figure, (side, curve) = panels(2, [1.3, 1], height=4.0)
 for turns, colour in zip(table[1:], COLOURS, strict=False):
     level = rc.conical_pendulum.height(2 * np.pi * turns)
     side.plot([-0.52, 0.52], [level, level], color=colour, linewidth=0.6, linestyle=":")
@@ -35,14 +35,15 @@ for turns, colour in zip(table[1:], COLOURS, strict=False):
         swung = rc.plummet.inclined_pendulum(thread, level)
         sign = 1 if thread == LONG else -1
         hang(side, [sign * swung.radius, 0], [swung.depth, 0], weights=[40], color=colour, linestyle=style)
-    side.annotate(f"{turns:.2f} turns/s", (0.54, level), color=colour, va="center")
-side_view(side, "right: thread 0.5 m; left: 0.3 m", bottom=0.56, half_width=0.82)
-side.set_ylabel("below the support (m)")
+    side.plot([], [], color=colour, label=f"{turns:.2f} turns/s")
+side_view(side, "right: thread 0.5 m; left: 0.3 m", bottom=0.56, half_width=0.6)
+legend_below(side)
+side.set_ylabel("depth below the support (m)")
 
 turns = np.linspace(0.4, 3, 600)
 for thread, style in [(LONG, "-"), (SHORT, "--")]:
     swung = rc.plummet.inclined_pendulum(thread, rc.conical_pendulum.height(2 * np.pi * turns))
     curve.plot(turns, np.degrees(swung.inclination), style, color="black", label=f"thread {thread} m")
-curve.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title="it stays vertical up to a certain speed")
-curve.legend(loc="lower right")
+curve.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title="leaves the vertical at a certain speed")
+legend_below(curve, ncols=1)
 save(figure)

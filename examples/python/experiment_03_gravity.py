@@ -10,7 +10,7 @@ Usage: ``python experiment_03_gravity.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, panels, save
+from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
 
@@ -38,7 +38,7 @@ for length, time, what in errors:
     off = pendulum.gravity(THREAD + length, (measured - time) / 100) - GRAVITY
     print(f"  {what}: {off:.4f} m/s^2")
 
-figure, (axes,) = panels(1)
+figure, (axes,) = panels(1, height=5.0)
 radius = np.linspace(0.001, 0.25, 200)
 neglected = pendulum.gravity(THREAD, pendulum.period(np.sqrt(THREAD**2 - radius**2)))
 axes.plot(100 * radius, neglected, color=COLOURS[1], label="g = 4π² l/T²: as if it hung at the thread's length")
@@ -47,5 +47,5 @@ wrong = "1 mm and half a second in 100 turns, both the wrong way"
 axes.fill_between([0, 25], GRAVITY - off, GRAVITY + off, color=COLOURS[0], alpha=0.15, linewidth=0, label=wrong)
 axes.set(xlabel="radius of the circle (cm)", ylabel="g found (m/s²)", xlim=(0, 25), ylim=(9.7, 10.2))
 axes.set_title("Gravity from a conical pendulum of 1 m")
-axes.legend(loc="upper left")
+legend_below(axes, ncols=1)
 save(figure)

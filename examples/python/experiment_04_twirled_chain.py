@@ -11,10 +11,11 @@ Usage: ``python experiment_04_twirled_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, save, side_view
+from _picture import COLOURS, branch_of, hang, save, side_view
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 LENGTH = 0.36  # m, of the chain, and of the thread of a plummet
 HAND = 0.005  # m, radius of the circle
@@ -69,8 +70,8 @@ for turns in (0.7, 0.9, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0):
 born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.0], strict=True)]
 print("two more shapes from", *np.round(born, 4), "turns a second")
 
-figure = Figure(figsize=(8, 4.5), layout="constrained")
-axes = figure.subplot_mosaic([["near", "side", "all"], ["near", "side", "shapes"]], width_ratios=[2, 1, 2.2])
+figure = Figure(figsize=(8, 7.5), layout="constrained")
+axes = figure.subplot_mosaic([["near", "side"], ["all", "shapes"]], height_ratios=[1.3, 1])
 turns = np.linspace(0.2, 2.8, 1301)
 plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
 curves = [("plummet", plummet, "0.45", (2, 0.4)), ("chain", near_the_vertical(turns), COLOURS[0], (1.4, -2))]
@@ -78,26 +79,29 @@ for name, tip, colour, place in curves:
     axes["near"].plot(turns, np.where(np.abs(tip) < 12, tip, np.nan), color=colour)
     axes["near"].annotate(name, place, color=colour)
 axes["near"].axhline(0, color="black", linewidth=0.6)
-axes["near"].set(xlabel="speed (turns/s)", ylabel="offset of the tip over that of the hand", ylim=(-12, 12))
+axes["near"].set(xlabel="speed (turns/s)", ylabel="offset of the tip / of the hand", ylim=(-12, 12))
 axes["near"].set_title("near the vertical")
 
 depth = np.linspace(LENGTH, 0, LINKS + 1)
 for speed, colour in zip((0.7, 1.5, 2.6), ("black", "0.4", "0.65"), strict=True):
     one = rc.response(carried, angular_speed=2 * np.pi * speed)
-    hang(axes["side"], 1000 * one.offset, depth, color=colour, label=f"{speed}")
+    hang(axes["side"], one.offset, depth, color=colour, label=f"{speed} turns/s")
 axes["side"].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-axes["side"].plot(1000 * HAND, 0, "o", color="black", markersize=4)
-axes["side"].annotate("hand", (1000 * HAND, 0), xytext=(4, 0), textcoords="offset points")
-axes["side"].set(xlabel="from the axis (mm)", ylabel="below the hand (m)", ylim=(0.37, -0.01), xlim=(-40, 40))
+axes["side"].plot(HAND, 0, "o", color="black", markersize=4)
+axes["side"].annotate("hand", (HAND, 0), xytext=(4, 0), textcoords="offset points")
+axes["side"].set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", ylim=(0.37, -0.01), xlim=(-0.04, 0.04))
 axes["side"].set_title("at three speeds")
-axes["side"].legend(title="turns/s", loc="upper left", fontsize=7, title_fontsize=7, frameon=False, handlelength=1)
+legend_outside(axes["side"])
 
-for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 3.2)):
-    axes["all"].plot(line.angular_speed / (2 * np.pi), 1000 * line.tip_radius, color=COLOURS[k])
+branches = rc.branches(carried, max_angular_speed=2 * np.pi * 3.2)
+for k, line in enumerate(branches):
+    label = "branch from rest" if line.birth == "rest" else f"isolated branch {k}"
+    axes["all"].plot(line.angular_speed / (2 * np.pi), line.tip_radius, color=COLOURS[k], label=label)
 axes["all"].axhline(0, color="black", linewidth=0.6)
-axes["all"].set(xlabel="speed (turns/s)", ylabel="tip from the axis (mm)", title="every steady shape")
+axes["all"].set(xlabel="speed (turns/s)", ylabel="offset of the tip (m)", title="every steady shape")
 for shape in at_any_inclination(3.0):
-    hang(axes["shapes"], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1])
-side_view(axes["shapes"], "all at 3 turns a second", bottom=0.38, half_width=0.4)
-axes["shapes"].set_ylabel("below the hand (m)")
+    hang(axes["shapes"], shape.offset, -shape.height, color=COLOURS[branch_of(shape, branches)])
+figure.legend(*axes["all"].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+side_view(axes["shapes"], "every one at 3 turns a second", bottom=0.38, half_width=0.4)
+axes["shapes"].set_ylabel("depth below the hand (m)")
 save(figure)

@@ -10,7 +10,7 @@ Usage: ``python experiment_05_thomson.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
 
@@ -24,7 +24,7 @@ for heavier, at in [(2, 0.25), (2, 0.75), (2, 0.5), (3, 0.5)]:
     numbers = "{:.6f} {:.6f}   {:.4f} {:.4f}".format(*heights / A, *turns)
     print(f"{heavier:18}  {at:18.2f}  {numbers}  {turns[1] / turns[0]:16.4f}")
 
-figure, axes = panels(5, [1, 1, 1, 1, 2.4])
+figure, axes = panels(5, [1, 1, 1, 1, 2.4], height=5.0)
 for number, panel in enumerate(axes[:4]):
     at, k = [(0.25, 0), (0.25, 1), (0.75, 0), (0.75, 1)][number]
     result = rc.modes(rc.Chain(weight=[1, 2], length=[THREAD - at, at]))
@@ -36,8 +36,8 @@ for number, panel in enumerate(axes[:4]):
     panel.annotate("C₁", (0, level), xytext=(5, -2), textcoords="offset points")
     title = f"x = {(A - at) / A:+.1f}a\n{result.frequency[k]:.2f} turns/s"
     side_view(panel, title, bottom=1.06, half_width=0.16)
-    panel.set(xlabel="(m)", xticks=[-0.1, 0.1])
-axes[0].set_ylabel("below the support (m)")
+    panel.set(xlabel="distance\nfrom axis (m)", xticks=[-0.1, 0.1])
+axes[0].set_ylabel("depth below the support (m)")
 
 x = np.linspace(-0.98, 0.98, 197)
 for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:
@@ -46,6 +46,6 @@ for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:
         axes[4].plot(x, heights[:, k], style, color=COLOURS[k])
     axes[4].plot([], [], style, color="black", label=f"W₂ = {heavier} W₁")
 axes[4].plot([-0.5, -0.5, 0.5, 0.5], 2 * [1 + 0.5**0.5, 1 - 0.5**0.5], "o", color="black", markersize=4)
-axes[4].set(xlabel="x/a, W₂ above the middle", ylabel="conical height/a", title="W₂ anywhere", ylim=(0, 2))
-axes[4].legend(loc="center", fontsize=8)
+axes[4].set(xlabel="place x/a of the upper weight", ylabel="conical height/a", title="W₂ anywhere", ylim=(0, 2))
+legend_below(axes[4], ncols=1)
 save(figure)

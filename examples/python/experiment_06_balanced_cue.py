@@ -61,18 +61,26 @@ faster = 0.55
 wire, rod = np.degrees(np.abs(upright.inclination))
 print(f"the wire standing, at {faster} turns a second: wire and rod lean {180 - wire:.2f} {rod:.2f} degrees")
 
-figure, axes = panels(6, [1, 1, 1, 1, 1, 1.8])
-shown = {**{name: on_the_hand(length) for name, length in sticks.items()}, "three of 0.3 m": columns[2]}
-for (name, rig), panel in zip(shown.items(), axes, strict=False):
-    shape, lean = leaning(rig)
-    hang(panel, shape.offset, -shape.height, color=COLOURS[0], linewidth=2, marker="." if rig.size > 1 else "")
-    panel.plot([-HAND, HAND], [0, 0], "|-", color="black", markersize=8)
-    side_view(panel, f"{name}\n{lean[0]:.1f}°", bottom=0.05, top=1.5, half_width=0.16)
-    panel.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
-    panel.set(xlabel="(m)", xticks=[-0.1, 0.1])
-axes[0].set_ylabel("above the hand (m)")
-hang(axes[5], upright.offset, -upright.height, weights=[20, 90], color=COLOURS[1])
-side_view(axes[5], f"50 g above 500 g\n{faster} turns/s", bottom=1.05, half_width=0.5)
-axes[5].set(ylabel="below the support (m)", xlim=(-0.2, 0.65))
-figure.suptitle("Sticks on a hand on a circle of radius 5 cm, 1 turn/s; a pendulum standing on a pendulum", fontsize=10)
+figure, (stand, hung) = panels(2, [1.7, 1])
+shown = {**{name: on_the_hand(length) for name, length in sticks.items()}, "3 sticks": columns[2]}
+APART = 0.42  # m, between the axes of neighbouring sticks
+places = APART * np.arange(len(shown))
+for at, rig in zip(places, shown.values(), strict=True):
+    shape, _ = leaning(rig)
+    dots = "." if rig.size > 1 else ""
+    hang(stand, at + shape.offset, -shape.height, color=COLOURS[0], linewidth=2, marker=dots, clip_on=False)
+    stand.plot([at - HAND, at + HAND], [0, 0], "|-", color="black", markersize=8, clip_on=False)
+    stand.plot([at, at], [0, -1.5], color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+side_view(stand, "sticks on a hand on a circle of radius 0.05 m, 1 turn/s", bottom=0.04, top=1.5, half_width=1)
+stand.lines[-1].remove()  # there are five axes
+names = [f"{name}\n{leaning(rig)[1][0]:.1f}°" for name, rig in shown.items()]
+stand.set_xticks(places, names)
+stand.set(xlim=(places[0] - 0.2, places[-1] + 0.2), xlabel="inclination of the topmost stick below its name")
+stand.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
+stand.set_ylabel("height above the hand (m)")
+hang(hung, upright.offset, -upright.height, weights=[20, 90], color=COLOURS[1])
+hung.annotate("50 g", (upright.offset[0], -upright.height[0]), xytext=(7, 2), textcoords="offset points")
+hung.annotate("500 g", (upright.offset[1], -upright.height[1]), xytext=(-8, -12), textcoords="offset points", ha="right")
+side_view(hung, f"50 g standing on 500 g,\n{faster} turns/s", bottom=1.05, half_width=0.5)
+hung.set(ylabel="depth below the support (m)", xlim=(-0.15, 0.75))
 save(figure)

@@ -11,9 +11,11 @@ Usage: ``python experiment_07_revolving_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, legend_below, save, side_view
+from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 LENGTH = 1.0  # m
 PAIR = dict(lower_weight=1, lower_thread=0.5, upper_weight=1, upper_thread=0.25)  # each in the middle of half a chain
@@ -50,32 +52,41 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         lower, upper = np.degrees(shape.inclination)
         print(f"{turns:14.1f}  {shape.half_waves:6}  {lower:12.2f}  {upper:5.2f}")
 
-figure, axes = panels(3, [1.5, 1.5, 1.5])
+figure = Figure(figsize=(8, 6), layout="constrained")
+axes = figure.subplot_mosaic([["chain", "curve"], ["pair", "curve"]], width_ratios=[1.3, 1])
 for shape in rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0):
-    hang(axes[0], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1], label=f"{shape.half_waves}")
-side_view(axes[0], "chain at 3 turns a second", bottom=1.03, half_width=0.85)
-axes[0].set_xlim(-0.4, 1.05)
-axes[0].set_ylabel("below the support (m)")
-axes[0].legend(title="figure", loc="lower right", fontsize=8, frameon=False, handlelength=1)
+    label, colour = f"{shape.half_waves}", COLOURS[shape.half_waves - 1]
+    hang(axes["chain"], shape.offset, -shape.height, color=colour, label=label)
+side_view(axes["chain"], "chain at 3 turns/s", bottom=1.03, half_width=1)
+axes["chain"].set_xlim(-0.4, 1.05)
+axes["chain"].set_ylabel("depth below the support (m)")
+legend_outside(axes["chain"], title="half waves")
 
 for turns, style in [(0.7, ":"), (1.0, "--"), (2.0, "-")]:
     for shape in figures(turns):
         depth = np.cumsum(np.cos(shape.inclination[::-1]) * [PAIR["upper_thread"], PAIR["lower_thread"]])
         colour = COLOURS[shape.half_waves - 1]
-        hang(axes[1], [*shape.offset, 0], [*depth[::-1], 0], weights=[30, 30], color=colour, linestyle=style)
-    axes[1].plot([], [], style, color="black", label=f"{turns:.1f}")
-side_view(axes[1], "two weights instead", bottom=0.9, half_width=0.85)
-axes[1].set_xlim(-0.4, 0.85)
-axes[1].legend(title="turns/s", loc="lower left", fontsize=8, frameon=False)
+        hang(axes["pair"], [*shape.offset, 0], [*depth[::-1], 0], weights=[30, 30], color=colour, linestyle=style)
+    axes["pair"].plot([], [], style, color="black", label=f"{turns:.1f}")
+side_view(axes["pair"], "two weights instead", bottom=0.9, half_width=1)
+axes["pair"].set_xlim(-0.4, 1.05)
+axes["pair"].set_ylabel("depth below the support (m)")
+legend_outside(axes["pair"], title="turns/s")
 
+curve = axes["curve"]
 turns = np.linspace(0.4, 3.5, 800)
 for half_waves in (1, 2):
     tips = [[shape.offset[0] for shape in figures(n) if shape.half_waves == half_waves] for n in turns]
-    axes[2].plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
+    curve.plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
 for half_waves in (1, 2, 3):
-    faster = turns[turns > continuous.frequency[half_waves - 1]]
+    critical = continuous.frequency[half_waves - 1]
+    faster = turns[turns > critical]
     shapes = [rc.steady_shapes(cord, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
-    axes[2].plot(faster, [s.offset[0] for s in shapes], ":", color=COLOURS[half_waves - 1])
-axes[2].set(xlabel="speed (turns/s)", ylabel="lowest point from the axis (m)", ylim=(-0.02, 1.02))
-axes[2].set_title("two weights; dotted: the chain")
+    tips = [0.0, *(s.offset[0] for s in shapes)]
+    curve.plot([critical, *faster], tips, ":", color=COLOURS[half_waves - 1])
+curve.plot([], [], color="black", label="two weights")
+curve.plot([], [], ":", color="black", label="chain")
+curve.set(xlabel="speed (turns/s)", ylabel="distance of the free end from axis (m)", ylim=(-0.02, 1.02))
+curve.set_title("the free end; colours: half waves")
+legend_below(curve)
 save(figure)

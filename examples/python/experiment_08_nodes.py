@@ -39,6 +39,6 @@ for k, panel in enumerate(axes):
     for node in nodes:
         panel.annotate(f"{1000 * node:.0f}", (0, LENGTH - node), xytext=(7, -3), textcoords="offset points")
     side_view(panel, f"mode {k + 1}\n{cord.frequency[k]:.2f} turns/s", bottom=1.04, top=0.04, half_width=0.2)
-axes[0].set_ylabel("below the support (m)")
+axes[0].set_ylabel("depth below the support (m)")
 figure.suptitle("dots: nodes, mm from the free end; bars: the chain is vertical", fontsize=10)
 save(figure)

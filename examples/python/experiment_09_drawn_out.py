@@ -10,7 +10,7 @@ Usage: ``python experiment_09_drawn_out.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, panels, save
+from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
 
@@ -48,28 +48,27 @@ longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the 
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
 print(f"it hangs down, folded in the axis, up to {folded:.4f} turns a second, as a chain of {longer} m would")
 
-figure, (side, curve, vertical) = panels(3, [1.7, 1, 0.9])
+figure, (side, curve, vertical) = panels(3, [1.7, 1, 1])
 for rope, colour in zip(ropes, COLOURS, strict=False):
     at = rope.at_arc(places)
     label = f"{rope.angular_speed / (2 * np.pi):.2f} turns/s"
     side.plot(at.x - rope.span / 2, at.offset, color=colour, label=label)
 side.axhline(0, color="0.6", linewidth=0.8, linestyle="-.")
 side.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", title="2 m of chain, ends drawn apart")
-side.set_ylim(-0.05, 1.45)
+side.set_ylim(-0.05, 0.9)
 side.set_aspect("equal")
-side.legend(loc="upper center", ncols=2, fontsize=8)
+legend_below(side)
 
 span = np.linspace(0.9, 1.9, 120)
 curve.plot(span, [start.drawn_to(s).angular_speed / (2 * np.pi) for s in span], color="black")
 for rope, colour in zip(ropes, COLOURS, strict=False):
     curve.plot(rope.span, rope.angular_speed / (2 * np.pi), "o", color=colour)
-curve.set(xlabel="distance of the ends (m)", ylabel="speed (turns/s)", title="angular momentum kept", ylim=(0, None))
+curve.set(xlabel="span of the ends (m)", ylabel="speed (turns/s)", title="same angular momentum", ylim=(0, None))
 for (turns, at), colour in zip(upright.items(), ["black", "0.35", "0.5", "0.65", "0.8"], strict=True):
     vertical.plot(at.offset, at.height, color=colour, label=f"{turns:.1f}")
 vertical.plot([0, 0], [0, SPAN], "o", color="black", markersize=4)
 vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
-vertical.set(xlabel="from the axis (m)", ylabel="above the lower hand (m)", title="with gravity, turns/s")
-vertical.set_ylim(None, 1.65)
+vertical.set(xlabel="distance from axis (m)", ylabel="height above the lower hand (m)", title="with gravity")
 vertical.set_aspect("equal")
-vertical.legend(loc="upper center", fontsize=7, ncols=2)
+legend_below(vertical, ncols=3, title="turns/s", handlelength=1, columnspacing=1)
 save(figure)

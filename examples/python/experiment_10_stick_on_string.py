@@ -11,7 +11,8 @@ Usage: ``python experiment_10_stick_on_string.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, legend_below, save, side_view
+from matplotlib.figure import Figure
 
 import revchain as rc
 
@@ -59,7 +60,9 @@ for turns in (0.4, 0.6, 0.8, 1.5, 2.5):
     pairs = [np.degrees(shape.inclination) for shape in driven(turns)]
     print(f"{turns:14.1f}   ", "   ".join(f"{stick:6.2f} {string:6.2f}" for stick, string in pairs))
 
-figure, (side, curve, hand) = panels(3, [1.4, 1, 1])
+figure = Figure(figsize=(8, 7), layout="constrained")
+axes = figure.subplot_mosaic([["side", "side"], ["curve", "hand"]], height_ratios=[1, 1.2])
+side, curve, hand = (axes[name] for name in ("side", "curve", "hand"))
 for turns in (0.6, 0.8, 1.5, 3.0):
     for shape in figures(turns):
         stick, string = shape.inclination
@@ -68,22 +71,23 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         hang(side, [joint, 0], [deep, 0], color="0.4", linewidth=1)
         end = [joint + STICK * np.sin(stick), joint], [deep + STICK * np.cos(stick), deep]
         hang(side, *end, color=colour, linewidth=3)
-        side.annotate(f"{turns}", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
-side_view(side, "at 0.6, 0.8, 1.5, 3 turns/s; orange: the other at 3", bottom=1.05, half_width=1)
-side.set(ylabel="below the hand (m)", xlim=(-0.35, 1.1))
+        side.annotate(f"{turns} turns/s", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
+side_view(side, "hand at rest: every shape with a bent string", bottom=1.05, half_width=1)
+side.set(ylabel="depth below the hand (m)", xlim=(-0.35, 1.4))
 
 speeds = np.linspace(0.4, 4, 700)
 for half_waves in (1, 2):
     for number, style in [(0, "-"), (1, "--")]:
         lean = [[s.inclination[number] for s in figures(n) if s.half_waves == half_waves] for n in speeds]
         degrees = [np.degrees(x[0]) if x else np.nan for x in lean]
-        name = ["stick", "string"][number] if half_waves == 1 else None
+        name = f"{['stick', 'string'][number]}, {half_waves} half wave{'s' * (half_waves > 1)}"
         curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
 for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 4)):
-    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.tip_inclination), color=COLOURS[k])
-for axes, title in [(curve, "hand at rest"), (hand, f"hand on {100 * HAND:.0f} cm: the stick")]:
-    axes.axhline(0, color="black", linewidth=0.6)
-    axes.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title)
-curve.set_ylabel("inclination (°)")
-curve.legend(loc="lower left")
+    label = "branch from rest" if line.birth == "rest" else f"isolated branch {k}"
+    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.tip_inclination), color=COLOURS[k], label=label)
+for panel, title in [(curve, "hand at rest"), (hand, f"hand on a circle of {HAND} m: the stick")]:
+    panel.axhline(0, color="black", linewidth=0.6)
+    panel.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title, ylabel="inclination (°)")
+legend_below(curve)
+legend_below(hand)
 save(figure)

@@ -10,7 +10,7 @@ Usage: ``python experiment_11_broomstick.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
 
@@ -31,25 +31,31 @@ for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
     alone = rc.conical_pendulum.revolutions_per_second(thread)
     print(f"{back:15.3f}  {rest:24.3f}  {round(float(top), 3) + 0.0:+13.3f}  {thread:31.3f}  {alone:8.3f}")
 
-figure, axes = panels(4, [1, 1, 1, 1.8])
-for panel, swings, colour in zip(axes, (0.6, 0.788, 1.5), COLOURS, strict=False):
-    height = rc.conical_pendulum.height(2 * np.pi * swings)
-    rest = length + height
-    for hand in (-0.1, 0.1):
-        hang(panel, [hand, hand * (1 - STICK / rest)], [0, -STICK], color=colour, linewidth=2.5, alpha=0.8)
-        panel.plot([hand * (1 - STICK / rest), 0], [-STICK, -rest], ":", color="0.5")
-    panel.plot([-0.1, 0.1], [0, 0], "|-", color="black", markersize=8)
-    panel.plot(0, -rest, "x", color="black", zorder=4)
-    panel.annotate("C", (0, -rest), xytext=(8, -3), textcoords="offset points")
-    side_view(panel, f"{swings} swings/s\nC {rest:.2f} m above", bottom=0.05, top=1.7, half_width=0.35)
-    panel.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
-    panel.set_xlabel("m")
-axes[0].set_ylabel("above the hand (m)")
+figure, (stand, curve) = panels(2, [1.5, 1], height=5.0)
+APART, HAND = 0.5, 0.1  # m, between neighbouring axes; how far the hand goes to each side
+names = []
+for number, swings in enumerate((0.6, 0.788, 1.5)):
+    rest, at = length + rc.conical_pendulum.height(2 * np.pi * swings), APART * number
+    for hand in (-HAND, HAND):
+        top = at + hand * (1 - STICK / rest)
+        hang(stand, [at + hand, top], [0, -STICK], color=COLOURS[number], linewidth=2.5, alpha=0.8)
+        stand.plot([top, at], [-STICK, -rest], ":", color="0.5")
+    stand.plot([at - HAND, at + HAND], [0, 0], "|-", color="black", markersize=8, clip_on=False)
+    stand.plot([at, at], [0, -1.6], color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+    stand.plot(at, -rest, "x", color="black", zorder=4)
+    stand.annotate("C", (at, -rest), xytext=(8, -3), textcoords="offset points")
+    names.append(f"{swings}\nswings/s\nC at {rest:.2f} m")
+side_view(stand, "a broomstick on a hand that goes to and fro", bottom=0.05, top=1.7, half_width=1)
+stand.lines[-1].remove()  # there are three axes
+stand.set_xticks(APART * np.arange(3), names)
+stand.set(xlim=(-0.25, 2 * APART + 0.25), xlabel="C stays at rest", ylabel="height above the hand (m)")
+stand.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
 
 swings = np.linspace(0.45, 2.5, 200)
 thread = rc.two_links.thread_of_standing_link(rc.conical_pendulum.height(2 * np.pi * swings), **LIKE)
-axes[3].plot(swings, thread, color="black", label="with the broomstick")
-axes[3].plot(swings, rc.conical_pendulum.height(2 * np.pi * swings), "--", color="0.5", label="with a plummet")
-axes[3].set(xlabel="swings a second", ylabel="length of the pendulum (m)", title="what swings so often", ylim=(0, 2.2))
-axes[3].legend()
+curve.plot(swings, thread, color="black", label="with the broomstick")
+curve.plot(swings, rc.conical_pendulum.height(2 * np.pi * swings), "--", color="0.5", label="with a plummet")
+curve.set(xlabel="frequency (swings/s)", ylabel="length of the pendulum (m)", ylim=(0, 2.0))
+curve.set_title("a pendulum of that frequency")
+legend_below(curve, ncols=1)
 save(figure)

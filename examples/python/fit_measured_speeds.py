@@ -13,7 +13,7 @@ Usage: ``python fit_measured_speeds.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, panels, save
+from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
 
@@ -30,15 +30,15 @@ hung = {1: MEASURED[1], 2: MEASURED[2]}  # the two modes in which the trolley ha
 print("\nboth masses, with a fixed trolley:")
 print(rc.fit(believed, hung, vary=[LOAD, "links[1].mass"]))
 
-figure, (pull, cloud) = panels(2)
+figure, (pull, cloud) = panels(2, height=5.0)
 speed, spread, modes = found.measured, found.measured_uncertainty, found.number
 before = rc.modes(crane).angular_speed
 pull.axhline(0, color="0.6", linewidth=0.8)
-pull.errorbar(modes, 0 * speed, 100 * spread / speed, fmt="none", ecolor="0.3", capsize=6, label="measured, 1 st. uncertainty")
+pull.errorbar(modes, 0 * speed, 100 * spread / speed, fmt="none", ecolor="0.3", capsize=6, label="measured, standard uncertainty")
 for values, colour, label in ((before, COLOURS[1], "2500 kg, 24 m"), (found.computed, COLOURS[0], "fitted")):
     pull.plot(modes, 100 * (values / speed - 1), "o", color=colour, label=label)
-pull.set(title="speeds computed, from those measured", xlabel="mode", ylabel="off by (%)", xticks=modes, xlim=(0.5, 3.5))
-pull.legend(frameon=False, loc="center right")
+pull.set(title="computed speeds against measured ones", xlabel="mode", ylabel="difference (%)", xticks=modes, xlim=(0.5, 3.5))
+legend_below(pull, ncols=1)
 
 rng = np.random.default_rng(1)
 for _ in range(400):  # what other measurements of the same crane might have said
@@ -52,6 +52,6 @@ for size, line in ((1, "-"), (2, "--")):
     cloud.plot(rope, load, line, color=COLOURS[0], label=f"{size} standard uncertainties" if size == 2 else None)
 cloud.plot(24, 2500, "o", color=COLOURS[1], label="as believed")
 cloud.plot(found[ROPE], found[LOAD], "o", color=COLOURS[0], label="fitted")
-cloud.set(title="load and rope; grey: 400 drawn sets of periods", xlabel="rope (m)", ylabel="load (kg)", ylim=(2450, 2850))
-cloud.legend(frameon=False, loc="upper left")
+cloud.set(title="grey: fits of 400 drawn sets of periods", xlabel="rope (m)", ylabel="load (kg)", ylim=(2450, 2850))
+legend_below(cloud, ncols=1)
 save(figure)

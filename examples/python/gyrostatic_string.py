@@ -14,9 +14,11 @@ Usage: ``python gyrostatic_string.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, panels, save
+from _picture import COLOURS, save
+from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.style import legend_outside
 
 MASS, LENGTH, TENSION, RADIUS = 1.5, 0.3, 120.0, 0.29  # kg, m, N, m: a wheel on each link, the cord drawn tight
 AXIAL = MASS * RADIUS**2  # kg m^2
@@ -44,16 +46,17 @@ for turns in (0.0, 2.0, 5.0, 8.0):
     half = "" if turn == 0 else f"{abs(180 / turn):18.1f}"
     print(f"{turns:9.1f}  {2 * np.pi / forward:16.2f}  {2 * np.pi / backward:15.2f}  {turn:15.3f}  {half}".rstrip())
 
-figure, (waves, plane) = panels(2, [1, 1.6])
+waves, plane = (figure := Figure(figsize=(8, 6.5), layout="constrained")).subplots(2, 1)
 phase = np.linspace(0.02, np.pi, 200)
 for turns, colour in zip((0.0, 5.0, 8.0), COLOURS, strict=False):
     found = string(turns).angular_speeds(phase)
     waves.plot(np.degrees(phase), found.forward, color=colour, label=f"{turns:g} turns/s")
     waves.plot(np.degrees(phase), -found.backward, color=colour, linestyle="--")
-waves.axhline(speed, color="0.6", linewidth=0.8)
-waves.set(xlabel="phase from link to link (°)", ylabel="speed (rad/s)", title="full: with the spin, dashed: against it")
+waves.plot([], [], color="0.3", linestyle="--", label="against the spin")
+waves.axhline(speed, color="0.6", linewidth=0.8, label="the vibration below")
+waves.set(xlabel="phase from link to link (°)", ylabel="speed (rad/s)", title="circular waves with the spin and against it")
 waves.set(xlim=(0, 180), ylim=(0, None))
-waves.legend(loc="upper left")
+legend_outside(waves)
 string(5.0).plot_vibration(speed, links=120, ax=plane)
 plane.set_title("a vibration of 3 rad/s along 120 wheels at 5 turns/s")
 save(figure)

@@ -93,7 +93,7 @@ def test_beads_have_more_shapes_than_critical_heights():
 def test_pictures():
     shapes = rc.steady_shapes(Cord(1.0), conical_height=0.05)
     ax = shapes.plot()
-    assert ax.get_xlabel() == "distance from the axis (m)" and ax.get_title() == "3 shapes, proved complete"
+    assert ax.get_xlabel() == "distance from axis (m)" and ax.get_title() == "3 shapes, proved complete"
     assert shapes[0].plot(ax) is ax
     assert rc.steady_shapes(Cord(1.0), conical_height=1.0).plot().get_title() == "0 shapes, proved complete"
 

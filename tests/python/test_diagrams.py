@@ -126,7 +126,7 @@ def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     shape = shapes_of(random_chain("plummets", 4, 3), 0.15)[0]
     figure, forces = shape.force_diagram().plot()
-    assert figure.get_xlabel() == "from the axis (m)" and forces.get_ylabel() == "upwards (N)"
+    assert figure.get_xlabel() == "distance from axis (m)" and forces.get_ylabel() == "force upwards (N)"
     letters = {text.get_text() for text in forces.texts}
     assert {"$O$", "$N$", "$Q_1$", "$Q_4$", "$P_1$", "$W_4$"} <= letters
     assert figure.figure is forces.figure

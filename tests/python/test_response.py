@@ -392,7 +392,7 @@ def test_plots(chain):
         rc.response(chain, conical_height=[]).plot()
     swing = rc.swing(chain, [0.1] * 5, None, np.linspace(0, 2, 9))
     assert len(swing.plot().get_legend().get_texts()) == 9
-    assert swing.plot(kind="time", pins=[0, 4]).get_ylabel() == "distance from the axis (m)"
+    assert swing.plot(kind="time", pins=[0, 4]).get_ylabel() == "distance from axis (m)"
     with pytest.raises(ValueError, match="kind must be"):
         swing.plot(kind="x")
     with pytest.raises(ValueError, match="pins must be numbers"):

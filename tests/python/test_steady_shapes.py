@@ -396,7 +396,7 @@ def test_plots():
     found = rc.steady_shapes(rc.Chain.uniform_rods(3, length=3.0), conical_height=0.0625, hanging_only=False)
     axes = found.plot()
     assert axes.get_title() == "14 shapes, proved complete"
-    assert axes.get_xlabel() == "distance from the axis (m)"
+    assert axes.get_xlabel() == "distance from axis (m)"
     drawn = [line.get_xydata() for line in axes.lines]
     for shape in found:
         points = np.column_stack([shape.offset, shape.height])

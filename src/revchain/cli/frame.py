@@ -118,7 +118,7 @@ def common(
 def save_picture(axes: Any, title: str, path: Path) -> None:
     """With its title."""
     axes.set_title(plain(title), wrap=True)
-    axes.figure.savefig(path, dpi=150)
+    axes.figure.savefig(path, dpi=200)
 
 
 def checked_picture(plot: Path) -> None:

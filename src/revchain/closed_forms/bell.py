@@ -225,7 +225,7 @@ class BellAndClapper(Result):
         >>> import revchain as rc
         >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
         >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
-        'below the axle (m)'
+        'depth below axle (m)'
         """
         from ..plots.bell import plot_bell
 

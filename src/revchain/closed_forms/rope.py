@@ -335,7 +335,7 @@ class TortuousRope(Solved):
         >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
         >>> ax = rope.plot()
         >>> ax.get_xlabel()
-        'across (m)'
+        'x (m)'
         """
         from ..plots.closed_forms import plot_tortuous_rope
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .style import axes_or_new
+from .style import axes_or_new, legend_outside
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +31,7 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None) -> Axes:
     ax.plot(np.concatenate([-wide[::-1], wide]), np.concatenate([depth[::-1], depth]), color="0.45", linewidth=2.5)
     half, top = 0.32 * (lip - crown), min(-0.06 * ball, crown - 0.18 * ball)
     ax.fill([-half, half, half, -half], [crown, crown, top, top], color="0.88", edgecolor="0.45", zorder=1)
-    ax.text(0.6 * half, (crown + top) / 2, "headstock", color="0.35", ha="center", va="center", fontsize="small")
+    ax.text(1.1 * half, (crown + top) / 2, "headstock", color="0.35", va="center", fontsize="small")
     ax.plot([0.0, 0.0], [pin, pin + 1.08 * ball], color="C3", linewidth=2.2, zorder=3)
     ax.plot(0.0, pin + ball, marker="o", markersize=13.0, color="C3", zorder=3)
     marks = [
@@ -52,10 +52,10 @@ def plot_bell(bell: BellAndClapper, ax: Axes | None) -> Axes:
             continue
         ax.plot([x, x], [start, start + length], color=colour, linewidth=1.2, marker="_", markersize=12.0)
         ax.annotate(name.split()[1], (x, start + length / 2), xytext=(5, 0), textcoords="offset points", color=colour)
-    ax.set(xlabel="m", ylabel="below the axle (m)", title=f"Clapper / bell in the slower mode: {bell.inclination_ratio[0]:.3g}")
+    ax.set(xlabel="distance from axle (m)", ylabel="depth below axle (m)", title=f"Clapper / bell in the slower mode: {bell.inclination_ratio[0]:.3g}")
     ax.set_aspect("equal")
     ax.margins(0.1)
     if not ax.yaxis_inverted():
         ax.invert_yaxis()
-    ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0, frameon=False)
+    legend_outside(ax)
     return ax

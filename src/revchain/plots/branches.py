@@ -10,7 +10,7 @@ import numpy as np
 
 from ..systems.numbers import Floats, word
 from .modes import beside_at_rest
-from .style import half_waves_style
+from .style import half_waves_style, legend_outside
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -60,7 +60,7 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
-        ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left", bbox_to_anchor=(1.01, 1.0))
+        legend_outside(ax, handles=[handles[i] for i in order], labels=[labels[i] for i in order])
     return ax
 
 
@@ -122,5 +122,5 @@ def plot_held_branches(branches: Sequence[HeldBranch], ax: Axes | None, *, quant
         _mark_folds(ax, branch.angular_speed[branch.folds], value[branch.folds], colour)
     _label(ax, branches, "speed (rad/s)", HELD_QUANTITIES, quantity)
     if named:
-        ax.legend(frameon=False)
+        legend_outside(ax)
     return ax

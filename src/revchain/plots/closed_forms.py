@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import one_positive, refuse_beyond_memory, shown
-from .style import axes_or_new, checked_axes, keep_room, new_figure
+from .style import WIDEST, axes_or_new, checked_axes, keep_room, legend_outside, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,14 +36,15 @@ def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tu
     return checked_axes(two[0]), checked_axes(two[1])
 
 
-def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black") -> None:
-    """Write a letter beside a point, to the right of it or to the left."""
+def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black", below: bool = False) -> None:
+    """Write a letter beside a point, to the right of it or to the left, above or below."""
     ax.annotate(
         f"${text}$",
         (x, z),
-        xytext=(5 if right else -5, 3),
+        xytext=(5 if right else -5, -3 if below else 3),
         textcoords="offset points",
         ha="left" if right else "right",
+        va="top" if below else "bottom",
         color=color,
     )
 
@@ -58,7 +59,7 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
 
 def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
     """See `ForceDiagram.plot`."""
-    figure, forces = _two_axes(axes, 9.0, 5.5)
+    figure, forces = _two_axes(axes, WIDEST, 5.5)
     pin, ray, reaction, load = diagram.pin, diagram.ray, diagram.reaction, diagram.load
     count, height = len(ray), diagram.conical_height
     lettered = count <= MAX_LETTERED
@@ -81,8 +82,8 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) ->
             _letter(figure, f"K_{m + 1}", 0.0, z + height, right=bool(x < 0), color=colour)
             if m > 0:
                 figure.plot(x, z, marker="+", color=colour, zorder=3)
-                _letter(figure, f"G_{m + 1}", x, z, right=bool(x >= 0), color=colour)
-    _finish(figure, "from the axis (m)", "above the support (m)", "funicular polygon")
+                _letter(figure, f"G_{m + 1}", x, z, right=bool(x < 0), color=colour, below=True)
+    _finish(figure, "distance from axis (m)", "height above the support (m)", "funicular polygon")
 
     total = float(ray[-1, 1])
     scale = total / count / height  # ON as the mean weight
@@ -102,23 +103,23 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) ->
             forces.plot([0.0, x], [0.0, -scale * height], color=colour, linewidth=0.9, linestyle="-.", zorder=2)
             forces.plot(x, -scale * height, marker="o", markersize=4.0, color="black", zorder=4)
             if lettered:
-                _letter(forces, f"P_{m + 1}", x, -scale * height, right=bool(x >= 0))
+                _letter(forces, f"P_{m + 1}", x, -scale * height, right=bool(x >= 0), below=True)
         if lettered:
             _letter(forces, f"Q_{m + 1}", ray[m, 0], ray[m, 1], right=bool(ray[m, 0] >= 0))
             _letter(forces, f"W_{m + 1}", 0.0, level[m] + 0.5 * load[m, 1], right=bool(ray[m, 0] < 0), color="0.4")
     reach = [0.0, *(scale * x for x in diagram.lifted if np.isfinite(x))]
     forces.plot([min(reach), max(reach)], [-scale * height] * 2, color="0.6", linewidth=0.9, zorder=1)
     _letter(forces, "O", 0.0, 0.0, right=bool(ray[0, 0] < 0))
-    _letter(forces, "N", 0.0, -scale * height, right=False)
-    _finish(forces, "sideways (N)", "upwards (N)", "diagram of force")
+    _letter(forces, "N", 0.0, -scale * height, right=False, below=True)
+    _finish(forces, "force sideways (N)", "force upwards (N)", "diagram of force")
     if not plummets:
-        forces.legend(fontsize="small")
+        legend_outside(forces)
     return figure, forces
 
 
 def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
     """See `FunicularPolygon.plot`."""
-    left, forces = _two_axes(axes, 10.0, 4.5)
+    left, forces = _two_axes(axes, WIDEST, 4.0)
     x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
     lettered = len(x) - 2 <= MAX_LETTERED
     line = max(float(z.max()), 0.0) + 0.12 * (float(x[-1] - x[0]))
@@ -135,10 +136,10 @@ def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | 
     _letter(forces, "O", 0.0, 0.0, right=False)
     if lettered:
         for j in range(1, len(x) - 1):
-            _letter(left, f"P_{j}", x[j], z[j])
+            _letter(left, f"P_{j}", x[j], z[j], below=True)
             _letter(forces, f"W_{j}", pull, 0.5 * float(rise[j - 1] + rise[j]))
-    _finish(left, "along (m)", "upwards (m)", "funicular polygon")
-    _finish(forces, "sideways (N)", "upwards (N)", "diagram of force")
+    _finish(left, "distance along (m)", "height (m)", "funicular polygon")
+    _finish(forces, "force sideways (N)", "force upwards (N)", "diagram of force")
     return left, forces
 
 
@@ -150,8 +151,8 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None) -> Axes:
     ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
     ax.plot(places.x, places.offset, linewidth=1.6, label=label)
-    ax.set(xlabel="along the axis (m)", ylabel="from the axis (m)", aspect="equal")
-    ax.legend()
+    ax.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
+    legend_outside(ax)
     return ax
 
 
@@ -166,8 +167,8 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float) -
     ax.plot(places.radius * np.cos(places.angle), places.radius * np.sin(places.angle), linewidth=1.6)
     ax.plot(0.0, 0.0, marker="+", color="0.4")
     ax.set(
-        xlabel="across (m)",
-        ylabel="across (m)",
+        xlabel="x (m)",
+        ylabel="y (m)",
         title=f"seen along the axis: {np.degrees(rope.half_wave_angle):.4g}° in {rope.half_wave:.3g} m",
         aspect="equal",
     )
@@ -194,7 +195,7 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | Non
 
 def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
     """See `GyrostaticString.plot`."""
-    ax = axes_or_new(ax, 5.0, 4.0)
+    ax = axes_or_new(ax, 6.4, 4.0)
     phase = np.linspace(0.0, np.pi, 200)[1:]
     speeds = string.angular_speeds(phase)
     both = [speeds.forward, -speeds.backward]
@@ -204,7 +205,7 @@ def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
     ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
     usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
     ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
-    ax.legend()
+    legend_outside(ax)
     return ax
 
 
@@ -220,5 +221,5 @@ def plot_vibration(turn: float, phase: float, links: int, ax: Axes | None) -> Ax
         ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
     ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
     ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
-    ax.legend(loc="lower center", ncols=2, fontsize="small")
+    legend_outside(ax)
     return ax

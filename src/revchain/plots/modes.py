@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import integer, listed, shown
 from ..systems.rig import Rig
-from .style import MOST_PINS_AS_DOTS, MOST_POINTS, axes_or_new, new_figure, plain, thinned
+from .style import MOST_PINS_AS_DOTS, MOST_POINTS, WIDEST, axes_or_new, new_figure, plain, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,6 +34,10 @@ FOLD = 0.3  # sideways, between the links that hang and those that stand on them
 MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
 SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
 MOST_NAMES = 12
+NAME_WIDTH = 12  # letters in a line of a name
+COLUMN = 1.25  # inches between the axes of neighbouring shapes
+LETTER = 0.07  # inches
+WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
 class _Straight:
@@ -51,6 +56,29 @@ class _Straight:
             level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
         self.level: Floats = level[0] - level if isinstance(system, Held) else level
         self.few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
+
+    @property
+    def said(self) -> str:
+        """What to write under the system at rest."""
+        fluid = f"\nin {self.system.fluid} fluid" if isinstance(self.system, Rig) and self.system.displaced is not None else ""
+        arm = "\narm not\nto scale" if isinstance(self.system, Rig) and self.system.support.radius else ""
+        return f"at rest{fluid}{arm}"
+
+    def names(self) -> list[str]:
+        """Of the links, in short lines; none where they are many."""
+        names = self.base.names if isinstance(self.base, Chain) else None
+        few = names is not None and len(names) <= MOST_NAMES and self.few
+        return [plain(textwrap.fill(name, NAME_WIDTH)) for name in names or ()] if few else []
+
+    def beside(self) -> Floats:
+        """Half the width of each link: of its flywheel."""
+        spun = isinstance(self.system, Rig) and self.system._momentum(1.0)
+        return np.where(np.broadcast_to(spun, len_of(self.base)), WHEEL, 0.0)
+
+    def reach(self) -> float:
+        """To where the names reach, where columns are as wide as they are by default."""
+        longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
+        return max((far + n * LETTER * SPACING / COLUMN for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
         low, high = float(self.level.min()), float(self.level.max())
@@ -153,10 +181,11 @@ class _Straight:
             momentum = system._momentum(1.0)
             for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
                 spun = np.flatnonzero(np.sign(momentum) == sign)
-                ax.hlines(middle[spun], across[spun] - 0.6, across[spun] + 0.6, color=colour, linewidth=4.0, zorder=3)
-        if chain.names is not None and chain.size <= MOST_NAMES:
-            for x, z, name in zip(across, middle, chain.names, strict=True):
-                ax.annotate(plain(name), (x, z), xytext=(9, 0), textcoords="offset points", va="center", fontsize="small")
+                ax.hlines(middle[spun], across[spun] - WHEEL, across[spun] + WHEEL, color=colour, linewidth=4.0, zorder=3)
+        for x, z, name, far in zip(across, middle, self.names(), self.beside(), strict=False):
+            side = -1 if x < across.max() else 1  # to the left where links stand on the right
+            place: dict[str, Any] = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": "small"}
+            ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **place)
 
 
 def len_of(system: Any) -> int:
@@ -170,7 +199,7 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     straight = _Straight(system)
     straight.at_rest(ax)
     straight.finish(ax)
-    ax.set_xlim(-1.3, 1.3)
+    ax.set_xlim(-1.3, max(1.3, straight.reach()))
     if straight.few:
         ax.set_xlabel("dots: centres of gravity, larger where heavier; rings: pins;\nbars: rods of the same inertia", fontsize="small")
     ax.set_xticks([])
@@ -184,8 +213,10 @@ def beside_at_rest(system: System | None, ax: Axes | None, width: float, height:
     """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
     if ax is not None or system is None or not _Straight(system).few:
         return axes_or_new(ax, width, height)
-    left, right = new_figure(width + 1.8, height).subplots(1, 2, width_ratios=[1.8, width])
-    plot_system(system, left).set_xlabel("at rest")
+    straight = _Straight(system)
+    own = 1.1 + 0.7 * max(1.0, straight.reach() / 1.3)
+    left, right = new_figure(min(width + own, WIDEST), height).subplots(1, 2, width_ratios=[own, width])
+    plot_system(system, left).set_xlabel(straight.said)
     axes: Axes = right
     return axes
 
@@ -220,35 +251,44 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
         numbers = chosen(place, modes.number, which)
         rows = np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
     straight = _Straight(system)
-    before = 1 if carried is None else 2
-    ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(len(rows), 2)), 6.0)
-    straight.at_rest(ax)
-    labels = ["at rest" + (f"\nin {system.fluid} fluid" if rigged and system.displaced is not None else "")]
+    labels = [straight.said]
     if carried is not None:
         labels.append(_speed_label("carried round", float(carried.angular_speed)))
-        most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
-        straight.axis(ax, SPACING)
-        straight.links(ax, SPACING + carried.offset / most, CARRIED)
-        ax.plot([SPACING, SPACING + carried.support_radius / most], [0.0, 0.0], **ARM)
-    for nth, row in enumerate(rows):
-        _draw_mode(ax, modes, straight, int(row), SPACING * (nth + before), nth)
-        way = ""
-        if getattr(modes, "has_momentum", False):
-            way = " forward" if modes.angular_speed[row] > 0 else " backward"
+    before, turning = len(labels), getattr(modes, "has_momentum", False)
+    for row in rows:
+        way = ("\nforward" if modes.angular_speed[row] > 0 else "\nbackward") if turning else ""
         labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
-    ticks = [SPACING * nth for nth in range(len(rows) + before)]
+    columns = len(labels) + (not len(rows))
+    aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
+    ax = axes_or_new(ax, _width(labels, columns), 6.0)
+    straight.at_rest(ax)
+    ticks = [0.0, *(aside + SPACING * nth for nth in range(1, len(labels)))]
+    if carried is not None:
+        most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
+        straight.axis(ax, ticks[1])
+        straight.links(ax, ticks[1] + carried.offset / most, CARRIED)
+        ax.plot([ticks[1], ticks[1] + carried.support_radius / most], [0.0, 0.0], **ARM)
+    for row, at in zip(rows, ticks[before:], strict=True):
+        _draw_mode(ax, modes, straight, int(row), at)
     if not len(rows):
         rate = digits(modes.other.growth_rate.max(initial=0.0), 4)  # type: ignore[attr-defined]
-        labels.append(f"no steady motion:\nfalls away as\nexp({rate} t), t in s")
-        ticks.append(SPACING * (before + 0.5))
-    ax.set_xticks(ticks, labels, fontsize="x-small")
-    ax.set_xlim(-SPACING / 2, SPACING * (max(len(rows), 2) + before - 0.5))
+        said = f"no steady\nmotion:\nfalls away as\nexp({rate} t),\nt in s"
+        ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
+    ax.set_xticks(ticks, labels, fontsize="small")
+    ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
     straight.finish(ax)
     if len(rows) or carried is not None:
-        ax.set_xlabel("offset from the axis, own scale each; rings mark the nodes", fontsize="small")
+        turn = "\n" if columns < 4 else " "
+        ax.set_xlabel(f"offset from the axis, own scale each;{turn}rings mark the nodes", fontsize="small")
     if rigged and system.displaced is not None:
         ax.set_facecolor(FLUID)
     return ax
+
+
+def _width(labels: list[str], columns: int) -> float:
+    """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
+    longest = max(len(line) for label in labels for line in label.splitlines())
+    return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
 def _speed_label(name: str, speed: float) -> str:
@@ -256,9 +296,9 @@ def _speed_label(name: str, speed: float) -> str:
     return "\n".join(lines)
 
 
-def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float, nth: int) -> None:
+def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
-    colour = f"C{nth % 10}"
+    colour = f"C{(int(modes.number[row]) - 1) % 10}"
     if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
     straight.axis(ax, axis)
@@ -295,15 +335,17 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
 
 def _draw_support(rig: Rig, ax: Axes, level: Floats, across: float) -> None:
     """What holds the uppermost pin: a firm point, a spring, an arm."""
+    yields = bool(np.isfinite(rig.support.stiffness))
+    wall = -0.65 if rig.support.radius and yields else -1.0  # the spring starts where the arm ends
     if rig.support.radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-        ax.plot([-1.0, across], [0.0, 0.0], **ARM)
-    if np.isfinite(rig.support.stiffness):
+        ax.plot([-1.0, wall if yields else across], [0.0, 0.0], **ARM)
+    if yields:
         tall = np.ptp(level)
-        x = np.concatenate([[-1.0, -0.85], np.linspace(-0.8, -0.3, 9), [-0.25, 0.0]])
+        x = wall * np.concatenate([[1.0, 0.85], np.linspace(0.8, 0.3, 9), [0.25, 0.0]])
         zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
         ax.plot(x, 0.012 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
-        ax.plot([-1.0, -1.0], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
+        ax.plot([wall, wall], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
         ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if rig.support.carriage else 4.0})
     else:
         ax.plot(across, 0.0, marker="^" if rig.inverted.all() else "v", **SUPPORT)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..systems.numbers import Floats, integer, listed, word
 from .modes import beside_at_rest, plot_carried
-from .style import MOST_PINS_AS_DOTS, thinned
+from .style import MOST_PINS_AS_DOTS, legend_outside, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..results.motions import Response, Swing, WhirlSwing
 
 MOST_CURVES = 4  # of pins, unless asked
+MOST_MOMENTS = 9  # in a picture of shapes
 
 
 def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, resonances: Sequence[float]) -> Axes:
@@ -56,8 +57,8 @@ def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, 
         top = finite.max()
         ax.set_ylim(max(finite.min(), 1e-6 * min(top, found.support_radius)) / 2, 2 * top)
     ax.set(xlabel="angular speed (rad/s)", ylabel="distance from axis (m); grey: support")
-    ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to the support")
-    ax.legend()
+    ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to\nthe support")
+    legend_outside(ax)
     return ax
 
 
@@ -120,7 +121,7 @@ def plot_whirl_swing(found: WhirlSwing, ax: Axes | None, kind: str, pins: Iterab
     else:
         ax.set(xlabel="time (s)", ylabel="distance from the axis along x, dashed along y (m)")
     if chosen:
-        ax.legend()
+        legend_outside(ax)
     return ax
 
 
@@ -147,21 +148,22 @@ def _swing(
             name = "free end" if column == 0 and depth[0] == depth.max() else f"{what} {column}"
             ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
         ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
-        ax.set(xlabel="time (s)", ylabel="distance from the axis (m)")
+        ax.set(xlabel="time (s)", ylabel="distance from axis (m)")
         if chosen:
-            ax.legend()
+            legend_outside(ax)
         return ax
     from ..systems.extras import require
 
     colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
     marker = "o" if what == "pin" and depth.size <= MOST_PINS_AS_DOTS else ""
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    for rank, row in enumerate(order):
+    drawn = order[np.unique(np.linspace(0, order.size - 1, min(MOST_MOMENTS, order.size)).round().astype(int))]
+    for rank, row in enumerate(drawn):
         kept = thinned(found.offset[row])
         ax.plot(
             found.offset[row][kept],
             depth[kept],
-            color=colours(0.9 * rank / max(1, order.size - 1)),
+            color=colours(0.9 * rank / max(1, drawn.size - 1)),
             linewidth=1.2,
             marker=marker,
             markersize=2.5,
@@ -169,7 +171,7 @@ def _swing(
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
-    ax.set(xlabel="distance from the axis (m), own scale", ylabel="depth below the support (m)")
-    if order.size <= 12:
-        ax.legend(fontsize="small")
+    ax.set(xlabel="distance from axis (m), own scale", ylabel="depth below the support (m)")
+    if drawn.size:
+        legend_outside(ax, title=f"{drawn.size} of {order.size} times" if drawn.size < order.size else None)
     return ax

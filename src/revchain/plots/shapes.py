@@ -6,9 +6,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..systems.held import Held
 from .modes import beside_at_rest
-from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, thinned
+from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, legend_outside, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,9 +18,16 @@ if TYPE_CHECKING:
     from ..results.shapes import Shape
 
 
+def _fitting_height(shapes: Sequence[Any]) -> float:
+    """Inches of a figure for curves of these proportions, some 5 inches wide at most."""
+    wide = max((np.ptp([0.0, *shape.offset]) for shape in shapes), default=0.0)
+    tall = max((np.ptp([0.0, *shape.height]) for shape in shapes), default=1.0)
+    return float(np.clip(1.2 + 5.0 * tall / wide, 3.4, 6.0)) if wide else 6.0
+
+
 def plot_shapes(shapes: Sequence[Shape], ax: Axes | None) -> Axes:
     """See `SteadyShapes.plot`; dots mark the pins of links, of cords the free end."""
-    ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 5.0, 6.0)
+    ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 6.2, _fitting_height(shapes))
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     named: set[int] = set()
     origin = "support"
@@ -40,8 +49,8 @@ def plot_shapes(shapes: Sequence[Shape], ax: Axes | None) -> Axes:
             if top:
                 ax.plot([0.0, top], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=1)
             ax.plot(top, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set(xlabel="distance from the axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
+    ax.set(xlabel="distance from axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
     keep_room(ax)
     if named:
-        ax.legend(fontsize="small")
+        legend_outside(ax)
     return ax

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 STYLE = {
-    "font.size": 9,
-    "axes.titlesize": 9,
+    "axes.titlesize": "medium",
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.prop_cycle": "cycler(color=['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '000000'])",
@@ -25,9 +24,10 @@ STYLE = {
     "savefig.dpi": 200,
     "svg.hashsalt": "revchain",
 }
-"""For `matplotlib.rcParams.update`: letters of 9 points, and colours that can be told apart without seeing red or green
-(Okabe and Ito 2008)."""
+"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and colours that can be told apart without
+seeing red or green (Okabe and Ito 2008)."""
 
+WIDEST = 8.0  # inches, of a new figure
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
 
@@ -52,6 +52,11 @@ def checked_axes(ax: Axes) -> Axes:
     if not isinstance(ax, kind):
         raise TypeError(f"plot: ax must be axes of matplotlib, got {shown(ax)}")
     return ax
+
+
+def legend_outside(ax: Axes, **more: Any) -> None:
+    """A legend to the right of the frame, where it covers no curve."""
+    ax.legend(**{"loc": "upper left", "bbox_to_anchor": (1.02, 1.0), "borderaxespad": 0.0, "frameon": False, **more})
 
 
 def plain(text: str) -> str:

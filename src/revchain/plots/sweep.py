@@ -9,7 +9,7 @@ import numpy as np
 
 from ..systems.numbers import word
 from ..systems.units import SI
-from .style import axes_or_new, plain
+from .style import WIDEST, axes_or_new, legend_outside, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     grids = [axis for axis in plan.axes if axis.values is not None]
     random = len(grids) < len(plan.axes)
     values = result[name].astype(float).reshape(*plan.shape, -1)[..., :MAX_CURVES]
-    ax = axes_or_new(ax, 6.4, 4.8)
+    ax = axes_or_new(ax, WIDEST, 4.8)
     if not grids:
         return _histograms(values, block, ax)
     ax.set_xlabel(_label_of_axis(grids[0]))
@@ -77,9 +77,9 @@ def _curves(axis: Axis, values: np.ndarray[Any, Any], block: Block, random: bool
             ax.plot(at, values[:, k], color=colour, label=label)
     ax.set_ylabel(_label(block))
     if random:
-        ax.legend(title="median; 25 to 75 % and\n5 to 95 % of the points", fontsize="small", title_fontsize="small")
+        legend_outside(ax, title="median; 25 to 75 % and\n5 to 95 % of the points")
     elif values.shape[-1] > 1:
-        ax.legend()
+        legend_outside(ax)
     return ax
 
 
@@ -94,7 +94,7 @@ def _histograms(values: np.ndarray[Any, Any], block: Block, ax: Axes) -> Axes:
             ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=f"C{k}", label=text)
     ax.set(xlabel=f"{_label(block)}, % from its median", ylabel="share of the points per %")
     if ax.has_data():
-        ax.legend(fontsize="small")
+        legend_outside(ax)
     return ax
 
 

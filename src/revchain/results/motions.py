@@ -249,7 +249,8 @@ class Swing(Result):
         ax : matplotlib.axes.Axes, optional
             Axes to draw in; a new figure if left out.
         kind : {"shapes", "time"}
-            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets. ``"time"``: offsets against time.
+            ``"shapes"``: shapes from dark (early) to light (late), with enlarged offsets,
+            at most nine. ``"time"``: offsets against time.
         pins : iterable of int
             For ``"time"``: numbers of the pins, 0 for the free end.
 

@@ -167,7 +167,7 @@ class Shape(Result):
         >>> import revchain as rc
         >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
         >>> ax.get_xlabel()
-        'distance from the axis (m)'
+        'distance from axis (m)'
         """
         from ..plots.shapes import plot_shapes
 
