@@ -91,9 +91,10 @@ class _Bent(Shape):
         facts = {name: getattr(self, name) for name in names}
         facts = {name: value for name, value in facts.items() if np.ndim(value) == 0}
         heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)}{at_speed(self.angular_speed)}"
-        return Sheet("place", heading, columns, facts, [self._note], spread=True)
+        return Sheet("place", heading, columns, facts, [self._place_note], spread=True)
 
     _note: ClassVar[str]
+    _place_note: ClassVar[str]
 
     @classmethod
     def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
@@ -148,7 +149,8 @@ class CordShape(_Bent):
         part=True,
     )
     sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
-    _note: ClassVar[str] = "arc lengths from the free end, heights above the support; error: estimated"
+    _note: ClassVar[str] = "lower end: inclination to the downward vertical there; error: estimated"
+    _place_note: ClassVar[str] = "arc lengths from the free end, heights above the support"
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return offset, height, inclination and tension at distances along the cord.
@@ -250,7 +252,8 @@ class _HeldShape(_Bent):
     residual: Field[float] = Field(
         "Largest unbalanced force divided by the tension, or largest gap at an end divided by the length.", part=True
     )
-    _note: ClassVar[str] = "inclinations: to the upward vertical; heights above the lower end"
+    _note: ClassVar[str] = "lower end: inclination there to the upward vertical"
+    _place_note: ClassVar[str] = "heights above the lower end"
 
     @property
     def _per(self) -> float:
