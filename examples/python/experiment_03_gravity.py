@@ -32,7 +32,7 @@ for radius in (0.02, 0.05, 0.1, 0.2):
     print(f"{radius:9.2f}  {inclination:20.2f}  {100 * period:12.2f}  {pendulum.gravity(THREAD, period):35.4f}")
 
 measured = 100 * pendulum.period(THREAD)
-print("what wrong measuring does to g:")
+print("errors of g from errors of measurement:")
 errors = [(1e-3, 0, "1 mm in the length"), (0, 0.5, "half a second in 100 turns"), (1e-3, 0.5, "both")]
 for length, time, what in errors:
     off = pendulum.gravity(THREAD + length, (measured - time) / 100) - GRAVITY

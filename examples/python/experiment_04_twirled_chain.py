@@ -53,9 +53,9 @@ def more_from(low, high):
 
 
 reversals = rc.modes(chain, count=3).frequency
-print(f"reversals of the plummet at {rc.conical_pendulum.revolutions_per_second(LENGTH):.4f} turns a second,", end=" ")
-print("of the chain at", *reversals.round(4))
-print(f"tip over hand, near the vertical, {LINKS} links and without end:")
+print(f"the tip changes sides: plummet at {rc.conical_pendulum.revolutions_per_second(LENGTH):.4f} turns a second,", end=" ")
+print("chain at", *reversals.round(4))
+print(f"tip over hand, small amplitude, chain of {LINKS} links and continuous chain:")
 print("turns a second  plummet    chain  continuous")
 for turns in (0.4, 0.7, 0.9, 1.1, 1.5, 2.0, 2.5):
     plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
@@ -68,7 +68,7 @@ print(f"chain of {LINKS} links on the same circle, tip from the axis in every st
 for turns in (0.7, 0.9, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0):
     print(f"{turns:14.2f}  ", *(f"{1000 * x:8.2f}" for x in sorted(s.offset[0] for s in at_any_inclination(turns))))
 born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.0], strict=True)]
-print("two more shapes from", *np.round(born, 4), "turns a second")
+print("two more shapes appear at", *np.round(born, 4), "turns a second")
 
 figure = Figure(figsize=(8, 7.5), layout="constrained")
 axes = figure.subplot_mosaic([["near", "side"], ["all", "shapes"]], height_ratios=[1.3, 1])

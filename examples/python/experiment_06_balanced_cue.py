@@ -31,16 +31,16 @@ def leaning(rig):
 
 
 print(f"sticks on a hand that goes round a circle of radius {100 * HAND:.0f} cm, {TURNS:.0f} turn a second:")
-print("stick       length, m  swings like, m  a lean grows e-fold in, s  leans inwards, degrees")
+print("stick       length, m  pendulum length, m  e-folding time of a fall, s  leans inwards, degrees")
 sticks = {"pencil": 0.18, "ruler": 0.5, "broomstick": 1.2, "cue": 1.45}
 for name, length in sticks.items():
     rig = on_the_hand(length)
     fall = rc.modes(rig).other  # no whirl speed, but a conical height below 0
     like, grows, (lean,) = -fall.conical_height[0].real, 1 / fall.growth_rate[0], leaning(rig)[1]
-    print(f"{name:10}  {length:9.2f}  {like:14.3f}  {grows:25.3f}  {lean:22.2f}")
+    print(f"{name:10}  {length:9.2f}  {like:18.3f}  {grows:27.3f}  {lean:22.2f}")
 
 print("0.9 m of sticks hinged end to end, on the same hand:")
-print("sticks  top over hand  leans grow e-fold in, s  each leans inwards, degrees, topmost first")
+print("sticks  top over hand  e-folding times, s       each leans inwards, degrees, topmost first")
 columns = [on_the_hand(0.9, count) for count in (1, 2, 3)]
 for rig in columns:
     top = rc.response(rig, angular_speed=SPEED, pins=0).amplification
@@ -49,7 +49,7 @@ for rig in columns:
 
 pair = rc.Chain(mass=[0.05, 0.5], length=[0.3, 1.0])
 print("50 g on 0.3 m of wire, on a rod of 1 m with 500 g at its end, near the vertical:")
-print("wire    rod     turns a second  leans grow e-fold in, s")
+print("wire    rod     turns a second  e-folding times of a fall, s")
 for inverted in ([False, False], [True, False], [False, True], [True, True]):
     found = rc.modes(rc.Rig(pair, inverted=inverted))
     turns = " ".join(f"{turns:.4f}" for turns in found.frequency)
@@ -59,7 +59,7 @@ for inverted in ([False, False], [True, False], [False, True], [True, True]):
 faster = 0.55
 (upright,) = rc.steady_shapes(rc.Rig(pair, inverted=[True, False]), angular_speed=2 * np.pi * faster)
 wire, rod = np.degrees(np.abs(upright.inclination))
-print(f"the wire standing, at {faster} turns a second: wire and rod lean {180 - wire:.2f} {rod:.2f} degrees")
+print(f"wire standing, at {faster} turns a second: the wire leans by {180 - wire:.2f} degrees, the rod by {rod:.2f}")
 
 figure, (stand, hung) = panels(2, [1.7, 1])
 shown = {**{name: on_the_hand(length) for name, length in sticks.items()}, "3 sticks": columns[2]}

@@ -29,10 +29,10 @@ print("  continuous chain   ", *continuous.frequency.round(4))
 print("  two weights instead", *pair_speeds.round(4))
 for turns in (0.5, 1, 2, 3):
     below = rc.count_modes(chain, angular_speed=2 * np.pi * turns)
-    print(f"at {turns} turns a second the chain has {below} of them below")
+    print(f"speeds of the chain below {turns} turns a second: {below}")
 
 
-print("the chain, its free end from the axis in m, every figure:")
+print("every figure of the chain: distance of its free end from the axis, m:")
 print("turns a second  figure  continuous  200 links")
 for turns in (0.7, 1.0, 2.0, 3.0):
     links = rc.steady_shapes(chain, angular_speed=2 * np.pi * turns)

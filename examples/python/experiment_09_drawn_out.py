@@ -27,12 +27,12 @@ for rope in ropes:
     pull = rope.tension_in_the_middle * MASS * 9.80665
     numbers = (rope.span, rope.sag, turns, MASS * rope.moment_of_inertia, pull, energy - first)
     print("{:7.2f}  {:6.3f}  {:14.3f}  {:24.5f}  {:22.1f}  {:12.2f}".format(*numbers))
-print(f"at first the middle is flung outwards with {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
+print(f"at first the centrifugal force on the middle is {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
 
 held = rc.Held(rc.Cord(LENGTH, mass=MASS * LENGTH), span=SPAN)
 linked = rc.Held(rc.Chain.uniform_rods(LINKS, length=LENGTH, mass=MASS * LENGTH), span=SPAN)
 places = np.linspace(0, LENGTH, 2001)
-print(f"ends {SPAN:.0f} m above one another, with gravity; and {LINKS} links in place of the rope:")
+print(f"with gravity, one end {SPAN:.0f} m above the other: rope, and {LINKS} links instead of it:")
 print("turns a second  sag, m  of links  widest below the middle, m  pull along the axis, N: above  below")
 upright = {}
 for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
@@ -46,7 +46,7 @@ for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
 (folded,) = rc.modes(rc.Cord(longer), 1).frequency
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
-print(f"it hangs down, folded in the axis, up to {folded:.4f} turns a second, as a chain of {longer} m would")
+print(f"up to {folded:.4f} turns a second, the first whirl speed of a chain of {longer} m, it hangs folded along the axis")
 
 figure, (side, curve, vertical) = panels(3, [1.7, 1, 1])
 for rope, colour in zip(ropes, COLOURS, strict=False):

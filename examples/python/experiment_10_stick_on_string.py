@@ -41,7 +41,7 @@ for turns in (0.6, 0.8, 1.5, 3.0):
 
 chain = rc.Chain(weight=[1, 0], length=[STICK, STRING], centroid=[STICK / 2, 0], radius_of_gyration=[GYRATION, 0])
 carried = rc.Rig(chain, support=rc.Support(radius=HAND))
-print("hand carried round, near the vertical, over its offset:")
+print("hand on a small circle, small amplitude, offsets over that of the hand:")
 print("turns a second  end of the stick    joint")
 alone = rc.conical_pendulum.revolutions_per_second(rc.two_links.pendulum_length(STICK / 2, GYRATION))
 for turns in (0.4, 0.6, alone, 1.5, 2.0, 2.5):

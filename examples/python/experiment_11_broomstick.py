@@ -19,9 +19,9 @@ LIKE = dict(centroid=STICK / 2, radius_of_gyration=STICK / 12**0.5)
 
 on_the_hand = rc.Rig(rc.Chain.uniform_rods(1, length=STICK), inverted=True)
 length = rc.two_links.pendulum_length(**LIKE)  # the paper's l
-print(f"it swings like {length:.3f} m; its top stays at rest at", end=" ")
+print(f"its pendulum length is {length:.3f} m; its top stays at rest at", end=" ")
 print(f"{rc.conical_pendulum.revolutions_per_second(STICK - length):.4f} swings a second")
-print("swings a second  at rest above the hand, m  top over hand  pendulum that would carry it, m  it alone")
+print("swings a second  at rest above the hand, m  top over hand  pendulum that can carry it, m  it alone")
 for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
     height = rc.conical_pendulum.height(2 * np.pi * swings)
     rest = length + height
@@ -29,7 +29,7 @@ for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
     top = rc.response(on_the_hand, conical_height=height, pins=0).offset
     back = rc.conical_pendulum.revolutions_per_second(rc.two_links.standing_link(thread, **LIKE))
     alone = rc.conical_pendulum.revolutions_per_second(thread)
-    print(f"{back:15.3f}  {rest:24.3f}  {round(float(top), 3) + 0.0:+13.3f}  {thread:31.3f}  {alone:8.3f}")
+    print(f"{back:15.3f}  {rest:24.3f}  {round(float(top), 3) + 0.0:+13.3f}  {thread:29.3f}  {alone:8.3f}")
 
 figure, (stand, curve) = panels(2, [1.5, 1], height=5.0)
 APART, HAND = 0.5, 0.1  # m, between neighbouring axes; how far the hand goes to each side
