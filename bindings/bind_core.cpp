@@ -47,9 +47,9 @@ void bind_core(py::module_& module) {
         }
     });
 
-    py::class_<revchain::Progress>(module, "Progress", "How far modes() is, readable from another thread.")
+    py::class_<revchain::Progress>(module, "Progress", "Progress of modes(), readable from another thread.")
         .def(py::init<>())
-        .def_property_readonly("fraction", &revchain::Progress::fraction, "From 0 to 1.")
+        .def_property_readonly("fraction", &revchain::Progress::fraction, "Finished part, 0 to 1.")
         .def_property_readonly("cancelled", &revchain::Progress::cancelled, "Whether cancel() was called.")
         .def("cancel", &revchain::Progress::cancel, "Make the running modes() raise Cancelled.");
 

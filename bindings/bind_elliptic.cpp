@@ -93,7 +93,8 @@ std::array<double, 5> row(const Point& p) {
 void bind_ropes(py::module_& module) {
     using analytic::SkippingRope;
     using Known = std::optional<double>;
-    py::class_<SkippingRope>(module, "SkippingRope", "A rope whirling between two points of its axis, without gravity.")
+    py::class_<SkippingRope>(module, "SkippingRope",
+                             "A rope that whirls between two points of the axis without gravity.")
         .def(py::init([](const Known& span, const Known& length, const Known& slack, const Known& sag,
                          const Known& angular_speed, const Known& tension, revchain::Index half_waves, double gravity) {
                  return SkippingRope({span, length, slack, sag, angular_speed, tension, half_waves, gravity});
@@ -121,17 +122,17 @@ void bind_ropes(py::module_& module) {
             [](const SkippingRope& r, const Array& x) {
                 return columns<5>([&](double at) { return row(r.at(at)); }, x);
             },
-            "x"_a, "What there is at x.")
+            "x"_a, "Points of the rope at x.")
         .def(
             "at_arc",
             [](const SkippingRope& r, const Array& arc) {
                 return columns<5>([&](double at) { return row(r.at_arc(at)); }, arc);
             },
-            "arc"_a, "What there is at so much rope.");
+            "arc"_a, "Points of the rope by arc length.");
 
     using analytic::TortuousRope;
     py::class_<TortuousRope>(module, "TortuousRope",
-                             "A rope whirling round its axis, its ends off it, without gravity.")
+                             "A rope that whirls round the axis without gravity, its ends off the axis.")
         .def(py::init(
                  [](double least_radius, double greatest_radius, double angular_speed, double tension, double gravity) {
                      return TortuousRope({least_radius, greatest_radius, angular_speed, tension, gravity});
@@ -159,7 +160,7 @@ void bind_ropes(py::module_& module) {
                     },
                     x);
             },
-            "x"_a, "What there is at x.");
+            "x"_a, "Points of the rope at x.");
 }
 }  // namespace
 

@@ -59,7 +59,7 @@ void bind_finite(py::module_& module) {
         .def_readonly("condition", &SteadyShape::condition)
         .def_readonly("moment_of_inertia", &SteadyShape::moment_of_inertia)
         .def_readonly("effective_energy", &SteadyShape::effective_energy);
-    py::class_<SteadyShapes>(module, "SteadyShapes", "Steady shapes of one speed.")
+    py::class_<SteadyShapes>(module, "SteadyShapes", "The steady shapes at one speed.")
         .def_readonly("shapes", &SteadyShapes::shapes)
         .def_readonly("complete", &SteadyShapes::complete)
         .def_readonly("cells", &SteadyShapes::cells)
@@ -71,7 +71,7 @@ void bind_finite(py::module_& module) {
             return frozen(py::array_t<T>(static_cast<py::ssize_t>(of.size()), of.data()));
         };
     };
-    py::class_<Stability>(module, "Stability", "What becomes of a small disturbance of a steady shape.")
+    py::class_<Stability>(module, "Stability", "Linear stability of a steady shape.")
         .def_property_readonly("verdict", [](const Stability& s) { return std::string(to_string(s.verdict)); })
         .def_property_readonly("exponents", each(&Stability::exponents))
         .def_property_readonly("internal_damping", each(&Stability::internal_damping))

@@ -69,7 +69,7 @@ py::class_<Shape> bind_shape(py::module_& module, const char* name, const char* 
 
 template <class Shapes>
 py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
-    return py::class_<Shapes>(module, name, "Steady shapes between two points of the axis.")
+    return py::class_<Shapes>(module, name, "The steady shapes of a system held at both ends.")
         .def_readonly("shapes", &Shapes::shapes)
         .def_readonly("missing", &Shapes::missing)
         .def_readonly("complete", &Shapes::complete);
@@ -78,7 +78,7 @@ py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
 template <class Shape>
 void def_branches(py::module_& module, const char* name) {
     using Branch = revchain::HeldBranchOf<Shape>;
-    py::class_<Branch>(module, name, "A branch of shapes of what is held at a span.")
+    py::class_<Branch>(module, name, "A branch of steady shapes of a system held at a span.")
         .def_readonly("mode", &Branch::mode)
         .def_readonly("shapes", &Branch::shapes)
         .def_readonly("folds", &Branch::folds)

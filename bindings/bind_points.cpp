@@ -321,7 +321,7 @@ py::tuple response(const Points& points, const Array& given, bool speeds, const 
 }  // namespace
 
 void bind_points(py::module_& module) {
-    py::class_<Points>(module, "Points", "Systems of one build with numbers of their own, solved one by one.")
+    py::class_<Points>(module, "Points", "Systems that differ only in numbers, solved one by one.")
         .def(py::init<Index, Index, std::string, const std::map<std::string, Array>&, Marks, std::vector<Index>, bool,
                       Marks, bool>(),
              "points"_a, "links"_a, "kind"_a, "tables"_a, "clamped"_a, "first"_a, "rigged"_a, "standing"_a, "turning"_a)

@@ -73,7 +73,7 @@ auto of_string(const Function& function) {
 }  // namespace
 
 void bind_rig(py::module_& module) {
-    py::class_<Rig>(module, "Rig", "A chain and what it is rigged with; immutable.")
+    py::class_<Rig>(module, "Rig", "A chain with a support, flywheels, a fluid or inverted links; immutable.")
         .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a,
              "standing"_a = py::none(), "momentum"_a = py::none(), "axial_moment"_a = py::none(),
              "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),

@@ -80,12 +80,12 @@ void bind_two_links(py::module_& module) {
 
     py::class_<Shape>(module, "PairShape", "A steady shape of two links, the lower one first.")
         .def_property_readonly(
-            "inclination", [](const Shape& s) { return pair(s.inclination); }, "To the vertical, rad.")
+            "inclination", [](const Shape& s) { return pair(s.inclination); }, "Inclinations to the vertical, rad.")
         .def_property_readonly(
-            "offset", [](const Shape& s) { return pair(s.offset); }, "From the axis.")
+            "offset", [](const Shape& s) { return pair(s.offset); }, "Distances from the axis.")
         .def_property_readonly(
-            "tension", [](const Shape& s) { return pair(s.tension); }, "Over the whole weight.")
-        .def_property_readonly("half_waves", &Shape::half_waves, "Sign changes of the offsets, and one.");
+            "tension", [](const Shape& s) { return pair(s.tension); }, "Tensions divided by the whole weight.")
+        .def_property_readonly("half_waves", &Shape::half_waves, "Sign changes of the offsets, plus one.");
     module.def("two_plummets_shapes", &revchain::two_plummets_shapes<double>, "lower_weight"_a, "lower_thread"_a,
                "upper_weight"_a, "upper_thread"_a, "height"_a);
     module.def(
@@ -120,7 +120,7 @@ void bind_two_links(py::module_& module) {
                 }
                 return to_numpy(table);
             },
-            "Start, end and impulse of each.")
+            "Start, end and impulse of each blow.")
         .def(
             "state",
             [](const BufferImpact& impact, const Array& time) {
@@ -131,5 +131,5 @@ void bind_two_links(py::module_& module) {
                     },
                     time);
             },
-            "time"_a, "Places, speeds and the buffer's force.");
+            "time"_a, "Displacements, speeds and the buffer force.");
 }

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains that whirl: natural frequencies, whirl speeds, steady shapes (relative equilibria), each with an error bound.
 
-A chain of rigid links hangs from a support, from a single point mass to the limit of a flexible cord. At certain
-speeds, its critical speeds, it leaves the vertical and whirls about it as one rigid figure. The whirl speed of small
-amplitude of a chain hung from a fixed point is the natural angular frequency of its swing in a plane. Theory:
-G. Greenhill, "The Revolving Chain" (1908).
+A chain of rigid links hangs from a support. It can be a single point mass, and its limit is a flexible cord. At its
+critical speeds it leaves the vertical and whirls about it as one rigid figure. For a chain hung from a fixed point the
+whirl speed of small amplitude is the natural angular frequency of its swing in a plane. Theory: G. Greenhill, "The
+Revolving Chain" (1908).
 
 Systems
     Chain, Rig (with Support, Flywheel, Displaced), Cord, Held
 Questions
-    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain; of many
-    chains at once conical_heights
+    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
+    conical_heights for many chains at once
 Results
     Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
     HeldBranches, HeldBranch,
-    Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads what
-    their method ``save`` wrote
+    Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
+    files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
+    be imported from here, too: CordBranch, WhirlSwing, RigUncertainty, Certificate and others
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
@@ -23,9 +24,9 @@ Closed forms
 Files
     Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError
 
-Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Arrays are counted
-from 0, modes from 1. A *conical height* is ``gravity / speed**2``, the height of the conical pendulum that turns as
-fast; it does not depend on gravity.
+Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Links and pins are
+counted from 0, modes from 1. The *conical height* of a speed is ``gravity / speed**2``, the height of the conical
+pendulum with that speed; conical heights of chains do not depend on gravity.
 
 Examples
 --------
@@ -106,6 +107,20 @@ if _TYPE_CHECKING:
     from .closed_forms.statics import TransverseModes as TransverseModes
     from .closed_forms.statics import funicular_polygon as funicular_polygon
     from .closed_forms.statics import transverse_modes as transverse_modes
+    from .closed_forms.bell import Strike as Strike
+    from .results.bent import Place as Place
+    from .results.branches import StabilityWindow as StabilityWindow
+    from .results.cord_branches import CordBranch as CordBranch
+    from .results.cord_branches import CordBranches as CordBranches
+    from .results.cord_motions import CordSwing as CordSwing
+    from .results.cord_sensitivity import CordSensitivity as CordSensitivity
+    from .results.cord_sensitivity import CordUncertainty as CordUncertainty
+    from .results.modes import Certificate as Certificate
+    from .results.modes import OtherModes as OtherModes
+    from .results.motions import WhirlSwing as WhirlSwing
+    from .results.sensitivity import RigSensitivity as RigSensitivity
+    from .results.sensitivity import RigUncertainty as RigUncertainty
+    from .results.shape_sensitivity import ShapeSensitivity as ShapeSensitivity
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
@@ -131,17 +146,33 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "transverse_modes": "closed_forms.statics",
     "load": "results.storage",
 }
+_RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
+    "Certificate": "results.modes",
+    "CordBranch": "results.cord_branches",
+    "CordBranches": "results.cord_branches",
+    "CordSensitivity": "results.cord_sensitivity",
+    "CordSwing": "results.cord_motions",
+    "CordUncertainty": "results.cord_sensitivity",
+    "OtherModes": "results.modes",
+    "Place": "results.bent",
+    "RigSensitivity": "results.sensitivity",
+    "RigUncertainty": "results.sensitivity",
+    "ShapeSensitivity": "results.shape_sensitivity",
+    "StabilityWindow": "results.branches",
+    "Strike": "closed_forms.bell",
+    "WhirlSwing": "results.motions",
+}
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
 _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
 
 
 def __getattr__(name: str) -> _Any:
-    """Import what few programs use, when it is first used."""
+    """Import a rarely used name on its first use."""
     value: _Any
     if name in _CLOSED_FORMS:
         value = _import_module(f".closed_forms.{name}", __name__)
-    elif name in _LATER:
-        value = getattr(_import_module(f".{_LATER[name]}", __name__), name)
+    elif module := _LATER.get(name) or _RECEIVED.get(name):
+        value = getattr(_import_module(f".{module}", __name__), name)
     elif name in _OF_FILES:
         from .systems.extras import require
 
@@ -161,7 +192,7 @@ def __getattr__(name: str) -> _Any:
 
 
 def __dir__() -> list[str]:
-    """Public names. There is no `__all__`, with which `help` would print every class."""
+    """The public names. There is no `__all__`, because `help` would then print each class."""
     of_files = list(_OF_FILES) if _find_spec("msgspec") is not None else []
     own = [name for name, value in globals().items() if name[0] != "_" and not hasattr(value, "__path__")]
-    return sorted({*own, *_LATER, *of_files, "__version__"})
+    return sorted({*own, *_LATER, *of_files, "__version__"} - {*_RECEIVED})

@@ -20,7 +20,7 @@ MODULES = [
 def public():
     """(name, object) of every public function, class and method."""
     for module in (rc, *(each for each in MODULES if hasattr(each, "__all__"))):
-        for name in dir(rc) if module is rc else module.__all__:
+        for name in [*dir(rc), *rc._RECEIVED] if module is rc else module.__all__:
             thing = getattr(module, name)
             if inspect.isfunction(thing):
                 yield f"{module.__name__}.{name}", thing

@@ -2,15 +2,19 @@
 """The interface as a whole: systems, the table of systems and questions, mass and weight, gravity, units, names."""
 
 import copy
+import importlib
 import json
 import math
 import pickle
+import pkgutil
 import pydoc
 
 import numpy as np
 import pytest
 
 import revchain as rc
+from revchain import results
+from revchain.results.base import Result
 
 BODIES = {"length": [0.7, 0.15], "centroid": [0.55, 0.05], "radius_of_gyration": [0.2, 0.36]}
 MASS = np.array([180.0, 5000.0])
@@ -326,6 +330,18 @@ def test_public_names():
     assert all(name in rc.__doc__ for name in shown)
     words = pydoc.render_doc(rc, renderer=pydoc.plaintext)
     assert len(words.splitlines()) < 10 * 60
+
+
+def test_classes_of_results_can_be_imported(repository):
+    """A class of which a program receives an object is in the package, for isinstance and annotations."""
+    for module in pkgutil.iter_modules(results.__path__, "revchain.results."):
+        importlib.import_module(module.name)
+    bases = {"DerivativesByLink", "Results", "Shape", "Solved"}
+    parts = {"PairShape", *(name for name in Result._kinds if name.endswith("Derivatives"))}
+    received = {name for name in Result._kinds if name[0] != "_"} - bases - parts
+    assert len(received) > 25 and all(getattr(rc, name) is Result._kinds[name] for name in received)
+    reference = (repository / "docs/reference/python.rst").read_text(encoding="utf-8").split()
+    assert received <= set(reference) and set(dir(rc)) - {"__version__"} <= set(reference)
 
 
 def test_what_does_not_scale_with_gravity():

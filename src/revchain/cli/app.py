@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands, by typer. What they print is in `_report`, what they ask in `scene`."""
+"""The commands of the command line, by typer."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from .frame import STDOUT, Stop, app, guarded, run_app
 
 
 def run(arguments: list[str] | None = None) -> int:
-    """Run the command line; the exit code is returned."""
+    """Run the command line and return the exit code."""
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a terminal that has no line characters shows question marks
+            stream.reconfigure(errors="replace")  # a terminal without line characters shows question marks
     try:
         return run_app(arguments)
     except SystemExit as end:
@@ -43,7 +43,7 @@ def run(arguments: list[str] | None = None) -> int:
 @guarded
 def validate(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
-    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1; comments stay.")] = False,
+    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1 and keep comments.")] = False,
 ) -> None:
     """Check scene files without answering them."""
     bad = 0
@@ -81,11 +81,11 @@ def _upgrade(path: Path) -> None:
 @app.command()
 @guarded
 def new(
-    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it is there.")] = False,
-    study: Annotated[bool, typer.Option("--study", help="A study, not a scene.")] = False,
+    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="File to write; - is stdout.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    study: Annotated[bool, typer.Option("--study", help="Write a study instead of a scene.")] = False,
 ) -> None:
-    """Write a commented scene to start from, or a study."""
+    """Write an example scene with comments, or an example study."""
     kind, folder, command = ("study", "studies", "sweep") if study else ("scene", "scenes", "run")
     text = files("revchain").joinpath(folder, f"new_{kind}.toml").read_text(encoding="utf-8")
     if file is None:
@@ -102,6 +102,6 @@ def new(
 
 @app.command()
 @guarded
-def schema(study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False) -> None:
+def schema(study: Annotated[bool, typer.Option("--study", help="Print that of study files.")] = False) -> None:
     """Print the JSON Schema of scene files, for editors."""
     sys.stdout.write(json.dumps(study_schema() if study else json_schema(), indent=2) + "\n")

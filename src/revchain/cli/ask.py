@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands that answer a scene: all it asks, or one question, with the keys of its table as options."""
+"""The commands that answer the questions of a scene: all of them, or one, with the keys of its table as options."""
 
 from __future__ import annotations
 
@@ -33,9 +33,11 @@ from .report import Report
 SceneFile = Annotated[
     Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")
 ]
-Gravity = Annotated[str | None, typer.Option(metavar="G", help='In m/s^2 or with a unit, instead of the scene\'s.')]
-Units = Annotated[str, typer.Option(metavar="deg|rad", help="Of angles in tables; files have radians.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")]
+Gravity = Annotated[
+    str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit, instead of that of the scene.")
+]
+Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
 MANY_TIMES = 12
 COMMON: dict[str, tuple[Any, Any]] = {
     "gravity": (Gravity, None),
@@ -52,13 +54,13 @@ COMMON: dict[str, tuple[Any, Any]] = {
 def run(
     scene: SceneFile,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder of reports, numbers, pictures; out/SCENE if left out.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for reports, numbers, pictures; out/SCENE if left out.")
     ] = None,
     gravity: Gravity = None,
     units: Units = "deg",
     quiet: Quiet = False,
 ) -> None:
-    """Answer all that a scene asks; its modes if it asks nothing."""
+    """Answer all questions of a scene; find its modes if it has none."""
     read, folder = _read(scene, gravity, units), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
@@ -129,13 +131,13 @@ _FORMS = {Pair: '"LOW to HIGH"', Spread: 'X|"FROM to TO in N"|"X; Y; ..."', list
 
 
 def _form(field: structs.FieldInfo) -> Any:
-    """A pair, a spread, a list or one value."""
+    """The kind of a value: a pair, a spread, a list, or None for a single one."""
     text = str(field.type)
     return Pair if "tuple[" in text else Spread if "Spread" in text else list if "list[" in text else None
 
 
 def _meant(field: structs.FieldInfo, given: Any) -> Any:
-    """The value of an option in the form that a scene file has."""
+    """The value of an option in the form of a scene file."""
     if not isinstance(given, str):
         return given
     form = _form(field)
@@ -166,7 +168,7 @@ def _number(text: str) -> Any:
 
 
 def _read(path: Path, gravity: str | None, units: str) -> Scene:
-    """The scene, under another gravity if that is said."""
+    """The scene, with another gravity if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
     read = load_scene(path)
@@ -188,7 +190,7 @@ def _answer(
     units: str,
     quiet: bool,
 ) -> Report:
-    """Answer one question and write the files. Places to write are tried first."""
+    """Answer one question and write the files. The outputs are opened first."""
     if sentence := without_answer(question, scene.system(), path):
         raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
     with written_aside(*(place for place, _ in outputs)) as asides:
@@ -214,7 +216,7 @@ def _answer(
 
 
 def _drawn(found: Any) -> Any:
-    """The picture of an answer; offsets against time for a swing of many times, whose shapes hide each other."""
+    """The picture of an answer; for a swing at many times, whose shapes hide one another, offsets against time."""
     if isinstance(found, Swing) and found.time.size > MANY_TIMES:
         size = found.system.size
         return found.plot(kind="time", pins=sorted({0, size // 3, 2 * size // 3}))
@@ -222,13 +224,13 @@ def _drawn(found: Any) -> Any:
 
 
 def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
-    """The tables on the terminal, and what was written."""
+    """Print the tables and the names of the written files."""
     report.print(Console(), heading)
     print(f"wrote {', '.join(str(place) for place, _ in outputs)}\n" if outputs else "", end="")
 
 
 def _said(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
-    """A problem of an option, or of the scene."""
+    """The sentence for a problem of an option or of the scene."""
     option = re.split(r"[.\[]", name := key.removeprefix(f"ask.{question}."))[0]
     if option in changed:
         return f"--{name.replace('_', '-')}: {reason}"
@@ -261,7 +263,7 @@ _NAMES = {
 
 
 def without_answer(question: str, system: System, path: Path) -> str:
-    """Why a question has no answer for what hangs, and what to ask instead; empty if it has."""
+    """The reason why a question has no answer for a system, and the question to ask instead; empty if it has one."""
     kind = {Rig: "rig", Cord: "cord", Held: "held"}.get(type(system), "")
     if isinstance(system, Held) and system.span is not None:
         kind = "bent"
@@ -272,10 +274,10 @@ def without_answer(question: str, system: System, path: Path) -> str:
 _SUMMARIES = {
     "modes": "Find the whirl speeds (natural frequencies) and mode shapes.",
     "shapes": "Find every steady shape (relative equilibrium) at one speed, at any inclination.",
-    "response": "Find how far each pin goes out when the support is carried round a small circle, or to and fro.",
-    "swing": "Let the chain go and see it swing: small oscillations in a plane.",
+    "response": "Find the forced motion of each pin when the support moves in a small circle or to and fro.",
+    "swing": "Find the small oscillations in a plane after release.",
     "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
 }
 for _question, _table in QUESTIONS.items():
     _command(_question, _table, _SUMMARIES[_question])
-_command("explain", AskExplain, "Say which method finds the modes for a tolerance, and what others would cost.")
+_command("explain", AskExplain, "List the methods that can find the modes for a tolerance, and their cost.")

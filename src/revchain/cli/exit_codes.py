@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the command line ends."""
+"""Exit codes of the command line."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all commands share: the application, how one ends, what it prints and the files it writes."""
+"""The common parts of all commands: the application, errors, exit codes and output files."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
-    help="At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are.",
+    help="Whirl speeds and shapes of hanging chains, with proved error bounds.",
     epilog=EXIT_CODES,
 )
 
 
 class Stop(Exception):
-    """Ends a command with a sentence and an exit code."""
+    """The end of a command with a sentence and an exit code."""
 
     def __init__(self, message: str, code: ExitCode) -> None:
         super().__init__(message)
@@ -45,7 +45,7 @@ class Stop(Exception):
 
 
 def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
-    """Turn what a command may raise into one line on stderr and an exit code."""
+    """Turn the errors of a command into one line on stderr and an exit code."""
 
     @functools.wraps(command)
     def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
@@ -62,7 +62,7 @@ def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
             fail("not enough memory; ask for fewer modes", ExitCode.WRONG_USAGE)
         except KeyboardInterrupt:
             fail("interrupted", ExitCode.INTERRUPTED)
-        except BrokenPipeError:  # the reader, such as head, has seen enough
+        except BrokenPipeError:  # the reader, such as head, has closed the pipe
             with suppress(OSError):
                 sys.stdout = open("/dev/null", "w")  # so that nothing is flushed into it at the end
             raise typer.Exit(ExitCode.OK) from None
@@ -74,13 +74,13 @@ def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
 
 
 def fail(message: str, code: ExitCode) -> NoReturn:
-    """Say why on stderr, in plain text, and end."""
+    """Print the message on stderr as plain text, and end."""
     print(f"revchain: {message}", file=sys.stderr)
     raise typer.Exit(code)
 
 
 def run_app(arguments: list[str] | None) -> int:
-    """The exit code; of a command line that cannot be read, one sentence on stderr."""
+    """Run the application and return the exit code; a wrong command line gives one sentence on stderr."""
     try:
         code = app(arguments, prog_name="revchain", standalone_mode=False)
     except UNREADABLE as error:
@@ -112,24 +112,24 @@ def common(
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
     ] = False,
 ) -> None:
-    """At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are."""
+    """Whirl speeds and shapes of hanging chains, with proved error bounds."""
 
 
 def save_picture(axes: Any, title: str, path: Path) -> None:
-    """With its title."""
+    """Write a picture with its title."""
     axes.set_title(plain(title), wrap=True)
     axes.figure.savefig(path, dpi=200)
 
 
 def checked_picture(plot: Path) -> None:
-    """That it can be drawn."""
+    """Check that a picture can be drawn and written."""
     if plot.suffix.lower() not in PICTURES:
         raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
     require("matplotlib", "plot", "--plot")
 
 
 def outputs_of(scene: Path, plot: Path | None, json: str | None, csv: str | None) -> list[tuple[Path, str]]:
-    """Files to write and what goes into them."""
+    """The files to write and the kind of each."""
     if json == STDOUT and csv == STDOUT:
         raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
     outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]

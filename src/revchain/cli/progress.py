@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A computation in a thread of its own, watched from here: a bar after a while, Ctrl-C at any time."""
+"""A computation in its own thread, with a progress bar after a while and Ctrl-C at any time."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ Result = TypeVar("Result")
 
 
 def bar_of(what: str, console: Console, quiet: bool, *columns: ProgressColumn) -> Progress:
-    """A bar, where there is a terminal."""
+    """A progress bar, shown only on a terminal."""
     shown = (TextColumn(what), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn(), *columns)
     return Progress(*shown, console=console, transient=True, disable=quiet or not console.is_terminal)
 
 
 def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:
-    """Run `work` and return what it returns; KeyboardInterrupt cancels it and goes on to the caller."""
+    """Run `work` and return its result; a KeyboardInterrupt cancels it and is raised again."""
     progress = _core.Progress()
     results: list[Result] = []
     errors: list[BaseException] = []

@@ -26,8 +26,8 @@ from ..scenes.scene import Scene
 from .exit_codes import ExitCode
 from .frame import Stop
 
-NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
-HEADING = 10  # columns of a line of a heading
+NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
+HEADING = 10  # width of a line of a heading in columns
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Report:
         return self.scene.system().describe()
 
     def check(self, path: Path) -> None:
-        """Stop with exit code 1 unless everything was found and proved."""
+        """Raise Stop with exit code 1 unless everything was found and proved."""
         missing = getattr(self.found, "missing", ())
         if self._sheet(brief=True).good and not missing:
             return
@@ -68,7 +68,7 @@ class Report:
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
     def text(self, kind: str) -> str:
-        """The whole report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
+        """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
         if kind == ".txt":
             file = io.StringIO()
             self.print(Console(file=file, width=NARROWEST))
@@ -81,7 +81,7 @@ class Report:
         return json_of({"title": self.title, "system": self.system, **as_dict(sheet)})
 
     def print(self, console: Console, heading: bool = True) -> None:
-        """The system in words, the table with its heading, and the tables that belong to it."""
+        """Print the system in words, the table with its heading, and further tables."""
         sheet = self._sheet(brief=True)
         more = [getattr(self.found, name, None) for name in ("certificate", "other")]
         others = [each._sheet() for each in more if each is not None and (each is more[0] or len(each))]
@@ -107,7 +107,7 @@ class Report:
         return sheet
 
     def _in_units(self, sheet: Sheet) -> Sheet:
-        """The sheet, its angles in degrees or radians."""
+        """The sheet with its angles in degrees or radians."""
         if self.units == "deg":
             return sheet
         def in_rad(column: Column) -> Column:
@@ -117,7 +117,7 @@ class Report:
 
 
 def _pins(found: Response) -> Sheet:
-    """Where every pin is at one speed."""
+    """The offset of each pin at one speed."""
     offset = np.atleast_1d(found.offset.reshape(-1))
     pins = Column("pin", np.atleast_1d(found.pins), "pin (0: free end)")
     columns = [pins, Column("offset", offset, "from the axis (m)", 10)]
@@ -141,5 +141,5 @@ def _grid(sheet: Sheet) -> Table:
 
 
 def json_of(data: dict[str, Any]) -> str:
-    """As JSON, which has no infinity and no NaN: null in their place."""
+    """The data as JSON, with null in place of infinity and NaN, which JSON does not have."""
     return json.dumps(finite(plain(data)), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

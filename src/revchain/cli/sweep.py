@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command for studies: many variations of a scene."""
+"""The command that computes studies: many variations of a scene."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
 from .progress import PATIENCE, bar_of
 
-SENTENCES = 5  # shown of points that are refused
-MAX_SHOWN = 10**7  # numbers of which a summary is made
+SENTENCES = 5  # number of refused points that are shown
+MAX_SHOWN = 10**7  # largest number of results with a summary
 
 
 @app.command(epilog=EXIT_CODES)
@@ -40,21 +40,23 @@ def sweep(
     ],
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Results: .csv, .parquet or .nc; STUDY.csv here if left out."),
+        typer.Option(metavar="FILE", help="File for the results: .csv, .parquet or .nc; STUDY.csv here if left out."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
     dask: Annotated[
         str | None,
-        typer.Option(metavar="tcp://ADDRESS|local", help="Compute on a Dask cluster; local starts one here."),
+        typer.Option(metavar="tcp://ADDRESS|local", help="Compute on a Dask cluster; local starts one on this machine."),
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="Threads, or processes of the local cluster.")
+        int | None, typer.Option(metavar="K", min=1, help="Number of threads, or of processes of the local cluster.")
     ] = None,
-    chunk: Annotated[int | None, typer.Option(metavar="K", min=1, help="Points computed, and kept, together.")] = None,
-    check: Annotated[bool, typer.Option("--check", help="Only say what would be computed.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No summary, no progress bar.")] = False,
+    chunk: Annotated[
+        int | None, typer.Option(metavar="K", min=1, help="Number of points computed and stored together.")
+    ] = None,
+    check: Annotated[bool, typer.Option("--check", help="Only print what would be computed.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary and no progress bar.")] = False,
 ) -> None:
-    """Compute many variations of a scene; a run that was ended goes on where it was."""
+    """Compute many variations of a scene; an interrupted run continues where it stopped."""
     given = load_study(study)
     if check:
         for line in _plan(given, str(study)):
@@ -101,7 +103,7 @@ def sweep(
 
 
 def _plan(study: Study, source: str) -> list[str]:
-    """What would be computed."""
+    """Lines that describe what would be computed."""
     plan = study._plan(source)
     lines = [f"{source}: valid: {plan.points:,} points, {'in batches' if plan.batched else 'one by one'}"]
     for axis in plan.axes:
@@ -132,7 +134,7 @@ def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
 
 
 def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], None]:
-    """A bar after a while, where there is a terminal."""
+    """A function that shows a progress bar after a while, on a terminal."""
     bar = bar_of("points", Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
     task = bar.add_task("points", total=points)
     began = time.monotonic()
@@ -148,7 +150,7 @@ def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], Non
 
 
 def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
-    """Where the picture is drawn; that its place can be written is found out before anything is computed."""
+    """The temporary file of the picture; it is opened before the computation, so that a wrong path is an error at once."""
     try:
         checked_ending(out)
     except ValueError as error:
@@ -159,7 +161,7 @@ def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
 
 
 def _complain(found: SweepResult) -> None:
-    """Say which points have no numbers, or no proof."""
+    """Raise Stop with the points that have no numbers or no proof."""
     refused, unmet = found.count("refused"), found.count("tolerance_not_met")
     lines = [f"point {point:,}: {reason}" for point, reason in sorted(found.refused.items())[:SENTENCES]]
     parts = [f"{refused:,} points are refused"] if refused else []

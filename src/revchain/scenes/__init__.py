@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files: read, checked, answered. Needs msgspec."""
+"""Scene files: reading, checks and answers. Needs msgspec."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the tables [ask.…] of a scene to the functions that answer them: the only module here that calls them."""
+"""Calls of the functions that answer the tables [ask.…] of a scene."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ Given = dict[str, Any]
 
 
 def arguments(question: str, table: Table, system: System | None, numbers: Numbers) -> Given:
-    """The keyword arguments that a table means; what is wrong is noted.
+    """The keyword arguments of a table; errors are noted.
 
-    Without a system, where that was refused, what does not depend on it is checked.
+    If the system was refused (None), only the keys that do not depend on it are checked.
     """
     numbers = numbers.of(question)
     for field in fields_of(type(table)):
@@ -89,7 +89,7 @@ def _modes(table: AskModes, system: System | None, numbers: Numbers) -> Given:
 
 
 def _check_numbers(table: AskModes, available: int, numbers: Numbers) -> None:
-    """Whether there are the modes asked for by number."""
+    """Note an error if the modes asked for do not exist."""
     first = 1 if table.first is UNSET else table.first
     count = 1 if not isinstance(table.count, int) else table.count
     if first > available:
@@ -109,7 +109,7 @@ def _explain(table: AskExplain, system: System | None, numbers: Numbers) -> Give
 
 
 def _one_speed(table: Table, names: tuple[str, str], numbers: Numbers) -> tuple[str, Any]:
-    """Which of two keys says the speed, and what it says."""
+    """The one of two keys that gives the speed, and its value."""
     given = [name for name in names if getattr(table, name) is not UNSET]
     if len(given) != 1:
         numbers.refuse("", f"give {names[0]} or {names[1]}" + (", not both" if given else ": at which speed"))
@@ -136,7 +136,7 @@ def _response(table: AskResponse, system: System | None, numbers: Numbers) -> Gi
 
 
 def _spread(name: str, given: Any, sign: str, numbers: Numbers) -> Any:
-    """One number or an array of them."""
+    """A number, or an array of numbers from a list or a range."""
     if isinstance(given, str) and (ends := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
         numbers.refuse(name, f'a range is written {{from = "{ends[1]}", to = "{ends[2]}"}}, got "{given}"')
         return np.nan
@@ -187,7 +187,7 @@ _ARGUMENTS: dict[str, Any] = {
 
 
 def answered(question: str, system: Any, given: Given, gravity: float, progress: _core.Progress | None = None) -> Any:
-    """What the function of the question finds."""
+    """The result of the function of the question."""
     if question == "explain":
         return explain(system, **given)
     given["gravity"] = gravity

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of a scene file for what is asked, one a question: their keys are the arguments of the Python function."""
+"""The tables [ask.…] of a scene file, one for each question; their keys are the arguments of the Python function."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ DEFAULT_MODES = 10
 
 Pair = tuple[NotNegative, NotNegative]
 Listed = list[AnySign]
-OneOrMore = float | str | Listed  # msgspec 0.22 ends the process for a text with a pattern beside a list
+OneOrMore = float | str | Listed  # without a pattern: msgspec 0.22 crashes for text with a pattern beside a list
 
 
 class Spread(Table, frozen=True, rename={"first": "from", "last": "to"}):
-    """Numbers from one to another, both included."""
+    """Numbers from a first to a last one, both included."""
 
-    last: Annotated[AnySign, says("The last one.")]
-    first: Annotated[AnySign, says("The first one.")] = 0.0
-    steps: Annotated[Count, says("How many.")] = 200
-    log: Annotated[bool, says("Whether in equal ratios instead of equal differences.")] = False
+    last: Annotated[AnySign, says("Last number.")]
+    first: Annotated[AnySign, says("First number.")] = 0.0
+    steps: Annotated[Count, says("Number of values.")] = 200
+    log: Annotated[bool, says("Whether the numbers have equal ratios instead of equal differences.")] = False
 
 
 class AskModes(Table, frozen=True):
@@ -30,72 +30,86 @@ class AskModes(Table, frozen=True):
 
     count: Annotated[
         Count | Literal["all"] | UnsetType,
-        says('How many modes, slowest first, or "all"; 10, or as many as there are, if left out.'),
+        says('Number of modes, slowest first, or "all"; if left out 10, or all if there are fewer.'),
     ] = UNSET
-    first: Annotated[Count | UnsetType, says("Number of the slowest mode wanted, from 1.")] = UNSET
-    angular_speed: Annotated[Pair | UnsetType, says("[low, high]: low <= whirl speed < high (rad/s).")] = UNSET
-    conical_height: Annotated[Pair | UnsetType, says("[low, high]: low < conical height <= high (m).")] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
+    angular_speed: Annotated[Pair | UnsetType, says("Window [low, high]: low <= whirl speed < high (rad/s).")] = UNSET
+    conical_height: Annotated[Pair | UnsetType, says("Window [low, high]: low < conical height <= high (m).")] = UNSET
     rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
     certify: Annotated[bool, says("Whether to prove each height with an interval and its counts.")] = False
-    precision: Annotated[Literal["single", "double", "extended", "double-double"], says("The arithmetic.")] = "double"
-    method: Annotated[str | UnsetType, says("A method that explain lists; the cheapest if left out.")] = UNSET
+    precision: Annotated[
+        Literal["single", "double", "extended", "double-double"], says("Arithmetic of the results.")
+    ] = "double"
+    method: Annotated[str | UnsetType, says("Method, one of those that explain lists; the cheapest if left out.")] = UNSET
 
 
 class AskShapes(Table, frozen=True):
     """Every steady shape (relative equilibrium) at one speed, at any inclination (`revchain.steady_shapes`)."""
 
-    angular_speed: Annotated[MaybePositive, says("The speed (rad/s); or conical_height.")] = UNSET
-    conical_height: Annotated[MaybePositive, says("g / n^2 of the speed (m); or angular_speed.")] = UNSET
+    angular_speed: Annotated[MaybePositive, says("Speed (rad/s); or give conical_height.")] = UNSET
+    conical_height: Annotated[MaybePositive, says("Conical height g / n^2 (m); or give angular_speed.")] = UNSET
     hanging_only: Annotated[bool, says("Whether to leave out shapes in which links turn over.")] = True
-    direction: Annotated[Literal[1, -1], says("Of the rotation; it matters to flywheels.")] = 1
+    direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
     max_half_waves: Annotated[
-        Count | UnsetType, says("Between two held ends: shapes of 1 to so many half waves.")
+        Count | UnsetType, says("Largest number of half waves between two held ends; 1 if left out.")
     ] = UNSET
 
 
 class AskResponse(Table, frozen=True):
-    """Motion of small amplitude of a chain whose support is carried round, or to and fro (`revchain.response`)."""
+    """Small forced motion of a chain whose support moves in a circle or to and fro (`revchain.response`)."""
 
     angular_speed: Annotated[
         OneOrMore | Spread | UnsetType,
-        says("A speed (rad/s), a list of them, or {from, to, steps, log}; negative only with flywheels."),
+        says("A speed (rad/s), a list of speeds, or {from, to, steps, log}; negative only with flywheels."),
     ] = UNSET
-    conical_height: Annotated[OneOrMore | Spread | UnsetType, says("Instead: g / n^2 of the speeds (m).")] = UNSET
-    support_radius: Annotated[MaybePositive, says("Of the circle (m); that of [support], or 1, if left out.")] = UNSET
+    conical_height: Annotated[
+        OneOrMore | Spread | UnsetType, says("Conical heights g / n^2 (m), instead of angular_speed.")
+    ] = UNSET
+    support_radius: Annotated[
+        MaybePositive, says("Radius of the circle (m); if left out that of [support], or 1 if it has none.")
+    ] = UNSET
 
 
 class AskSwing(Table, frozen=True):
     """Small oscillations of a hanging chain or rig after release (`revchain.swing`)."""
 
-    offset: Annotated[Listed, says("Of each pin at the start (m), free end first, the support left out unless it yields.")]
-    velocity: Annotated[Listed | UnsetType, says("Likewise (m/s); at rest if left out.")] = UNSET
-    time: Annotated[OneOrMore | Spread, says("s: one, a list, or {from, to, steps}.")] = Spread(last=10.0, steps=201)
-    count: Annotated[Count | UnsetType, says("Only so many of the slowest modes; all if left out.")] = UNSET
+    offset: Annotated[
+        Listed, says("Offset of each pin at the start (m), free end first, without the support unless it yields.")
+    ]
+    velocity: Annotated[
+        Listed | UnsetType, says("Velocity of each pin at the start (m/s), in the same order; at rest if left out.")
+    ] = UNSET
+    time: Annotated[OneOrMore | Spread, says("A time (s), a list of times, or {from, to, steps}.")] = Spread(
+        last=10.0, steps=201
+    )
+    count: Annotated[Count | UnsetType, says("Number of modes used, slowest first; all if left out.")] = UNSET
 
 
 class AskBranches(Table, frozen=True):
     """The bifurcation diagram: all branches of steady shapes up to a speed (`revchain.branches`)."""
 
-    max_angular_speed: Annotated[MaybePositive, says("The speed (rad/s); or min_conical_height.")] = UNSET
-    min_conical_height: Annotated[MaybePositive, says("Instead: down to this one (m).")] = UNSET
-    direction: Annotated[Literal[1, -1], says("Of the rotation; it matters to flywheels.")] = 1
+    max_angular_speed: Annotated[MaybePositive, says("Largest speed (rad/s); or give min_conical_height.")] = UNSET
+    min_conical_height: Annotated[
+        MaybePositive, says("Smallest conical height (m); or give max_angular_speed.")
+    ] = UNSET
+    direction: Annotated[Literal[1, -1], says("Direction of rotation; only flywheels depend on it.")] = 1
 
 
 class AskExplain(Table, frozen=True):
-    """Which method finds the modes for a tolerance, and what the others would cost (`revchain.explain`)."""
+    """The method that finds the modes for a tolerance, and the cost of the others (`revchain.explain`)."""
 
-    count: Annotated[Count | Literal["all"] | UnsetType, says("How many modes, slowest first.")] = UNSET
-    first: Annotated[Count | UnsetType, says("Number of the slowest mode wanted, from 1.")] = UNSET
+    count: Annotated[Count | Literal["all"] | UnsetType, says("Number of modes, slowest first.")] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the first mode; the slowest mode is 1.")] = UNSET
     rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
 
 
 class Ask(Table, frozen=True):
-    """What is asked; the modes if nothing is."""
+    """Questions to answer; the modes if there are none."""
 
     modes: Annotated[AskModes | UnsetType, says("Whirl speeds and mode shapes.")] = UNSET
     shapes: Annotated[AskShapes | UnsetType, says("Steady shapes at any inclination.")] = UNSET
-    response: Annotated[AskResponse | UnsetType, says("What a support carried round does.")] = UNSET
-    swing: Annotated[AskSwing | UnsetType, says("The chain let go.")] = UNSET
+    response: Annotated[AskResponse | UnsetType, says("Forced motion by a moving support.")] = UNSET
+    swing: Annotated[AskSwing | UnsetType, says("Free motion after release.")] = UNSET
     branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
 
 

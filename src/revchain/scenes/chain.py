@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the tables of a scene to a chain: units, masses to weights, repeats; every error with its key."""
+"""The chain from the tables of a scene: units, masses to weights, repeats; each error has its key."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ Links = list[tuple[int, Link]]  # lowest first, each with its number in the file
 class Numbers:
     """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    What is wrong is NaN; `done` raises one error for everything that is. Masses stay masses where the whole scene is
-    given by mass, else they are multiplied by gravity.
+    A wrong number is NaN; `done` raises one error for all of them. If the whole scene is given by mass, masses stay
+    masses, else they are multiplied by gravity.
     """
 
     def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
@@ -38,26 +38,26 @@ class Numbers:
         self.by_mass = by_mass
 
     def of(self, table: str) -> Numbers:
-        """Those of a table inside this one; errors are noted together."""
+        """The numbers of a table inside this one; errors are noted together."""
         inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
         inside.problems = self.problems
         return inside
 
     @property
     def heavy(self) -> str:
-        """What weights are said by."""
+        """The key of a weight: ``mass`` or ``weight``."""
         return "mass" if self.by_mass else "weight"
 
     def refuse(self, key: str, reason: str) -> None:
         self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
 
     def done(self) -> None:
-        """A SceneError if there is anything wrong."""
+        """Raise a SceneError if an error was noted."""
         if self.problems:
             raise SceneError(self.source, problems=without_consequences(self.problems))
 
     def value(self, key: str, given: object, quantity: str, sign: str, finite: bool = True) -> float:
-        if given is UNSET:  # is missing or of a wrong kind, which has been said
+        if given is UNSET:  # missing or of a wrong kind; the error is noted already
             return math.nan
         assert isinstance(given, float | int | str)
         try:
@@ -77,7 +77,7 @@ class Numbers:
         return math.nan
 
     def weight(self, table: Weighed, sign: str, prefix: str = "") -> float:
-        """Mass or weight, said by the keys `weight` and `mass`, or with a prefix (`added_`, `tip_`)."""
+        """Mass or weight from the keys `weight` and `mass`, or from these keys with a prefix (`added_`, `tip_`)."""
         weight, mass = (getattr(table, prefix + name) for name in ("weight", "mass"))
         if (weight is UNSET) == (mass is UNSET):
             if weight is UNSET:
@@ -94,13 +94,13 @@ class Numbers:
         return found * factor
 
     def weight_if_given(self, table: Weighed, prefix: str = "") -> float:
-        """The same of what may be left out, 0 then."""
+        """Mass or weight as of `weight`; 0 if it is left out."""
         given = any(getattr(table, prefix + name) is not UNSET for name in ("weight", "mass"))
         return self.weight(table, "not negative", prefix) if given else 0.0
 
 
 def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
-    """The chain or cord; None where something is missing or of a wrong kind, which has been said."""
+    """The chain or cord; None if something is missing or of a wrong kind, which is noted already."""
     length = numbers.value("length", table.length, "length", "positive")
     given = {"length": length, numbers.heavy: numbers.weight(table, "positive")}
     tip = numbers.weight_if_given(table, "tip_")
@@ -121,7 +121,7 @@ def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> C
 
 
 def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
-    """The chain of the links, lowest first, each with its number in the file; None as of `whole`."""
+    """The chain of the links, lowest first, each with its number in the file; None as for `whole`."""
     if sum(link.repeat for _, link in links) > MOST_LINKS:
         raise SceneError(numbers.source, "links", f"must be at most {MOST_LINKS:,} together with their repeats")
     places = [numbers.of(f"links[{index}]") for index, _ in links]
@@ -158,7 +158,7 @@ def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
 
 
 def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -> None:
-    """What goes with a weight at the lower pin, and with being locked to the link above."""
+    """Note errors of a link with a weight at its lower pin, or clamped to the link above."""
     if tip and link.repeat > 1:
         numbers.refuse("repeat", f"must be 1 where a weight is fixed to the lower pin, got {link.repeat}")
     if not link.clamped:
@@ -201,12 +201,12 @@ def _body(link: Link, numbers: Numbers) -> tuple[float, float, float, float]:
 
 
 def without_place(error: object) -> str:
-    """The sentence of an error, without the name of a function."""
+    """The sentence of an error without the name of a function."""
     return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))
 
 
 def in_file(sentence: str, links: Links) -> str:
-    """A sentence of the core, which counts links from the free end with their repeats, with the links of the file."""
+    """A sentence of the core with the link numbers of the file; the core counts links from the free end with repeats."""
     ends = np.cumsum([link.repeat for _, link in links])
 
     def there(found: re.Match[str]) -> str:
@@ -217,7 +217,7 @@ def in_file(sentence: str, links: Links) -> str:
 
 
 def of_file(error: ValueError, source: str, key: str, links: Links | None = None) -> SceneError:
-    """An error of the core as one of the file, with the key of the link that it names; `key` if it names none."""
+    """An error of the core as an error of the file, with the key of the link that it names, or else with `key`."""
     sentence = in_file(without_place(error), links or [])
     if links and sentence.startswith("links[") and ": " in sentence:
         key, _, sentence = sentence.partition(": ")

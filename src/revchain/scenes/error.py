@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is raised for a scene that cannot be read or answered."""
+"""The error for a scene that cannot be read or answered."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class Problem(NamedTuple):
-    """One error of a scene: where it is and what is wrong; line 0 where there is no file."""
+    """One error of a scene: its place and its reason; the line is 0 if there is no file."""
 
     line: int
     column: int
@@ -17,17 +17,17 @@ class Problem(NamedTuple):
 
 
 class SceneError(ValueError):
-    """A scene or study that cannot be read or answered: every error found in it, each with its place in the file.
+    """The error for a scene or study that cannot be read or answered; it lists all problems with their places.
 
     Attributes
     ----------
     source : str
-        The file, or ``"scene"`` where there is none.
+        Name of the file, or ``"scene"`` if there is none.
     problems : tuple of (line, column, key, reason)
-        In the order of the file. Lines and columns count from 1; both are 0 where there is no file. Keys are paths
-        such as ``links[2].length``, tables counted from 0; empty for the whole file.
+        All problems in the order of the file. Lines and columns count from 1; both are 0 without a file. A key is a path
+        such as ``links[2].length``, with tables counted from 0; it is empty for the whole file.
     key, reason : str
-        Of the first of them.
+        Key and reason of the first problem.
 
     Examples
     --------
@@ -44,7 +44,7 @@ class SceneError(ValueError):
         super().__init__("\n".join(_line(source, problem) for problem in self.problems))
 
     def _placed(self, place: Callable[[str], tuple[int, int]]) -> SceneError:
-        """The same error with the line and column of each key, as `place` tells them."""
+        """The error with the line and column of each key from `place`."""
         syntax = {each[:2] for each in self.problems if each.line}
         found = [each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems]
         right = [each for one, each in zip(self.problems, found, strict=True) if one.line or each[:2] not in syntax]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the text of a scene or study file to checked data; everything that is wrong with it is found at once."""
+"""Checked data from the text of a scene or study file; all errors are found at once."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from .places import joined, places_in
 from .tables import BESIDE, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
-MOST_DIGITS = 400  # more than the largest float has
-MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # of a file, and of a line that is put right
+MOST_DIGITS = 400  # more than those of the largest float
+MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # repairs in a file, columns of a line to repair
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
@@ -42,9 +42,9 @@ def text_of(path: str | os.PathLike[str]) -> str:
 
 @contextmanager
 def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
-    """The raw content of a .toml or .json file, and the commonest errors of its syntax, which are put right.
+    """The raw content of a .toml or .json file, and its common errors of syntax, which are repaired.
 
-    Every problem that is found with this file inside the with statement gets its line and column.
+    Each problem found in this file inside the with statement gets its line and column.
     """
     lines, problems = text_of(path).split("\n"), list[Problem]()
     source = os.fspath(path)
@@ -74,17 +74,17 @@ def is_json(source: str) -> bool:
 
 
 def _whole(text: str) -> int:
-    """A whole number of a JSON file; Python needs minutes for one of a million digits."""
+    """A whole number of a JSON file with few digits; Python needs minutes for a million digits."""
     if len(text) > MOST_DIGITS:
         raise ValueError(f"a whole number has {len(text):,} digits; at most {MOST_DIGITS} are allowed")
     return int(text)
 
 
-Moved = list[tuple[int, int, int]]  # lines that are put right: line, from where on it has become longer, and by what
+Moved = list[tuple[int, int, int]]  # repaired lines: line, the column from which it is longer, and by how much
 
 
 def _json(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
-    """The content of a JSON file; none of its errors can be put right."""
+    """The content of a JSON file; its errors are not repaired."""
     try:
         return json.loads("\n".join(lines), parse_int=_whole), []
     except json.JSONDecodeError as error:
@@ -93,7 +93,7 @@ def _json(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
 
 
 def _toml(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
-    """The content of a TOML file, whose lines are put right; a ValueError where one cannot be."""
+    """The content of a TOML file with repaired lines; a ValueError if a line cannot be repaired."""
     moved: Moved = []
     while True:
         try:
@@ -184,7 +184,7 @@ _PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[\d+\](?:\.\w+(?:\[\d+\])?)*)(\s*=
 
 
 def _repaired(line: str) -> tuple[str, int, str] | None:
-    """The line without its error, the column of that, and the sentence; None for errors that are not common."""
+    """The repaired line, the column of the error, and the sentence; None for an error that is not common."""
     if sign := re.match(r"\s*\"?([A-Za-z_]+)\"?(?:\s*(?::=?|==)\s*|\s+)(?=[\d\"'\[{+-])", line):
         right = f"{sign[1]} = {line[sign.end() :]}"
         return right, sign.start(1) + 1, f"an equals sign is missing: write {right}"
@@ -208,7 +208,7 @@ def _repaired(line: str) -> tuple[str, int, str] | None:
 def convert(raw: Any, kind: type[Kind], source: str, problems: list[Problem] | None = None) -> Kind:
     """`raw` as `kind`, a msgspec Struct.
 
-    A SceneError with all that does not fit; with `problems`, they are noted there and what is wrong is left out.
+    All errors are raised as one SceneError; with `problems`, they are noted there and the wrong values are left out.
     """
     if isinstance(raw, dict) and "vary" in _known_keys(kind) and (scene := [key for key in SYSTEMS if key in raw]):
         raise SceneError(source, scene[0], f"is of a scene, not of a study: revchain run {source}")
@@ -236,7 +236,7 @@ def _known_keys(kind: type) -> list[str]:
 
 
 def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
-    """A struct with what is right in `raw`; UNSET for what is no table."""
+    """A struct with the correct values of `raw`; UNSET if `raw` is not a table."""
 
     def refuse(name: str, reason: str) -> None:
         found.append(Problem(0, 0, joined(key, name) if name else key, reason))
@@ -266,13 +266,13 @@ def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
 
 
 def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
-    """A value of a table; UNSET where it does not fit."""
+    """A value of a table; UNSET if it does not fit."""
     structs = [part for part in _parts_of(annotation) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
     lists = [part for part in _parts_of(annotation) if get_origin(part) is list and get_args(part)[0] in structs]
     if lists and isinstance(raw, list) and raw:
         nothing = structs[0](**{field.name: msgspec.UNSET for field in fields_of(structs[0]) if field.required})
         items = [_table(item, structs[0], f"{key}[{k}]", found) for k, item in enumerate(raw)]
-        return [nothing if item is msgspec.UNSET else item for item in items]  # so that the numbers of others hold
+        return [nothing if item is msgspec.UNSET else item for item in items]  # keeps the indices of the others
     named = any(get_origin(part) is dict for part in _parts_of(annotation))
     if structs and not lists and not named and isinstance(raw, dict):
         return _table(raw, structs[0], key, found)
@@ -291,7 +291,7 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
 
 @cache
 def _set(annotation: Any) -> Any:
-    """The annotation without what stands for a missing key."""
+    """The annotation without the type of a missing key."""
     if msgspec.UnsetType not in _parts_of(annotation):
         return annotation
     if get_origin(annotation) is Annotated:
@@ -329,7 +329,7 @@ EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [
 
 
 def _instead(name: str, kind: type) -> str:
-    """What to write for an unknown key."""
+    """The hint for an unknown key."""
     known = _known_keys(kind)
     if name in QUESTIONS and "ask" in known:
         return f"write [ask.{name}]"
@@ -345,7 +345,7 @@ def _instead(name: str, kind: type) -> str:
 
 
 def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> str:
-    """A sentence of msgspec in the words of a scene's author."""
+    """A sentence of msgspec in the terms of a scene file."""
     value = _at(raw, path)
     got = f", got {written(value)}"
     limit = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
@@ -390,14 +390,14 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
 
 
 def _is_number(annotation: Any) -> bool:
-    """Whether a number may stand there, and not only inside a list."""
+    """Whether the value may be a number outside a list."""
     arguments = get_args(annotation)
     inside = arguments[:1] if get_origin(annotation) is Annotated else arguments
     return annotation is float or (get_origin(annotation) not in (list, tuple) and any(map(_is_number, inside)))
 
 
 def choice(words: list[str], or_number: bool, value: Any) -> str:
-    """The sentence for a value that is not among the words allowed."""
+    """The sentence for a value that is not one of the allowed words."""
     allowed = words[0] if len(words) == 1 else "one of " + ", ".join(words)
     near = get_close_matches(value, words, n=1) if isinstance(value, str) else []
     hint = f"; did you mean {near[0]}?" if near else ""
@@ -405,7 +405,7 @@ def choice(words: list[str], or_number: bool, value: Any) -> str:
 
 
 def written(value: Any, width: int = 60) -> str:
-    """A value as a scene file has it."""
+    """A value as it is written in a scene file."""
     if isinstance(value, dict):
         return "a table"
     if isinstance(value, list | tuple):
@@ -438,7 +438,7 @@ def _parts_of(annotation: Any) -> Iterator[Any]:
 
 
 def _annotation_at(kind: type, key: str) -> Any:
-    """What the value at a key path should be; None where there is no such key."""
+    """The type of the value at a key path; None if there is no such key."""
     found: Any = kind
     for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
         structs = [part for part in _parts_of(found) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
@@ -448,7 +448,7 @@ def _annotation_at(kind: type, key: str) -> Any:
 
 
 def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
-    """Without what is wrong with a table only because a key of it is, or was not understood."""
+    """The problems without those of a table that follow from a problem of one of its keys."""
     kept: list[Problem] = []
     for problem in problems:
         inside = [each for each in kept if problem.key and each.key.startswith((problem.key + ".", problem.key + "["))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Line and column of every key of a TOML or JSON file."""
+"""Line and column of each key of a TOML or JSON file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TOKEN = re.compile(
 
 
 class _Scanner:
-    """Reads a text that is known to be valid, and notes where each key and each item of a list begins."""
+    """A reader of valid text that notes where each key and each item of a list starts."""
 
     def __init__(self, text: str) -> None:
         found = (match for match in _TOKEN.finditer(text) if not match.group().startswith("#"))
@@ -24,7 +24,7 @@ class _Scanner:
         self.places: dict[str, int] = {}
 
     def token(self, skip_lines: bool = True) -> tuple[str, int]:
-        """The next one; empty at the end."""
+        """The next token; empty at the end."""
         while self.next < len(self.tokens):
             self.next += 1
             if not (skip_lines and self.tokens[self.next - 1][0] == "\n"):
@@ -32,7 +32,7 @@ class _Scanner:
         return "", 0
 
     def key(self, ends: str) -> list[str]:
-        """The parts of a dotted key; the token that ends it is read, too."""
+        """The parts of a dotted key; the token after it is read, too."""
         parts: list[str] = []
         while (word := self.token()[0]) and word not in ends:
             parts += [_unquoted(word)] if word[0] in "\"'" else [part for part in word.split(".") if part]
@@ -105,12 +105,12 @@ _LAST = re.compile(r"""(^|\.)("(\\.|[^"\\])*"|[^."[]*)$|\[\d+\]$""")
 
 
 def places_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
-    """A function from a key path to its line and column; of what is missing, those of the table it should be in."""
+    """A function from a key path to its line and column; for a missing key those of its table."""
     scanner = _Scanner(text)
     try:
         scanner.value("") if json else scanner.document()
     except (RecursionError, IndexError):
-        pass  # of what could not be scanned the places are those of the tables around it
+        pass  # keys that could not be scanned get the places of the tables around them
     places = {key.removeprefix("."): at for key, at in scanner.places.items()}
     starts = [0, *(match.end() for match in re.finditer("\n", text))]
 

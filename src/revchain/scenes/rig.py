@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the tables of a scene to what its chain is rigged with."""
+"""The rig from the tables of a scene."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .tables import Displaced, Flywheel, Link, Support
 
 
 def is_rigged(links: list[Link], support: Support | UnsetType) -> bool:
-    """Whether anything in these tables goes beyond a chain that hangs from a firm point on the axis."""
+    """Whether these tables describe more than a chain that hangs from a firm point on the axis."""
     return support is not UNSET or any(
         link.standing or link.flywheel is not UNSET or link.displaced is not UNSET for link in links
     )
@@ -25,9 +25,9 @@ def is_rigged(links: list[Link], support: Support | UnsetType) -> bool:
 def rig_of(
     chain: Chain | None, links: Links, support: Support | UnsetType, fluid: str, numbers: Numbers
 ) -> systems.Rig | None:
-    """The rig; `links` are the tables of the links that `chain` has, or none.
+    """The rig; `links` are the tables of the links of `chain`, or none.
 
-    Without a chain, where that was refused, what is wrong here is noted, too.
+    If the chain was refused (None), the errors of the other tables are noted, too.
     """
     repeats = [link.repeat for _, link in links]
     firsts = np.cumsum([0, *repeats])[:-1]
@@ -58,7 +58,7 @@ def rig_of(
             names = (numbers.heavy, f"added_{numbers.heavy}", "centroid", "radius_of_gyration")
             displaced = columns(names, fluids)
             if all(link.displaced is UNSET or link.displaced.radius_of_gyration is UNSET for _, link in links):
-                del displaced["radius_of_gyration"]  # the links' own, to all the digits kept of it
+                del displaced["radius_of_gyration"]  # that of the links, with all stored digits
             given["displaced"] = systems.Displaced(**displaced)
         return systems.Rig(chain, **given, fluid=fluid)
     except ValueError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files: what hangs, and what is asked of it. Read and validated by msgspec."""
+"""Scene files: a system and questions about it. They are read and validated by msgspec."""
 
 from __future__ import annotations
 
@@ -48,28 +48,29 @@ EXCLUSIVE = (*SPEEDS, "count", "first")
 
 
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
-    """The method that asks one question."""
+    """The method of `Scene` that answers one question."""
 
     def ask(self: Scene, **changed: Any) -> Any:
         return self._answer(question, changed)
 
     indented = example.replace("\n", "\n        ")
-    ask.__doc__ = f"""Find the {what} that ``[ask.{question}]`` asks for, with the gravity of the scene.
+    ask.__doc__ = f"""Return the {what} for the table ``[ask.{question}]``, with the gravity of the scene.
 
         Parameters
         ----------
         **changed
-            Keys of that table that take the place of the scene's.
+            Keys of that table with other values than those of the scene.
 
         Returns
         -------
         {result}
+            The result of the function of that name.
 
         Raises
         ------
         SceneError
-            (a ValueError) If neither the scene nor `changed` says what the question needs, and for all that the
-            function of that name refuses, such as a system that has no answer. Links are those of the scene's tables.
+            If neither the scene nor `changed` has a key that the question needs, or if the function refuses the arguments.
+            A SceneError is a ValueError; it counts links as the tables of the scene do.
 
         Examples
         --------
@@ -81,14 +82,14 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
 
 
 class Scene(Table, frozen=True):
-    """What hangs, under which gravity, and what is asked: a scene file.
+    """A scene file: a system, its gravity and questions about it.
 
     Notes
     -----
-    Its attributes are the tables of the file (`revchain schema` describes every key). Plain numbers are SI; text such
-    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask
-    the function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take
-    the place of the scene's.
+    The attributes are the tables of the file (`revchain schema` describes each key). Plain numbers are in SI units; text
+    such as ``"39.1396 inch"`` is converted by pint. The methods `modes`, `steady_shapes`, `response`, `swing` and
+    `branches` call the function of that name with the system, the gravity and the arguments of the scene. Arguments
+    given to a method replace those of the scene.
 
     Examples
     --------
@@ -107,40 +108,42 @@ class Scene(Table, frozen=True):
     """
 
     schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
-    title: Annotated[str, says("One line.")] = ""
-    description: Annotated[str, says("As long as you like.")] = ""
-    gravity: Annotated[Positive, says("In m/s^2.")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Of the links.")] = "free end first"
-    links: Annotated[list[Link] | UnsetType, says("The links, the free end first.")] = UNSET
+    title: Annotated[str, says("Title in one line.")] = ""
+    description: Annotated[str, says("Description of any length.")] = ""
+    gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
+    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
+    links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
     tapered_chain: Annotated[
         TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
     ] = UNSET
     cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
-    support: Annotated[Support | UnsetType, says("What the chain hangs from, if not a firm point on the axis.")] = UNSET
-    fluid: Annotated[Literal["still", "turning"], says("At rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Where the lower end is held on the axis, too.")] = UNSET
-    ask: Annotated[Ask, says("What is asked.")] = Ask()
+    support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
+    fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
+    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
+    ask: Annotated[Ask, says("Questions to answer.")] = Ask()
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Scene:
-        """Make a scene from plain data, as a TOML or JSON file holds it.
+        """Return a scene from plain data, as in a TOML or JSON file.
 
         Parameters
         ----------
         data : dict
-            Keys as in a scene file.
+            Data with the keys of a scene file.
         source : str
-            What errors name.
+            Name to show in errors.
 
         Returns
         -------
         Scene
+            The scene.
 
         Raises
         ------
         SceneError
-            A ValueError that names the source, and of every error the key and what is wrong there.
+            If the data are not a valid scene. The error is a ValueError; it has the source, and the key and the reason of
+            each problem.
 
         Examples
         --------
@@ -152,7 +155,7 @@ class Scene(Table, frozen=True):
 
     @classmethod
     def _read(cls, data: Any, source: str, problems: list[Problem], in_doubt: bool = False) -> Self:
-        """The scene; one error for all problems, those of its syntax included."""
+        """The scene; one error for all problems, with those of its syntax."""
         if isinstance(data, dict):
             if "vary" in data:
                 raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
@@ -164,11 +167,12 @@ class Scene(Table, frozen=True):
         return scene
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data; what has its default is left out.
+        """Return the scene as plain data, without keys that have their default.
 
         Returns
         -------
         dict
+            The data, which `from_dict` reads.
 
         Examples
         --------
@@ -181,16 +185,17 @@ class Scene(Table, frozen=True):
         return {"schema_version": 2, **data} if old_keys(data) else data
 
     def gravity_value(self) -> float:
-        """Return gravity in m/s^2.
+        """Return the acceleration of gravity in m/s^2.
 
         Returns
         -------
         float
+            The acceleration.
 
         Raises
         ------
         SceneError
-            If it is no positive acceleration.
+            If `gravity` is not a positive acceleration.
 
         Examples
         --------
@@ -204,17 +209,17 @@ class Scene(Table, frozen=True):
         return gravity
 
     def system(self) -> System:
-        """Build what hangs, in SI units: by mass, or by weight if any weight is said.
+        """Return the system of the scene in SI units, by mass, or by weight if the scene has a weight.
 
         Returns
         -------
         Chain, Rig, Cord or Held
-            A rig where anything goes beyond a chain that hangs from a firm point on the axis.
+            The system. It is a rig if the scene has a support, flywheels, a fluid or inverted links.
 
         Raises
         ------
         SceneError
-            If the numbers describe nothing that hangs.
+            If the numbers do not describe a possible system.
 
         Examples
         --------
@@ -226,12 +231,12 @@ class Scene(Table, frozen=True):
         Rig of a chain of 1 link: 1 link with momentum
         """
         system = self._system("scene")
-        assert system is not None  # else it has been raised why
+        assert system is not None  # else an error was raised
         return system
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """The questions that the scene has a table for: modes, shapes, response, swing, branches."""
+        """Names of the questions for which the scene has a table, out of modes, shapes, response, swing, branches."""
         return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
 
     modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
@@ -247,17 +252,17 @@ class Scene(Table, frozen=True):
     branches = _asking("branches", "branches", "Branches", ">>> len(scene.branches(max_angular_speed=5.0))\n1")
 
     def answers(self) -> dict[str, Any]:
-        """Answer all that the scene asks.
+        """Return the answers to all questions of the scene.
 
         Returns
         -------
         dict
-            The result of each question of `asks`; of a scene that asks nothing, its modes.
+            The result of each question of `asks`; the modes if the scene has no question.
 
         Raises
         ------
-        ValueError
-            As the functions.
+        SceneError
+            If a function refuses the system or its arguments.
 
         Examples
         --------
@@ -270,7 +275,7 @@ class Scene(Table, frozen=True):
         return {question: self._answer(question, {}) for question in self.asks or ("modes",)}
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
-        """Answer one question; `changed` are keys of its table that take the place of the scene's."""
+        """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
         numbers = Numbers("scene")
         table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
         given = arguments(question, table, system, numbers.of("ask"))
@@ -281,7 +286,7 @@ class Scene(Table, frozen=True):
             raise of_file(error, "scene", "", self._bodies()) from None
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
-        """What the scene says of a question, with other values in place of its own."""
+        """The table of a question, with the values of `changed`."""
         said = getattr(self.ask, "modes" if question == "explain" else question)
         if question == "explain" and isinstance(said, AskModes):
             said = AskExplain(count=said.count, first=said.first, rtol=said.rtol)
@@ -299,7 +304,7 @@ class Scene(Table, frozen=True):
         return table
 
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All that is wrong with the scene, of which some is known."""
+        """All problems of the scene, with those already known."""
         numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
@@ -312,7 +317,7 @@ class Scene(Table, frozen=True):
         return parse.without_consequences([*known, *numbers.problems])
 
     def _system(self, source: str) -> System | None:
-        """What hangs. All that is wrong with it is raised as one error; None where only what is known is wrong."""
+        """The system. All its problems are raised as one error; None if all problems are known already."""
         numbers = Numbers(source)
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if len(given) != 1:
@@ -346,27 +351,27 @@ class Scene(Table, frozen=True):
         return links[::-1] if self.order == "support first" else links
 
     def _bodies(self) -> Links:
-        """Those that are links of the system: a clamped one is part of the link above."""
+        """The tables that are links of the system; a clamped one is part of the link above."""
         return [(index, link) for index, link in self._links() if not link.clamped]
 
     @property
     def is_rigged(self) -> bool:
-        """Whether anything in the scene goes beyond a chain that hangs from a firm point on the axis."""
+        """Whether the scene has more than a chain that hangs from a firm point on the axis."""
         return is_rigged([] if isinstance(self.links, UnsetType) else self.links, self.support)
 
     @property
     def is_held(self) -> bool:
-        """Whether the lower end is held on the axis, too."""
+        """Whether the lower end is held, too."""
         return self.held is not UNSET
 
 
 def is_by_mass(scene: Scene) -> bool:
-    """Whether masses stay masses: no weight is said, or gravity plays no part."""
+    """Whether masses stay masses: the scene has no weight, or no gravity."""
     return _is_by_mass(scene) or (isinstance(scene.held, Held) and scene.held.weightless)
 
 
 def _is_by_mass(table: Any) -> bool:
-    """Whether no weight is said in a table, nor in those inside it."""
+    """Whether a table and the tables inside it have no weight."""
     if isinstance(table, list):
         return all(map(_is_by_mass, table))
     if not isinstance(table, Table):
@@ -401,7 +406,7 @@ def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> H
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
-    """With the name of the link in which it is."""
+    """The problem with the name of its link added to the key."""
     found = re.match(r"links\[(\d+)\]\S*$", problem.key)
     if found is None or isinstance(scene.links, UnsetType) or int(found[1]) >= len(scene.links):
         return problem
@@ -410,21 +415,23 @@ def _named(problem: Problem, scene: Scene) -> Problem:
 
 
 def load_scene(path: str | os.PathLike[str]) -> Scene:
-    """Read a scene from a TOML file, or from a JSON file if its name ends in ``.json``.
+    """Return a scene from a TOML file, or from a JSON file if its name ends in ``.json``.
 
     Parameters
     ----------
     path : path-like
-        The file.
+        Path of the file.
 
     Returns
     -------
     Scene
+        The scene; its methods return the system and the answers.
 
     Raises
     ------
     SceneError
-        A ValueError that names the file, and of every error the line, the column, the key and what is wrong there.
+        If the file cannot be read or is not a valid scene. The error is a ValueError; it has the file, and the line, the
+        column, the key and the reason of each problem.
 
     Examples
     --------
@@ -439,7 +446,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:
-    """The JSON Schema of scene files, or of files of another kind, for editors."""
+    """The JSON Schema of scene files (or files of another kind), for editors."""
     schema: dict[str, Any] = json.schema(kind)
     weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
     for name, table in schema["$defs"].items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files of version 1: what has changed, and the same scene in version 2, its comments kept."""
+"""Scene files of version 1: the changes, and the scene in version 2 with its comments."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ Data = MutableMapping[str, Any]
 
 
 def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str]]:
-    """The tables of version 1 in a scene, with what to write instead; none in a scene of version 2.
+    """The tables of version 1 in a scene, with the text to write instead; none in a scene of version 2.
 
-    `in_doubt`: whether two speeds are taken for a range of version 1, where nothing says the version.
+    `in_doubt`: whether two speeds are read as a range of version 1 if the scene does not give its version.
     """
     version, ask = data.get("schema_version"), data.get("ask")
     ask = ask if isinstance(ask, dict) else {}
@@ -49,7 +49,7 @@ def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str
 
 
 def _toml(value: Any) -> str:
-    """As a file has it."""
+    """A value as TOML text."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key} = {written(each)}" for key, each in value.items()) + "}"
     return written(value)
@@ -85,10 +85,10 @@ def upgrade(data: Data) -> None:
 
 
 def _put(table: Data, new: str, make: Callable[..., Any], *old: str) -> None:
-    """Make a key of older ones, if the first is there; what they said to people goes with it."""
+    """Make a key from older keys, if the first one exists; their comments go with it."""
     if old[0] not in table:
         return
-    document = getattr(table, "value", None)  # of tomlkit, whose items know the comments behind them
+    document = getattr(table, "value", None)  # tomlkit's items have the comments behind them
     items = [document.item(name) if document is not None else table[name] for name in old if name in table]
     for name in old:
         table.pop(name, None)
@@ -104,13 +104,13 @@ def _put(table: Data, new: str, make: Callable[..., Any], *old: str) -> None:
 
 
 def _headed(block: re.Match[str]) -> str:
-    """The lines of [ask] below the heading [ask.modes], where they stay with their comments."""
+    """The lines of [ask] moved below the heading [ask.modes], with their comments."""
     lines = re.sub(r"(?m)^modes(?=\s*=)", "count", block[1])
     return "[ask.modes]" + re.sub(r"(?m)^method\s*=\s*[\"']auto[\"'].*\n?", "", lines)
 
 
 def upgraded_text(text: str, is_json: bool) -> str:
-    """The text of a scene file in version 2; a ValueError where it has to be changed by hand."""
+    """The text of a scene file in version 2; a ValueError if it must be changed by hand."""
     if is_json:
         data = json.loads(text)
         if old_keys(data):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the table [vary] of a study to the numbers at each point: grids and random numbers."""
+"""The numbers at each point from the table [vary] of a study: grids and random numbers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ..scenes.chain import Numbers
 from ..scenes.tables import Link, Table, fields_of, says
 from ..systems.units import SI
 
-BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
+BLOCK = 65536  # points in a block of random numbers; each block has its own stream
 MAX_STEPS = 10**7
 MAX_POINTS = 10**12
 
@@ -40,15 +40,19 @@ LAWS = ("uniform", "normal", "log_uniform")
 class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
     """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene."""
 
-    first: Annotated[NumberOrText | UnsetType, says("The first value of a grid.")] = UNSET
-    last: Annotated[NumberOrText | UnsetType, says("Its last value.")] = UNSET
-    steps: Annotated[Samples | UnsetType, says("Number of values, both ends included.")] = UNSET
-    log: Annotated[bool, says("Whether in equal ratios instead of equal differences.")] = False
-    values: Annotated[Listed | UnsetType, says("Instead: a grid of these values.")] = UNSET
-    uniform: Annotated[TwoNumbers | UnsetType, says('Instead: random, [low, high] or [middle, "5 %"].')] = UNSET
-    normal: Annotated[TwoNumbers | UnsetType, says('Instead: random, [mean, deviation] or [mean, "5 %"].')] = UNSET
+    first: Annotated[NumberOrText | UnsetType, says("First value of a grid.")] = UNSET
+    last: Annotated[NumberOrText | UnsetType, says("Last value of a grid.")] = UNSET
+    steps: Annotated[Samples | UnsetType, says("Number of values of a grid, both ends included.")] = UNSET
+    log: Annotated[bool, says("Whether the values have equal ratios instead of equal differences.")] = False
+    values: Annotated[Listed | UnsetType, says("Values of a grid, instead of from, to and steps.")] = UNSET
+    uniform: Annotated[
+        TwoNumbers | UnsetType, says('Random numbers with a uniform distribution, [low, high] or [middle, "5 %"].')
+    ] = UNSET
+    normal: Annotated[
+        TwoNumbers | UnsetType, says('Random numbers with a normal distribution, [mean, deviation] or [mean, "5 %"].')
+    ] = UNSET
     log_uniform: Annotated[
-        TwoNumbers | UnsetType, says('Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].')
+        TwoNumbers | UnsetType, says('Random numbers with a uniform logarithm, [low, high] or [middle, "5 %"].')
     ] = UNSET
     name: Annotated[str | UnsetType, says("Name of the column; the path if left out.")] = UNSET
 
@@ -71,11 +75,11 @@ class Axis:
 
     @property
     def is_number(self) -> bool:
-        """Whether the values are real numbers; others (whole numbers, words) may change what the scene consists of."""
+        """Whether the values are real numbers; others (whole numbers, words) may change the structure of the scene."""
         return self.values is None or self.values.dtype.kind == "f"
 
     def examples(self) -> list[Any]:
-        """The ends of a grid, all its words, or a number in the middle of random ones."""
+        """Values to check: the ends of a grid, all its words, or a number in the middle of random ones."""
         if self.values is None:
             one, two = self.law_numbers
             return [one if self.law == "normal" else one + (two - one) / 2]
@@ -85,7 +89,7 @@ class Axis:
 
 
 def path_of(text: str, numbers: Numbers) -> Path:
-    """The steps of a path; empty where it is none, which is noted."""
+    """The steps of a path; empty for a wrong path, which is noted."""
     right = re.sub(r"^link\[", "links[", text.removeprefix("scene."))
     if (link := re.fullmatch(r"(links\.)?(\w+)", right)) and link[2] in [field.name for field in fields_of(Link)]:
         right = f"links[0].{link[2]}"
@@ -103,12 +107,12 @@ def path_of(text: str, numbers: Numbers) -> Path:
 
 
 def quantity_of(path: Path) -> str:
-    """The quantity of the number there, a key of `systems.units.SI`; a length where the name is none."""
+    """The quantity of the number at a path, a key of `systems.units.SI`; a length if the name is not one."""
     return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")
 
 
 def with_value(data: Any, path: Path, value: Any) -> Any:
-    """A copy of `data` with the value there; tables that are not on the path are shared. A ValueError has no place."""
+    """A copy of `data` with the value at the path; tables off the path are shared. A ValueError if there is no such place."""
     if not path:
         return value
     step, rest = path[0], path[1:]
@@ -123,7 +127,7 @@ def with_value(data: Any, path: Path, value: Any) -> Any:
 
 
 def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
-    """The axis that an entry of [vary] describes; None where it is wrong, which is noted. `kind` is that of scenes."""
+    """The axis of an entry of [vary]; None if it is wrong, which is noted. `kind` is the class of scenes."""
     known, path = len(numbers.problems), path_of(key, numbers)
     name = key if isinstance(table.name, UnsetType) else table.name
     if not name.strip() or "/" in name or name == "." or not name.isprintable():
@@ -216,13 +220,13 @@ def _law(law: str, given: Sequence[Any], quantity: str, numbers: Numbers) -> tup
 
 
 def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:
-    """Number of values of each grid, then samples if there are random numbers; the last counts fastest."""
+    """Number of values of each grid, then samples if there are random numbers; the last one varies fastest."""
     grid = [axis.values.size for axis in axes if axis.values is not None]
     return (*grid, samples) if any(axis.values is None for axis in axes) else tuple(grid)
 
 
 class Reader:
-    """The numbers of the axes at stretches of points; fastest if each begins where the last ended."""
+    """The numbers of the axes at stretches of points; fastest if each stretch starts where the last one ended."""
 
     def __init__(self, axes: Sequence[Axis], samples: int, seed: int) -> None:
         shape = shape_of(axes, samples)
@@ -231,7 +235,7 @@ class Reader:
         self._draws = [_Draws(axis, seed) if axis.values is None else None for axis in axes]
 
     def at(self, start: int, stop: int) -> list[Values]:
-        """For each axis its numbers at the points start <= k < stop; not to be written to."""
+        """The numbers of each axis at the points start <= k < stop, as arrays that must not be changed."""
         return [
             _repeated(*grid, start, stop) if grid is not None else draws.at(start, stop)  # type: ignore[union-attr]
             for grid, draws in zip(self._grids, self._draws, strict=True)
@@ -254,9 +258,9 @@ def _repeated(values: Values, stride: int, start: int, stop: int) -> Values:
 
 
 class _Draws:
-    """Random numbers that depend on their point alone, in whatever pieces they are drawn.
+    """Random numbers that depend only on their point, not on the pieces in which they are drawn.
 
-    Each block of points has a stream of its own, which is kept as far as it has been drawn.
+    Each block of points has its own stream; the last one stays open where drawing stopped.
     """
 
     def __init__(self, axis: Axis, seed: int) -> None:

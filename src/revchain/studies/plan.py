@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A study made ready: its axes, what each point gives, and the computation of a stretch of points."""
+"""The plan of a study: its axes, the results of each point, and the computation of a stretch of points."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from .points import (
     solve_compiled,
 )
 
-FORMAT = 3  # of the chunks on disk
-_LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache,
-_WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
-_FEW = 3  # points: as fast by the methods of their scenes
-_MOST_PATTERNS = 100  # scenes that are kept
+FORMAT = 3  # version of the chunks on disk
+_LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache
+_WORK = 2**20  # links times modes of a batch: enough that Python takes a small part of the time
+_FEW = 3  # so few points are as fast by the methods of their scenes
+_MOST_PATTERNS = 100  # largest number of stored scenes
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """The points start <= k < stop: what was found, a status for each, seconds taken."""
+    """The points start <= k < stop: their results, a status for each, and the time in seconds."""
 
     start: int
     stop: int
@@ -51,7 +51,7 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """All that a worker needs; it can be sent to another process."""
+    """The data that a worker needs; they can be sent to another process."""
 
     base: dict[str, Any]  # the scene as plain data
     axes: tuple[Axis, ...]
@@ -79,11 +79,11 @@ class Plan:
         return prod(self.shape)
 
     def values(self, start: int, stop: int) -> list[Values]:
-        """For each axis its numbers at a stretch of points."""
+        """The numbers of each axis at a stretch of points."""
         return self.reader().at(start, stop)
 
     def reader(self) -> Reader:
-        """Gives the numbers of one stretch after another; one thread's own."""
+        """A reader of the numbers of successive stretches, for one thread."""
         return Reader(self.axes, self.samples, self.seed)
 
     def scene_data(self, values: list[Any]) -> dict[str, Any]:
@@ -94,7 +94,7 @@ class Plan:
         return data
 
     def fingerprint(self) -> str:
-        """Of everything that the numbers depend on."""
+        """A hash of all data on which the results depend."""
         from .. import __version__
 
         axes = [
@@ -110,17 +110,17 @@ class Plan:
 
     @property
     def stored(self) -> tuple[Block, ...]:
-        """The blocks that are computed and kept."""
+        """The blocks that are computed and stored."""
         return tuple(block for block in self.blocks if not (self.derived and block.name == "angular_speed"))
 
     @property
     def numbers(self) -> int:
-        """How many numbers are stored of each point."""
+        """Number of stored numbers of each point."""
         return sum(prod(block.each) for block in self.stored)
 
     @property
     def batch(self) -> int:
-        """How many chains go to `revchain.conical_heights` together."""
+        """Number of chains that go to `revchain.conical_heights` together."""
         if "batch" not in self._kept:
             chain: Any = self._scene.system()
             most = _WORK // (chain.size * self.stored[0].labels[-1])
@@ -128,11 +128,11 @@ class Plan:
         return int(self._kept["batch"])
 
     def speeds(self, heights: Floats, values: list[Values]) -> Floats:
-        """Whirl speeds at points with these heights where the axes have these numbers."""
+        """Whirl speeds at points with these heights and these numbers of the axes."""
         varied = {axis.path: k for k, axis in enumerate(self.axes)}
         where = varied.get(("gravity",))
         gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
-        with np.errstate(invalid="ignore"):  # the height of a point that is refused is no number
+        with np.errstate(invalid="ignore"):  # the height of a refused point is NaN
             speeds: Floats = np.sqrt(heights)
             np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
         return speeds
@@ -140,7 +140,7 @@ class Plan:
     def found(
         self, start: int, stop: int, progress: _core.Progress | None = None, arrays: Arrays | None = None
     ) -> Stretch:
-        """The points of a stretch, put into `arrays` if given; the same numbers at each, whatever the stretch."""
+        """The points of a stretch, put into `arrays` if given; the numbers do not depend on the stretch."""
         began = time.perf_counter()
         progress = _core.Progress() if progress is None else progress
         status = np.full(stop - start, SUCCESS, np.uint8)
@@ -162,7 +162,7 @@ class Plan:
         return Stretch(start, stop, arrays, status, time.perf_counter() - began)
 
     def refusal(self, point: int) -> str:
-        """The sentence with which the scene of a point is refused; empty if it is not."""
+        """The reason why the scene of a point is refused; empty if it is not."""
         values = [column.tolist()[0] for column in self.values(point, point + 1)]
         try:
             one_by_one(self._scene_of(values), self.find)
@@ -171,11 +171,11 @@ class Plan:
         return ""
 
     def _scene_of(self, values: list[Any]) -> Scene:
-        """The scene of a point; its methods check it."""
+        """The scene of a point, which its methods check later."""
         return parse.convert(self.scene_data(values), Scene, "scene")
 
     def _alike(self, values: list[Values], count: int) -> list[Any]:
-        """Rows of points that differ in numbers alone, those with the same words and whole numbers together."""
+        """Groups of rows with equal words and whole numbers, so that the points of a group differ only in numbers."""
         words = [column for axis, column in zip(self.axes, values, strict=True) if not axis.is_number]
         if not words:
             return [slice(None)]
@@ -184,7 +184,7 @@ class Plan:
         return [np.flatnonzero(groups == group) for group in range(groups.max() + 1)]
 
     def _solve(self, rows: Any, values: list[Values], arrays: Arrays, status: NDArray[np.uint8], progress: Any) -> None:
-        """Points that differ in numbers alone, each solved by itself."""
+        """Solve points that differ only in numbers, one by one."""
         count = len(values[0])
         if (solved := self._compiled(values, count, progress)) is not None:
             for name, found in solved[0].items():
@@ -198,7 +198,7 @@ class Plan:
             self._one(row, each, arrays, status)
 
     def _compiled(self, values: list[Values], count: int, progress: Any) -> tuple[Arrays, NDArray[np.uint8]] | None:
-        """What `solve_compiled` finds of these points; None where it does not serve, or they are too few for it."""
+        """The results of `solve_compiled` for these points; None if it does not apply, or if they are too few."""
         if count < _FEW:
             return None
         points = {axis.path: column for axis, column in zip(self.axes, values, strict=True) if axis.is_number}
@@ -211,7 +211,7 @@ class Plan:
             return None
 
     def _pattern(self, words: tuple[Any, ...]) -> Scene:
-        """A scene with these words and whole numbers; its other numbers do not matter."""
+        """A scene with these words and whole numbers; its other numbers have no effect."""
         pattern = self._patterns.get(words)
         if pattern is None:
             given = iter(words)
@@ -222,7 +222,7 @@ class Plan:
         return pattern
 
     def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
-        """A point by the methods of its scene."""
+        """Solve a point by the methods of its scene."""
         try:
             found, good = one_by_one(self._scene_of(values), self.find)
         except (ValueError, OverflowError):
@@ -246,7 +246,7 @@ class Plan:
         status: NDArray[np.uint8],
         progress: Any,
     ) -> None:
-        """Heights of plain chains. Where a batch is refused its wrong chains are left out; a single one is solved."""
+        """Heights of plain chains. The wrong chains of a refused batch are left out; a single chain is solved."""
         (block,) = self.stored
         links = columns.bodies({axis.path: column for axis, column in zip(self.axes, values, strict=True)})
         count = len(values[0])
@@ -261,7 +261,7 @@ class Plan:
         places = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
         heights[places[wrong]], status[places[wrong]] = np.nan, REFUSED
         right = np.flatnonzero(~wrong)
-        if right.size == count == 1:  # nothing is seen to be wrong with it
+        if right.size == count == 1:  # no error was seen in it
             heights[places] = np.nan
             self._solve(places, values, {block.name: heights}, status, progress)
         else:

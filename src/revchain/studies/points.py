@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a study reads of a scene: what is asked at each point, and the numbers of the systems of many points.
+"""The questions of a study at each point, and the numbers of the systems of many points.
 
 Points go in batches to `revchain.conical_heights`, or one by one through `_core.Points`, both without Python between
-two points; `one_by_one` does what these cannot, by the methods of `Scene`.
+two points. `one_by_one` solves other points by the methods of `Scene`.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ Arrays = dict[str, NDArray[Any]]
 SUCCESS, NOT_MET, REFUSED = 0, 1, 2
 STATUS = ("success", "tolerance_not_met", "refused")
 
-MAX_LINKS = 100  # as far as the accuracy of the batches has been measured
-_BATCH_ULP = 16.0  # the error of heights of batches, in ulp, that counts verify: this and a quarter for each link
-_FULL = 4.5e-16  # with a tolerance below this `revchain.modes` takes double-double
+MAX_LINKS = 100  # the accuracy of batches was measured up to this number
+_BATCH_ULP = 16.0  # error of heights of batches, in ulp, that counts verify; a quarter for each link is added
+_FULL = 4.5e-16  # `revchain.modes` takes double-double for a tolerance below this
 _LINK = ("weight", "mass", "length", "centroid", "radius_of_gyration", "pendulum_length")
 _UNIFORM = ("weight", "mass", "length")
 _METHODS = (UNSET, "bisection", "condensed", "aberth", "interpolated")
@@ -53,22 +53,22 @@ class Block:
     labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
 
     def memory(self, points: int) -> NDArray[Any]:
-        """An array for so many points, with whatever lies there."""
+        """An uninitialized array for so many points."""
         return np.empty((points, *self.each), self.kind)
 
     @property
     def nothing(self) -> float:
-        """Stands where nothing was found."""
+        """The value in place of a missing result."""
         return math.nan if self.kind == "f8" else 0
 
     @property
     def each(self) -> tuple[int, ...]:
-        """The shape of what one point has."""
+        """The shape of the results of one point."""
         return (len(self.labels),) if self.along else ()
 
     @property
     def columns(self) -> list[str]:
-        """Names of the columns of a table that hold it."""
+        """Names of its columns in a table."""
         return [f"{self.name}_{label}" for label in self.labels] if self.along else [self.name]
 
 
@@ -80,13 +80,13 @@ def _asked_modes(scene: Scene) -> AskModes:
 
 
 def _first(scene: Scene) -> int:
-    """Number of the slowest mode that is wanted."""
+    """Number of the first mode asked for."""
     first = _asked_modes(scene).first
     return 1 if isinstance(first, UnsetType) else first
 
 
 def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
-    """What is computed, in the order of the columns: `wanted`, or what the scene asks. What is wrong is noted."""
+    """The questions in the order of the columns: `wanted`, or those of the scene. Errors are noted."""
     asked: list[str] = [name for name in ("modes", "shapes", "response") if name in scene.asks] or ["modes"]
     if isinstance(wanted, UnsetType):
         for name in set(scene.asks) - {"modes", "shapes", "response"}:
@@ -107,7 +107,7 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
 
 
 def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: int, bounds: bool) -> tuple[Block, ...]:
-    """The results of each point; `largest` is the scene at the point that has most modes."""
+    """The results of each point; `largest` is the scene of the point with the most modes."""
     blocks: list[Block] = []
     system = scene.system()
     if "modes" in find:
@@ -131,7 +131,7 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
 
 
 def _modes_of(scene: Scene, largest: Scene) -> int:
-    """For how many modes there are columns: as many as are asked, or as any point has."""
+    """Number of modes with columns: those asked for, at most those of the point with the most modes."""
     asked, system = _asked_modes(scene).count, largest.system()
     if isinstance(asked, int):
         return asked
@@ -144,7 +144,7 @@ def _modes_of(scene: Scene, largest: Scene) -> int:
 
 
 def goes_in_batches(scene: Scene, paths: list[Path]) -> bool:
-    """Whether all points are chains that differ in the numbers of their links alone, asked as batches answer."""
+    """Whether all points are chains that differ only in numbers of their links, with questions that batches answer."""
     ask, chain = _asked_modes(scene), scene.system()
     if not isinstance(chain, Chain) or scene.tapered_chain is not UNSET or not _is_compiled(scene) or ask.certify:
         return False
@@ -166,12 +166,12 @@ def _rtol(scene: Scene) -> float | None:
 
 
 def derives_speeds(scene: Scene) -> bool:
-    """Whether speeds are those of the heights by `conical_pendulum.angular_speed`, and need not be stored."""
+    """Whether speeds follow from the heights by `conical_pendulum.angular_speed`, so that they are not stored."""
     return not scene.is_rigged and _is_compiled(scene)
 
 
 def _is_compiled(scene: Scene) -> bool:
-    """Whether `_core.Points` can do it."""
+    """Whether `_core.Points` can solve the scene."""
     ask, response = _asked_modes(scene), scene.ask.response
     own_radius = isinstance(response, AskResponse) and response.support_radius is not UNSET
     tight = 0 < (_rtol(scene) or 0) < _FULL
@@ -195,10 +195,10 @@ def _has_tip(table: Any) -> bool:
 
 
 class Columns:
-    """The numbers of the systems of many points, of which only numbers differ; one thread's own.
+    """The numbers of the systems of many points that differ only in numbers; for one thread.
 
-    The same operations as for one scene, in the same order: the numbers are the same to the last bit. `wrong` says
-    which points have a number that a scene refuses and the solvers would not.
+    The operations and their order are those for one scene, so the numbers are equal to the last bit. `wrong` marks the
+    points with a number that a scene refuses and the solvers would accept.
     """
 
     def __init__(self, scene: Scene, max_points: int) -> None:
@@ -214,7 +214,7 @@ class Columns:
     def bodies(self, points: Mapping[Path, Floats]) -> dict[str, Floats]:
         """Weight, length and, unless all links are point masses, centroid and radius of gyration of each link.
 
-        Of shape (1, N) where all points have the same, else (points, N); valid until the next call.
+        The shape is (1, N) if all points have equal numbers, else (points, N). The arrays are valid until the next call.
         """
         self._points, self.wrong = points, False
         gravity = self._gravity()
@@ -228,7 +228,7 @@ class Columns:
         return {name: self._column(name, [body[k] for body in bodies], repeats) for k, name in enumerate(names)}
 
     def systems(self, points: Mapping[Path, Floats], count: int) -> _core.Points:
-        """The same with everything the scene has, for a compiled loop."""
+        """The numbers of `bodies` and of all other parts of the scene, for a compiled loop."""
         scene, kind = self._scene, "links"
         if isinstance(scene.links, list):
             tables = self.bodies(points)
@@ -259,14 +259,14 @@ class Columns:
         return _core.Points(count, links, kind, tables, clamped, first, scene.is_rigged, standing, turning)
 
     def speed_of_shapes(self, points: Mapping[Path, Floats]) -> tuple[Floats, bool]:
-        """The speed or height of each point at which shapes are asked for, and whether it is a speed."""
+        """The speed or height of the shapes at each point, and whether it is a speed."""
         self._points = points
         table = self._scene.ask.shapes
         name = "conical_height" if getattr(table, "angular_speed", UNSET) is UNSET else "angular_speed"
         return self._alone(self._number(table, ("ask", "shapes"), name, name, "any")), name == "angular_speed"
 
     def speeds_of_response(self, points: Mapping[Path, Floats]) -> tuple[Floats, bool]:
-        """The same for the response: a row of speeds for each point, or one for all."""
+        """The speeds or heights of the response, a row for each point or one for all, and whether they are speeds."""
         self._points = points
         table = self._scene.ask.response
         assert isinstance(table, AskResponse)
@@ -285,13 +285,13 @@ class Columns:
         return np.stack(np.broadcast_arrays(*columns), axis=-1), name == "angular_speed"
 
     def _value(self, path: Path, given: Any, quantity: str) -> Any:
-        """A number of a list or a range: of each point, or the scene's."""
+        """A number of a list or a range, for each point or for the scene."""
         if path in self._points:
             return self._points[path]
         return Numbers("scene").value("", given, quantity, "any")
 
     def gravity(self, points: Mapping[Path, Floats]) -> Floats:
-        """Of each point, or of all; shape (points, 1) or (1, 1)."""
+        """Gravity of each point, shape (points, 1), or of all, shape (1, 1)."""
         self._points = points
         return self._alone(self._gravity())
 
@@ -299,7 +299,7 @@ class Columns:
         return self._number(self._scene, (), "gravity", "gravity", "positive")
 
     def _number(self, table: Any, place: Path, key: str, quantity: str, sign: str, otherwise: Any = None) -> Any:
-        """The number of a key of a table: of each point, or the table's own."""
+        """The number of a key of a table, for each point or as in the table."""
         path = (*place, key)
         if path in self._points:
             values = self._points[path]
@@ -340,7 +340,7 @@ class Columns:
         return weight, length, centroid, np.where(np.equal(centroid, 0), np.nan, radius)[()]
 
     def _rig(self, tables: dict[str, Floats]) -> list[bool]:
-        """Adds what the chain is rigged with to the tables; which links stand, or none."""
+        """Add the fittings of the rig to the tables; return which links stand, or none."""
         scene, gravity = self._scene, self._gravity()
         if isinstance(scene.support, Support):
             support, place = scene.support, ("support",)
@@ -378,7 +378,7 @@ class Columns:
         return long.astype(np.float64)[()], heavy * radius * radius if table.driven else 0.0
 
     def _displaced(self, table: Displaced | UnsetType, place: Path, gravity: Any) -> tuple[Any, Any, Any, Any]:
-        """Weight displaced, weight added, centroid and radius of gyration, NaN where they are the link's own."""
+        """Displaced weight, added weight, centroid and radius of gyration; NaN for those of the link."""
         if isinstance(table, UnsetType):
             return 0.0, 0.0, math.nan, math.nan
         return (
@@ -390,11 +390,11 @@ class Columns:
 
     @staticmethod
     def _alone(value: Any) -> Floats:
-        """A column of its own: one row for each point, or one for all."""
+        """A column with one row for each point, or one for all."""
         return np.reshape(np.asarray(value, float), (-1, 1))
 
     def _column(self, name: str, parts: list[Any], repeats: list[int]) -> Floats:
-        """A number for each link; parts that do not vary are written once."""
+        """An array with a number for each link; parts that do not vary are written once."""
         column = self._memory.get(name)
         varied = [part for part in parts if isinstance(part, np.ndarray)]
         fresh = column is None
@@ -411,7 +411,7 @@ class Columns:
 
 
 def refused_by_chains(links: Mapping[str, Floats], count: int) -> NDArray[np.bool_]:
-    """Which of the chains have numbers that `revchain.Chain` is known to refuse."""
+    """Whether each chain has numbers that `revchain.Chain` is known to refuse."""
     wrong = np.zeros(count, bool)
     for name, column in links.items():
         right = np.isfinite(column)
@@ -433,7 +433,7 @@ def solve_compiled(
     count: int,
     progress: _core.Progress,
 ) -> tuple[Arrays, NDArray[np.uint8]] | None:
-    """Results and status of points that differ from the scene in these numbers; None where a scene must do it."""
+    """Results and status of points that differ from the scene in these numbers; None if they need a scene each."""
     if not _is_compiled(scene):
         return None
     columns, ask = Columns(scene, count), _asked_modes(scene)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `revchain.sweep` returns."""
+"""The result of `revchain.sweep`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MAX_SENTENCES = 20
 
 @dataclass(frozen=True)
 class Made:
-    """A study, made ready, and the file that holds its results, if they are not in memory."""
+    """A study, its plan, and the file of its results if they are not in memory."""
 
     study: Study
     plan: Plan
@@ -54,13 +54,13 @@ def stamp(path: Path) -> tuple[int, int]:
 
 
 class SweepResult(Result):
-    """All points of a study and what was found there; returned by `revchain.sweep`.
+    """All points of a study with their results; returned by `revchain.sweep`.
 
-    ``result["angular_speed"]`` is an array whose first axis counts the points: grids with the last fastest, samples
-    faster still. A second axis counts modes, shapes or speeds. ``result["links[0].mass"]`` is what varied. NaN, or 0
-    of whole numbers, stands where a point has nothing of the kind. Shown is the range of every column.
+    ``result["angular_speed"]`` is an array whose first axis counts the points; the last grid varies faster than the
+    others, and samples fastest. A second axis counts modes, shapes or speeds. ``result["links[0].mass"]`` has the values
+    that varied. NaN (0 for whole numbers) stands for a missing result. The printed table shows the range of each column.
 
-    Results of ``sweep(..., out=...)`` are read from that file when they are looked at.
+    Results of ``sweep(..., out=...)`` are read from that file when they are used.
 
     Examples
     --------
@@ -84,9 +84,9 @@ class SweepResult(Result):
     __slots__ = ()
     _study: Field[str] = Field("The study as JSON.", part=True)
     _arrays: Field[dict[str, NDArray[Any]]] = Field(
-        "What is stored of all points, by name.", lambda result: result._found().read(), part=True
+        "Stored results of all points, by name.", lambda result: result._found().read(), part=True
     )
-    resumed: Field[int] = Field("How many of the points were there already, from a run that was ended.", lambda r: 0)
+    resumed: Field[int] = Field("Number of points that an earlier, interrupted run had computed.", lambda r: 0)
 
     @classmethod
     def _of(cls, made: Made, **kept: Any) -> SweepResult:
@@ -110,28 +110,28 @@ class SweepResult(Result):
 
     @property
     def varied(self) -> list[str]:
-        """Names of what varied, in the order of the study."""
+        """Names of the varied numbers, in the order of the study."""
         return [axis.name for axis in self._plan.axes]
 
     @property
     def found(self) -> list[str]:
-        """Names of what was found."""
+        """Names of the results."""
         return [block.name for block in self._plan.blocks]
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values of each grid, then the number of samples where numbers are random."""
+        """Number of values of each grid, then the number of samples if numbers are random."""
         return self._plan.shape
 
     @property
     def status(self) -> NDArray[Any]:
-        """Status of each point: ``success``, ``tolerance_not_met`` (something is not proved) or ``refused``."""
+        """Status of each point: ``success``, ``tolerance_not_met`` (a result is not proved) or ``refused``."""
         words: NDArray[Any] = np.array(STATUS)[self._one("status")]
         return words
 
     @property
     def refused(self) -> dict[int, str]:
-        """Reasons of points that their scenes refuse, by their numbers: the first twenty."""
+        """Reasons of the first twenty refused points, by the number of the point."""
         points = np.flatnonzero(self._one("status") == REFUSED)[:MAX_SENTENCES].tolist()
         return {point: self._plan.refusal(point) for point in points}
 
@@ -141,10 +141,12 @@ class SweepResult(Result):
         Parameters
         ----------
         status : {"success", "tolerance_not_met", "refused"}
+            Status of a point.
 
         Returns
         -------
         int
+            Number of points.
 
         Raises
         ------
@@ -170,7 +172,7 @@ class SweepResult(Result):
         return self._one(name)
 
     def _one(self, name: str) -> NDArray[Any]:
-        """An array by its name, the status as 0, 1, 2; computed or read when first asked for, then kept."""
+        """An array by its name, the status as 0, 1, 2; computed or read on first use, then kept."""
         kept, made = self._kept, self._found()
         if name == "status" and "_arrays" not in kept:
             kept.setdefault("[status]", made.read(status_alone=True)["status"])
@@ -186,12 +188,12 @@ class SweepResult(Result):
         return kept[key]  # type: ignore[no-any-return]
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Return everything as columns of equal length, as the tables have them.
+        """Return all data as columns of equal length, as in the files.
 
         Returns
         -------
         dict of str to ndarray
-            The point's number, what varied, what was found (``conical_height_1`` and on), the status.
+            The number of the point, the varied numbers, the results (``conical_height_1`` and so on), and the status.
 
         Examples
         --------
@@ -209,6 +211,7 @@ class SweepResult(Result):
         Returns
         -------
         xarray.Dataset
+            The data set.
 
         Raises
         ------
@@ -232,20 +235,20 @@ class SweepResult(Result):
         return dataset(data, store.coordinates_of(plan), store.about(self.study))  # type: ignore[no-any-return]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a file.
+        """Write all data to a file.
 
         Parameters
         ----------
         path : path-like
-            Ends in ``.npz`` or ``.nc``, which `revchain.load` reads, or in ``.csv`` or ``.parquet``: a table for
-            other programs, with a row for each point, as ``sweep(..., out=...)`` writes it.
+            Path that ends in ``.npz`` or ``.nc``, which `revchain.load` reads, or in ``.csv`` or ``.parquet``. The last two
+            are tables for other programs, with a row for each point, as ``sweep(..., out=...)`` writes them.
 
         Raises
         ------
         ValueError
-            If `path` ends otherwise.
+            If `path` has another ending.
         OSError
-            (a ValueError too) If it cannot be written.
+            If the file cannot be written (the error is also a ValueError).
         ImportError
             If a package for it is missing; the message says how to install it.
 
@@ -266,21 +269,22 @@ class SweepResult(Result):
             store.write(aside, self.study, self._plan, partial(_pieces, self._arrays))
 
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draw what was found against what varied.
+        """Draw a result against the varied numbers.
 
-        One grid gives curves, two a map of the first mode, random numbers histograms with percentiles. A grid with
-        random numbers gives percentile bands, two grids a map of medians.
+        One grid gives curves, two grids a map of the first mode, random numbers histograms with percentiles. One grid
+        with random numbers gives percentile bands, two grids with random numbers a map of medians.
 
         Parameters
         ----------
         name : str, optional
-            Which result; the first if left out.
+            Name of the result; the first one if left out.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
+            Axes to draw in; a new figure if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The drawing.
 
         Raises
         ------
@@ -322,7 +326,7 @@ class SweepResult(Result):
 
 
 def _pieces(arrays: Arrays, size: int, names: list[str] | None = None) -> Any:
-    """What a file is written from, a piece at a time."""
+    """The stored results in pieces, from which a file is written."""
     wanted = list(arrays) if names is None else names
     for start in range(0, len(arrays["status"]), size):
         yield {name: arrays[name][start : start + size] for name in wanted}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finished points on disk, one file for each chunk, and their join into one file of results."""
+"""Finished points on disk, one file for each chunk, which are joined into one file of results."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from .study import Study
 
 ENDINGS = (".csv", ".parquet", ".nc")
-ROWS = 65536  # of a table, written together
+ROWS = 65536  # rows of a table that are written together
 _CHUNK = re.compile(r"(\d{13})-(\d{13})\.npz")
 _HEAD, _LOCK, _ASIDE = "study.json", "lock", ".writing"
 
 
 def checked_ending(path: str | os.PathLike[str]) -> str:
-    """The ending of an output; what writes it is imported, so that a package that is missing is known at once."""
+    """The ending of an output; the package that writes it is imported, so that a missing one is an error at once."""
     ending = Path(file_path("revchain.sweep", "the output", path)).suffix.lower()
     if ending not in ENDINGS:
         raise ValueError(f"{os.fspath(path)} must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}")
@@ -45,8 +45,8 @@ def checked_ending(path: str | os.PathLike[str]) -> str:
 class Store:
     """The folder ``OUT.partial`` with a file for each finished chunk; use it in a with statement.
 
-    A chunk is written aside and renamed: whenever the process is killed, a file of that name is whole. A file that a
-    failing disk damaged cannot be read (its checksum tells), and its points are computed again.
+    A chunk is written to a temporary file and renamed, so that a file of its name is complete even if the process is
+    killed. A damaged file fails its checksum, and its points are computed again.
     """
 
     def __init__(self, output: str | os.PathLike[str], plan: Plan) -> None:
@@ -74,7 +74,7 @@ class Store:
             except filelock.Timeout:
                 raise self._refused(errno.EAGAIN, "another run is writing it") from None
             self._begin()
-            self._stack.callback(self._clear)  # not before: the folder may be that of another study
+            self._stack.callback(self._clear)  # only now, because the folder may belong to another study
             self._stack = self._stack.pop_all()
         return self
 
@@ -82,10 +82,10 @@ class Store:
         self._stack.close()
 
     def place(self, start: int, stop: int) -> None:
-        """Results are put into arrays of their own."""
+        """None: results get their own arrays."""
 
     def take(self, stretch: Stretch) -> None:
-        """Keep a finished stretch of points."""
+        """Store a finished stretch of points."""
         final = self.folder / f"{stretch.start:013}-{stretch.stop:013}.npz"
         aside = self.folder / f"{_ASIDE}-{final.name}"
         with naming(self.output):
@@ -109,7 +109,7 @@ class Store:
         return OutputError(number, reason, os.fspath(self.output))
 
     def _begin(self) -> None:
-        """The head of a new folder, or a look at what an old one holds."""
+        """Write the head of a new folder, or read that of an old one."""
         head, fingerprint = self.folder / _HEAD, self._plan.fingerprint()
         if not head.exists():
             aside = self.folder / f"{_ASIDE}-{_HEAD}"
@@ -136,7 +136,7 @@ class Store:
         self.finished = sum(stop - start for start, stop in self.kept)
 
     def _is_whole(self, start: int, stop: int) -> bool:
-        """Whether the file of a chunk can be read and holds what it should."""
+        """Whether the file of a chunk can be read and has the right contents."""
         expected = {block.name: ((stop - start, *block.each), np.dtype(block.kind)) for block in self._plan.stored}
         try:
             found = {name: (array.shape, array.dtype) for name, array in self._chunk(start, stop).items()}
@@ -149,7 +149,7 @@ class Store:
             return {name: kept[name] for name in (kept.files if names is None else names)}
 
     def _read(self, size: int, names: list[str] | None = None) -> Iterator[Arrays]:
-        """All points in order, so many at a time but for the last."""
+        """All points in order, `size` at a time (fewer at the end)."""
         waiting: list[Arrays] = []
         there = 0
         for start, stop in sorted(self.kept):
@@ -163,12 +163,12 @@ class Store:
                 waiting, there = [{name: array[last:] for name, array in whole.items()}], there - last
 
     def _clear(self) -> None:
-        """Leave no folder where nothing is kept."""
+        """Remove the folder if it has no chunk."""
         if not self.kept and self.folder.exists():
             self._remove()
 
     def _remove(self) -> None:
-        """Remove what is ours, the chunks before the head, and the folder; other files stay, with a warning."""
+        """Remove our files (the chunks before the head) and the folder; other files stay, with a warning."""
         with suppress(OSError):
             for path in self.folder.iterdir():
                 if path.name.startswith(_ASIDE) or _CHUNK.fullmatch(path.name):
@@ -185,7 +185,7 @@ Read = Callable[..., Iterator[Arrays]]
 
 
 def write(path: Path, study: Study, plan: Plan, read: Read) -> None:
-    """Write a file of results; `read(size, names)` gives what is stored of all points, `size` points at a time."""
+    """Write a file of results; `read(size, names)` yields the stored results of all points, `size` points at a time."""
     if path.suffix.lower() == ".nc":
         _write_netcdf(path, study, plan, read)
         return
@@ -217,7 +217,7 @@ def _table_writer(file: Any, path: Path, schema: Any, plan: Plan) -> Any:
 
 
 def _write_netcdf(path: Path, study: Study, plan: Plan, read: Read) -> None:
-    """One variable after another, each whole in memory."""
+    """Write one variable after another; one at a time is in memory."""
     xarray = require("xarray", "sweep", "a .nc file")
     h5netcdf = require("h5netcdf", "sweep", "a .nc file")
     backends = require("xarray.backends", "sweep", "a .nc file")
@@ -245,7 +245,7 @@ def _write_netcdf(path: Path, study: Study, plan: Plan, read: Read) -> None:
 
 
 def pieces_of(plan: Plan, values: list[NDArray[Any]], stored: Arrays) -> Arrays:
-    """All numbers of a stretch of points, by name: what varied and what was found."""
+    """All numbers of a stretch of points by name: the varied numbers and the results."""
     pieces = dict(zip([axis.name for axis in plan.axes], values, strict=True))
     for block in plan.blocks:
         derived = block.name not in stored
@@ -254,7 +254,7 @@ def pieces_of(plan: Plan, values: list[NDArray[Any]], stored: Arrays) -> Arrays:
 
 
 def columns_of(plan: Plan, pieces: Arrays, start: int, stop: int) -> dict[str, Any]:
-    """The columns of a table but for the status."""
+    """The columns of a table without the status."""
     columns: dict[str, Any] = {"point": np.arange(start, stop)}
     columns |= {axis.name: pieces[axis.name] for axis in plan.axes}
     for block in plan.blocks:
@@ -291,12 +291,12 @@ def read_back(path: Path, plan: Plan, blocks: tuple[Block, ...]) -> Arrays:
 
 
 def about(study: Study) -> dict[str, str]:
-    """What a file says of itself."""
+    """The attributes of a file."""
     return {"title": study.title, "study": json.dumps(study.to_dict())}
 
 
 def dimensions_of(plan: Plan) -> list[str]:
-    """One for each grid, and one for samples."""
+    """Names of the dimensions: one for each grid, and one for samples."""
     grids = [axis.name for axis in plan.axes if axis.values is not None]
     return grids if len(grids) == len(plan.axes) else [*grids, "sample"]
 
@@ -308,7 +308,7 @@ def coordinates_of(plan: Plan) -> dict[str, Any]:
 
 
 def variables_of(plan: Plan) -> dict[str, tuple[list[str], dict[str, Any]]]:
-    """Dimensions and attributes of what depends on the point."""
+    """Dimensions and attributes of the variables that depend on the point."""
     points = dimensions_of(plan)
     found: dict[str, tuple[list[str], dict[str, Any]]] = {}
     for axis in plan.axes:
@@ -321,5 +321,5 @@ def variables_of(plan: Plan) -> dict[str, tuple[list[str], dict[str, Any]]]:
 
 
 def shaped(plan: Plan, name: str, values: NDArray[Any]) -> NDArray[Any]:
-    """With an axis for each grid; the status as netCDF has it."""
+    """Values with an axis for each grid; the status in the form for netCDF."""
     return (values.astype(np.int8) if name == "status" else values).reshape(*plan.shape, *values.shape[1:])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Study files: a scene, and which of its numbers take which values. Read and validated by msgspec."""
+"""Study files: a scene, and values for some of its numbers. They are read and validated by msgspec."""
 
 from __future__ import annotations
 
@@ -31,31 +31,31 @@ MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
 class Study(Table, frozen=True):
-    """A scene, and which of its numbers take which values.
+    """A study file: a scene, and values for some of its numbers.
 
     Attributes
     ----------
     scene : Scene or str
-        The scene, or the name of its file, beside the study's.
+        The scene, or the name of its file, in the folder of the study.
     vary : dict of str to Vary
-        By path into the scene, such as ``links[0].mass``. Grids are combined, each value with each; random
-        numbers are drawn anew at each point.
+        Values by path into the scene, such as ``links[0].mass``. Grids are combined, each value with each. Random
+        numbers are drawn for each point.
     samples : int
-        How many points with random numbers, at each point of the grids.
+        Number of points with random numbers at each point of the grids.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     find : list of {"modes", "shapes", "response"}, optional
-        What is computed; what the scene asks if left out: its shapes and response, and its modes if it asks
-        for nothing else, or says which.
+        Questions to answer. If left out, those of the scene: its shapes and response, and its modes if it has a table
+        for them or no other question.
     max_shapes : int
-        How many steady shapes are kept of each point.
+        Largest number of stored steady shapes of each point.
     error_bounds : bool, optional
-        Whether to give bounds of the errors. If left out, they are given but for plain chains of up to 100
-        links, whose heights come in batches (`revchain.conical_heights`, accurate to 5 ulp) without them.
+        Whether to store error bounds. If left out, they are stored, except for plain chains of up to 100 links: those are
+        computed in batches (`revchain.conical_heights`, accurate to 5 ulp) without bounds.
     title, description : str
-        For people.
+        Texts for readers.
     schema_version : int
-        1.
+        Version of the format, 1.
 
     Examples
     --------
@@ -70,42 +70,45 @@ class Study(Table, frozen=True):
     array([1.3777, 1.1249, 0.9742, 3.3902, 2.768 , 2.3972])
     """
 
-    scene: Annotated[Scene | str, says("The scene, or the name of its file, beside this one.")]
-    vary: Annotated[dict[str, Vary], Meta(description="By path into the scene, such as links[0].mass.", min_length=1)]
+    scene: Annotated[Scene | str, says("The scene, or the name of its file in the folder of this one.")]
+    vary: Annotated[
+        dict[str, Vary], Meta(description="Values by path into the scene, such as links[0].mass.", min_length=1)
+    ]
     schema_version: Annotated[Literal[1], says("Version of this format.")] = 1
-    title: Annotated[str, says("One line.")] = ""
-    description: Annotated[str, says("As long as you like.")] = ""
+    title: Annotated[str, says("Title in one line.")] = ""
+    description: Annotated[str, says("Description of any length.")] = ""
     samples: Annotated[
-        Samples | UnsetType, says("How many points with random numbers, at each point of the grids.")
+        Samples | UnsetType, says("Number of points with random numbers at each point of the grids.")
     ] = UNSET
-    seed: Annotated[Annotated[int, Meta(ge=0)], says("Of the random numbers.")] = 0
-    find: Annotated[Finds | UnsetType, says("What is computed; what the scene asks if left out.")] = UNSET
-    max_shapes: Annotated[MostShapes, says("How many steady shapes are kept of each point.")] = 4
+    seed: Annotated[Annotated[int, Meta(ge=0)], says("Seed of the random numbers.")] = 0
+    find: Annotated[Finds | UnsetType, says("Questions to answer; those of the scene if left out.")] = UNSET
+    max_shapes: Annotated[MostShapes, says("Largest number of stored steady shapes of each point.")] = 4
     error_bounds: Annotated[
-        bool | UnsetType, says("Whether to give bounds of errors; batches do not if left out.")
+        bool | UnsetType, says("Whether to store error bounds; if left out, batches have none.")
     ] = UNSET
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "study", folder: str | os.PathLike[str] = ".") -> Study:
-        """Make a study from plain data, as a TOML or JSON file holds it.
+        """Return a study from plain data, as in a TOML or JSON file.
 
         Parameters
         ----------
         data : dict
-            Keys as in a study file.
+            Data with the keys of a study file.
         source : str
-            What errors name.
+            Name to show in errors.
         folder : path-like
-            Where the file of a scene given by name is looked for.
+            Folder of the file of a scene that is given by name.
 
         Returns
         -------
         Study
+            The study.
 
         Raises
         ------
         SceneError
-            A ValueError that names the source, the key and what is wrong there.
+            If the data are not a valid study. The error is a ValueError; it has the source, the key and the reason.
 
         Examples
         --------
@@ -120,7 +123,7 @@ class Study(Table, frozen=True):
 
     @classmethod
     def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
-        """The study; one error for all problems, those of its syntax included."""
+        """The study; one error for all problems, with those of its syntax."""
         scene = data.get("scene") if isinstance(data, dict) else None
         try:
             if isinstance(scene, str):
@@ -138,11 +141,12 @@ class Study(Table, frozen=True):
         return study
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as plain data; what has its default is left out.
+        """Return the study as plain data, without keys that have their default.
 
         Returns
         -------
         dict
+            The data, which `from_dict` reads.
 
         Examples
         --------
@@ -156,27 +160,28 @@ class Study(Table, frozen=True):
 
     @property
     def points(self) -> int:
-        """How many points there are."""
+        """Number of points."""
         return self._plan("study").points
 
     def scene_at(self, point: int) -> Scene:
-        """Build the scene of one point.
+        """Return the scene of one point.
 
         Parameters
         ----------
         point : int
-            From 0; grids count with the last fastest, samples faster still.
+            Number of the point from 0; the last grid varies faster than the others, and samples fastest.
 
         Returns
         -------
         Scene
+            The scene with the numbers of the point.
 
         Raises
         ------
         IndexError
             If there is no such point.
         SceneError
-            If the numbers of the point describe nothing that hangs.
+            If the numbers of the point do not describe a possible system.
 
         Examples
         --------
@@ -194,7 +199,7 @@ class Study(Table, frozen=True):
         return Scene.from_dict(plan.scene_data(values))
 
     def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
-        """All of it checked and made ready; one error for all that is wrong, of which some is known."""
+        """The checked plan of the study; one error for all problems, with those already known."""
         numbers = Numbers(source)
         numbers.problems += known
         scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
@@ -235,21 +240,23 @@ class Study(Table, frozen=True):
 
 
 def load_study(path: str | os.PathLike[str]) -> Study:
-    """Read a study from a TOML file, or from a JSON file if its name ends in ``.json``.
+    """Return a study from a TOML file, or from a JSON file if its name ends in ``.json``.
 
     Parameters
     ----------
     path : path-like
-        The file. The file of a scene that it names is looked for in the same folder.
+        Path of the file. A scene that it gives by name must be a file in the same folder.
 
     Returns
     -------
     Study
+        The study, which `sweep` computes.
 
     Raises
     ------
     SceneError
-        A ValueError that names the file, and of every error the line, the column, the key and what is wrong there.
+        If the file cannot be read or is not a valid study. The error is a ValueError; it has the file, and the line, the
+        column, the key and the reason of each problem.
 
     Examples
     --------
@@ -272,12 +279,12 @@ def study_schema() -> dict[str, Any]:
 
 
 def _within_scene(problems: Iterable[Problem]) -> list[Problem]:
-    """With the keys that they have in a study."""
+    """The problems of a scene with the keys that they have in a study."""
     return [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in problems]
 
 
 def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
-    """No path twice or inside another, no name twice."""
+    """Note an error for a path that is given twice or lies inside another, and for a name given twice."""
     for k, axis in enumerate(axes):
         place = numbers.of(joined("vary", axis.key))
         for other in axes[:k]:
@@ -289,7 +296,7 @@ def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
 
 
 def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
-    """Note what the scene refuses of its ends, of a grid, or of a number in the middle, of random ones."""
+    """Note the values of an axis that the scene refuses: the ends of a grid, or a number in the middle of random ones."""
     own = _kind(Scene.from_dict(base))
     for value in axis.examples():
         try:
@@ -306,7 +313,7 @@ def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
 
 
 def _kind(scene: Scene) -> str:
-    """What its results look like."""
+    """The kind of the system, which decides the form of the results."""
     system = scene.system()
     if isinstance(system, Rig):
         return "a rig with flywheels that spin" if system.has_momentum else "a rig"
@@ -314,7 +321,7 @@ def _kind(scene: Scene) -> str:
 
 
 def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
-    """The scene with the largest of all whole numbers, and those words, that has most links."""
+    """The scene with the largest whole numbers, and with those words that give the most links."""
     for axis in axes:
         if not axis.is_number:
             words = [with_value(base, axis.path, word) for word in axis.examples()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computing all points of a study: in threads, or by any executor, in chunks that are kept on disk."""
+"""Computation of all points of a study by threads or any executor, in chunks that are stored on disk."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from .store import Store, checked_ending
 from .study import Study, load_study
 
 _PLACE = "revchain.sweep"
-_FEWEST, _MOST = 16, 8192  # points of a chunk, one by one
+_FEWEST, _MOST = 16, 8192  # limits of the points of a chunk that are solved one by one
 _MOST_IN_BATCHES = 2**17
-_NUMBERS = 2**20  # of a chunk in batches
-_SECONDS = 0.5  # that a chunk is to take, or a hundredth of the time spent so far: hundreds of files, not millions
+_NUMBERS = 2**20  # numbers of a chunk that is solved in batches
+_SECONDS = 0.5  # time for a chunk, or a hundredth of the time so far: this gives hundreds of files, not millions
 _IN_FLIGHT = 3  # chunks for each worker
 
 Told = Callable[[int, int], None]
@@ -41,50 +41,50 @@ def sweep(
     chunk: int | None = None,
     progress: Told | None = None,
 ) -> SweepResult:
-    """Compute all points of a study.
+    """Compute all points of a study and return their results.
 
     Parameters
     ----------
     study : Study, path-like or dict
-        The study, or its file, or its data.
+        The study, its file, or its data.
     out : path-like, optional
-        A file for the results: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). Finished chunks are kept in the folder
-        ``OUT.partial`` beside it until all are there: the same call goes on where another was ended, even by a kill,
-        and computes no finished chunk again. The output appears when it is whole. It is for other programs:
-        `SweepResult.save` writes what `revchain.load` reads.
+        File for the results, for other programs: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). It appears when all points
+        are done. Until then finished chunks are stored in the folder ``OUT.partial`` beside it. After an interruption or a
+        kill the same call continues and does not compute finished chunks again. (To store the result for `revchain.load`
+        use `SweepResult.save`.)
     executor : concurrent.futures.Executor, optional
-        What computes: a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster. Threads if left out.
-        It is not shut down.
+        Executor for the chunks, such as a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster; threads
+        if left out. It is not shut down.
     threads : int, optional
-        Number of threads, without `executor`; one for each processor if left out.
+        Number of threads, if there is no `executor`; one for each processor if left out.
     chunk : int, optional
-        How many points are computed, and kept, together; about half a second's work if left out.
+        Number of points that are computed and stored together; about half a second of work if left out.
     progress : callable, optional
-        Called with the number of points finished and of all points, again and again.
+        Function that is called repeatedly with the number of finished points and the number of all points.
 
     Returns
     -------
     SweepResult
-        The same to the last bit whatever the executor, the threads and the chunk.
+        The results. They are bitwise equal for any executor, number of threads and chunk.
 
     Raises
     ------
     SceneError
-        If the study is wrong.
+        If the study is not valid.
     OSError
-        (a ValueError too) If `out` cannot be written, another run is writing it, or its partial folder holds points of
-        another study. Chunks that are finished stay.
+        If `out` cannot be written, another run is writing it, or its partial folder has points of another study (the error
+        is also a ValueError). Finished chunks stay.
     ValueError
-        For another ending of `out`, `threads` beside `executor`, or numbers below 1.
+        If `out` has another ending, `threads` comes with `executor`, or a number is below 1.
     ImportError
         If a package that writes `out` is missing; the message says how to install it.
 
     Notes
     -----
     Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to `revchain.conical_heights` in
-    batches, also with a tolerance `rtol` that those keep. Other points are solved one by one, in C++ unless both ends
-    are held or a method or precision is asked for. A point that its scene refuses has status ``refused`` and no
-    numbers.
+    batches, also with an `rtol` that these meet. Other points are solved one by one, in C++ unless the system is held at
+    both ends or a method or precision is given. A point that its scene refuses has the status ``refused`` and no numbers.
+    Cost: that of the functions `modes`, `steady_shapes` and `response`.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def sweep(
 
 
 class _Memory:
-    """Where chunks go without a file."""
+    """The store of chunks in memory, without a file."""
 
     def __init__(self, plan: Plan) -> None:
         self.arrays: Arrays = {block.name: block.memory(plan.points) for block in plan.stored}
@@ -131,7 +131,7 @@ class _Memory:
         self.finished = 0
 
     def place(self, start: int, stop: int) -> Arrays:
-        """Where a chunk belongs."""
+        """The part of the arrays for a chunk."""
         return {name: array[start:stop] for name, array in self.arrays.items() if name != "status"}
 
     def take(self, stretch: Stretch) -> None:
@@ -143,7 +143,7 @@ class _Memory:
 
 
 class _Run:
-    """The chunks that are missing, and who computes them."""
+    """The run of a study: the missing chunks and their computation."""
 
     def __init__(self, plan: Plan, kept_in: _Memory | Store, chunk: int | None, told: Told | None) -> None:
         self.plan = plan
@@ -156,7 +156,7 @@ class _Run:
         self.chunk = chunk or (self.unit if plan.batched else _FEWEST)
 
     def anywhere(self, executor: Executor | None, workers: int) -> None:
-        """Every chunk that is missing, by the executor or threads of our own."""
+        """Compute each missing chunk by the executor or by our own threads."""
         if executor is not None:
             self._all(executor, _workers_of(executor))
         elif self.kept_in.finished < self.plan.points:
@@ -170,7 +170,7 @@ class _Run:
                 pool.shutdown(wait=True, cancel_futures=True)
 
     def _all(self, executor: Executor, workers: int, progress: _core.Progress | None = None) -> None:
-        """A few chunks at a time, so that little waits to be kept."""
+        """Compute a few chunks at a time, so that few finished ones wait to be stored."""
         left = self._chunks()
         pending: set[Future[Stretch]] = set()
         try:
@@ -189,13 +189,13 @@ class _Run:
                 future.cancel()
 
     def _chunks(self) -> Iterator[tuple[int, int]]:
-        """Their ends, between the chunks that are there."""
+        """The ends of the missing chunks, between the stored ones."""
         there = 0
         for start, stop in [*sorted(self.kept_in.kept), (self.plan.points, self.plan.points)]:
             while there < start:
                 end = there + self.chunk
                 if not self.fixed and end // BLOCK > there // BLOCK:
-                    end -= end % BLOCK  # a chunk that begins inside a block draws the numbers before it in vain
+                    end -= end % BLOCK  # a chunk that starts inside a block would draw the numbers before it in vain
                 yield there, min(end, start)
                 there = min(end, start)
             there = stop
@@ -215,7 +215,7 @@ class _Run:
 
 
 def _found(plan: Plan, start: int, stop: int, *more: Any) -> Stretch:
-    """What a worker does."""
+    """The work of a worker: a stretch of points."""
     return plan.found(start, stop, *more)
 
 
@@ -224,7 +224,7 @@ def _processors() -> int:
 
 
 def _workers_of(executor: Executor) -> int:
-    """How many it has, as far as it tells."""
+    """Number of workers of an executor, if it tells."""
     client = getattr(executor, "_client", None)
     if client is not None and hasattr(client, "ncores"):
         return max(int(sum(client.ncores().values())), 1)
