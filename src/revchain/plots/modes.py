@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..results.motions import Response
 from ..results.sheet import digits
@@ -35,7 +36,7 @@ SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches 
 MOST_NAMES = 12
 
 
-class _Straight:
+class Straight:
     """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
 
     def __init__(self, system: System) -> None:
@@ -51,6 +52,11 @@ class _Straight:
             level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
         self.level: Floats = level[0] - level if isinstance(system, Held) else level
         self.few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
+
+    @property
+    def height(self) -> Floats:
+        """Of each pin or place, above the support, or the lower end of what is held at both ends."""
+        return self.level if self.upwards else -self.level
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
         low, high = float(self.level.min()), float(self.level.max())
@@ -139,9 +145,7 @@ class _Straight:
         assert isinstance(chain, Chain)
         weight = np.broadcast_to(chain._compiled.weight, chain.size)
         middle = self._middles()
-        heavy, floats = weight > 0, np.zeros(chain.size, bool)
-        if isinstance(system, Rig) and system.displaced is not None:
-            floats = np.broadcast_to(next(iter(system.displaced._given.values())), chain.size) > weight
+        heavy, floats = weight > 0, floating(system)
         reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
         long = heavy & (reach > 0)
         ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
@@ -159,6 +163,15 @@ class _Straight:
                 ax.annotate(plain(name), (x, z), xytext=(9, 0), textcoords="offset points", va="center", fontsize="small")
 
 
+def floating(system: System) -> NDArray[np.bool_]:
+    """Of each link of a chain or rig: whether the fluid bears more than it weighs."""
+    base: Any = system.chain if isinstance(system, Rig) else system
+    weight = np.broadcast_to(base._compiled.weight, base.size)
+    if not isinstance(system, Rig) or system.displaced is None:
+        return np.zeros(base.size, bool)
+    return np.broadcast_to(next(iter(system.displaced._given.values())), base.size) > weight
+
+
 def len_of(system: Any) -> int:
     """Number of links; 0 of a cord."""
     return system.size if isinstance(system, Chain | Rig) else 0
@@ -167,7 +180,7 @@ def len_of(system: Any) -> int:
 def plot_system(system: System, ax: Axes | None) -> Axes:
     """A system at rest; see `Chain.plot`."""
     ax = axes_or_new(ax, 4.2, 6.0)
-    straight = _Straight(system)
+    straight = Straight(system)
     straight.at_rest(ax)
     straight.finish(ax)
     ax.set_xlim(-1.3, 1.3)
@@ -182,7 +195,7 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
 
 def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
     """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
-    if ax is not None or system is None or not _Straight(system).few:
+    if ax is not None or system is None or not Straight(system).few:
         return axes_or_new(ax, width, height)
     left, right = new_figure(width + 1.8, height).subplots(1, 2, width_ratios=[1.8, width])
     plot_system(system, left).set_xlabel("at rest")
@@ -205,6 +218,14 @@ def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[in
     return numbers
 
 
+def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
+    """Places of the modes to draw in the arrays; of a rig both directions of each number."""
+    if which is None and len(modes):
+        return np.arange(min(len(modes), MOST_SHAPES))
+    numbers = chosen(place, modes.number, which)
+    return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
+
+
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
     """See `Modes.plot` and `RigModes.plot`."""
     place = f"revchain.{type(modes).__name__}.plot"
@@ -214,12 +235,8 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
-    if which is None and (rigged or len(modes)):
-        rows = np.arange(min(len(modes), MOST_SHAPES))
-    else:
-        numbers = chosen(place, modes.number, which)
-        rows = np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
-    straight = _Straight(system)
+    rows = np.arange(0) if rigged and not len(modes) and which is None else rows_of(place, modes, which)
+    straight = Straight(system)
     before = 1 if carried is None else 2
     ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(len(rows), 2)), 6.0)
     straight.at_rest(ax)
@@ -256,7 +273,7 @@ def _speed_label(name: str, speed: float) -> str:
     return "\n".join(lines)
 
 
-def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float, nth: int) -> None:
+def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float, nth: int) -> None:
     shape, system = modes.shape[row], straight.system
     colour = f"C{nth % 10}"
     if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
@@ -277,7 +294,7 @@ def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: floa
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     """The response at one speed as a shape, the support on its circle."""
-    straight = _Straight(found.system)
+    straight = Straight(found.system)
     offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
     ax = beside_at_rest(found.system, ax, 5.0, 6.0)
     straight.axis(ax, 0.0)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of what moves, by their endings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from ..results.files import naming, written_aside
+from ..systems.numbers import file_path, one_positive
+from .film import Film
+from .frames import write_gif, write_mp4
+from .staging import Asked, staged
+
+MOST_FRAMES = 20_000
+Progress = Callable[[int, int], None]
+Writer = Callable[[Film, Path, Progress], None]
+FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4}
+
+
+def write_film(
+    result: Any,
+    method: str,
+    writers: dict[str, Writer],
+    path: str | os.PathLike[str],
+    *,
+    figures: Iterable[int] | None = None,
+    time_scale: float | None = None,
+    duration: float | None = None,
+    frames_per_second: float = 25.0,
+    progress: Progress | None = None,
+) -> None:
+    """See `Moving`, whose method this is; the ending of the path says who writes."""
+    place = f"revchain.{type(result).__name__}.{method}"
+    ending = os.path.splitext(file_path(place, "path", path))[1].lower()
+    if ending not in writers:
+        raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
+    given = {"time_scale": time_scale, "duration": duration, "frames_per_second": frames_per_second}
+    numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
+    rate = numbers["frames_per_second"] or frames_per_second
+    if rate * (numbers["duration"] or 0.0) > MOST_FRAMES:
+        raise ValueError(f"{place}: duration times frames_per_second must be at most {MOST_FRAMES}, got {rate * (duration or 0):g}")
+    if ending == ".gif":
+        rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
+    film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+    with naming(path), written_aside(path) as [aside]:
+        writers[ending](film, aside, progress or _silent)
+
+
+def _silent(done: int, total: int) -> None:
+    pass
