@@ -53,7 +53,7 @@ class Bodies:
     link: Whole = field(default_factory=lambda: np.zeros(0, int))
     along: Floats = field(default_factory=lambda: np.zeros(0))  # from the upper pin, over the length of the link
     size: Floats = field(default_factory=lambda: np.zeros(0))  # 0 to 1, by the cube root of the mass
-    rod: Floats = field(default_factory=lambda: np.zeros(0))  # half a uniform rod of that inertia, over the link
+    rod: Floats = field(default_factory=lambda: np.zeros(0))  # half a uniform rod of that inertia, over the link; or 0
     wheel: Floats = field(default_factory=lambda: np.zeros(0))  # 1 or -1 where a flywheel has momentum
     floats: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))
 
@@ -64,8 +64,15 @@ class Chart:
 
     x_label: str
     y_label: str
+    lines: tuple[tuple[Floats, Floats], ...]  # of each figure
     x: tuple[Floats, ...]  # of each figure, shape (F,)
     y: tuple[Floats, ...]
+
+    @property
+    def is_logarithmic(self) -> bool:
+        """Whether peaks would hide the rest."""
+        every = np.concatenate([y for _, y in self.lines])
+        return bool((every > 0).all() and every.max() > 20 * np.median(every))
 
 
 @dataclass(frozen=True)
@@ -80,7 +87,7 @@ class Film:
     time_scale: float  # seconds of motion in one second of film
     names: tuple[str, ...]  # of links
     stout: NDArray[np.bool_]  # links that stand
-    is_cord: bool = False
+    shows_pins: bool = False
     is_held: bool = False  # at both ends
     chart: Chart | None = None
     clock: tuple[str, ...] = ("",)  # 1 or F
@@ -106,11 +113,17 @@ class Film:
         heights = [figure.height for figure in self.figures]
         return min(float(each.min()) for each in heights), max(float(each.max()) for each in heights)
 
-    @property
-    def spacing(self) -> float:
-        """Between the axes of neighbours."""
+    def widths(self, least: float = 0.0) -> Floats:
+        """Room for each figure, m; for none less than `least`."""
         low, high = self.low_and_high
-        return 2 * GAP * max(self.reach, 0.04 * (high - low))
+        reach = np.array([float(np.abs(figure.offset).max()) for figure in self.figures])
+        return np.maximum(2 * GAP * np.maximum(reach, 0.1 * (high - low)), least)
+
+    @property
+    def colours(self) -> tuple[int, ...]:
+        """Of each figure, its number in the cycle of ten; by the direction where there are both."""
+        ways = [float(np.sign(figure.speed[0])) for figure in self.figures]
+        return tuple((0 if way > 0 else 3) if len(set(ways)) > 1 else nth % 10 for nth, way in enumerate(ways))
 
     @property
     def words(self) -> str:
@@ -120,7 +133,7 @@ class Film:
 
     def thinned(self, frames: int, pins: int) -> Film:
         """At most so many frames and pins, the ends kept; bodies go with the pins of their links."""
-        rows = spread(self.frames, frames)
+        rows = spread(self.frames, frames)  # all but equally far apart
         kept = spread(self.figures[0].offset.shape[1], pins)
         if rows.size == self.frames and kept.size == self.figures[0].offset.shape[1]:
             return self
@@ -153,8 +166,14 @@ class Film:
             bodies=self.bodies if same else Bodies(),
             names=self.names if same else (),
             stout=self.stout[kept[:-1]],
-            frames_per_second=rows.size / self.seconds,
+            frames_per_second=(rows.size - 1) / (self.frames - 1) * self.frames_per_second,
         )
+
+
+def side_by_side(widths: Floats) -> Floats:
+    """Where the axes are, the first at 0."""
+    middles = np.cumsum(widths) - widths / 2
+    return np.asarray(middles - middles[0])
 
 
 def _few(texts: tuple[str, ...], rows: Whole) -> tuple[str, ...]:

@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 
 from ..plots.modes import BACKWARD, FORWARD, LINK
-from ..plots.style import MOST_PINS_AS_DOTS, plain
+from ..plots.style import plain
 from ..systems.extras import require
 from ..systems.numbers import Floats
-from .film import Complex, Figure, Film
+from .film import Complex, Figure, Film, side_by_side
 
 TILT = np.radians(14.0)  # of the view from above
-TALL, WIDE = 4.6, 11.0  # inches: of the figures, at most
+TALL, WIDE, LEAST = 4.6, 11.0, 4.4  # inches: height of the figures at most, width of the film at most and at least
+CAPTION, CHART = 0.95, 3.3  # inches: widths
 MOST_PINS = 400
-COLOURS = 64  # of a GIF
+TINTS = 12  # of each colour of a GIF
 Progress = Callable[[int, int], None]
 
 
@@ -28,22 +29,24 @@ class Drawing:
     def __init__(self, film: Film) -> None:
         self.film = film = film.thinned(film.frames, MOST_PINS)
         low, high = film.low_and_high
-        self.few = not film.is_cord and film.figures[0].offset.shape[1] <= MOST_PINS_AS_DOTS + 1
         deep = film.reach * np.sin(TILT)
-        size = max(high - low, 1e-3 * film.spacing) * np.cos(TILT) + 2 * deep
-        width = film.spacing * len(film.figures)
-        chart = 3.6 if film.chart is not None else 0.0
-        per = min((WIDE - chart) / width, TALL / (1.1 * size))  # inches a metre
-        drawn = (max(per * width, 2.4), per * 1.1 * size)
+        size = max(high - low, 0.1 * film.reach) * np.cos(TILT) + 2 * deep
+        chart = CHART if film.chart is not None else 0.0
+        per = TALL / (1.1 * size)  # inches a metre
+        for _ in range(5):
+            widths = film.widths(CAPTION / per)
+            per = min((WIDE - chart) / widths.sum(), TALL / (1.1 * size))
+        self.across = side_by_side(widths)
+        drawn = (per * widths.sum(), per * 1.1 * size)
         head, foot = 0.62, 0.9
-        whole = np.array([max(drawn[0], 4.4 - chart) + chart, drawn[1] + head + foot])
+        whole = np.array([max(drawn[0] + chart, LEAST), max(drawn[1], 1.5) + head + foot])
         whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs
         figure = require("matplotlib.figure", "animate", "animation").Figure(figsize=whole, dpi=100)
         self.canvas = require("matplotlib.backends.backend_agg", "animate", "animation").FigureCanvasAgg(figure)
         across = (whole[0] - chart) / whole[0]
         ax = self.ax = figure.add_axes((0.0, 0.0, across, 1.0))
         ax.set_axis_off()
-        middle = film.spacing * (len(film.figures) - 1) / 2
+        middle = (widths.sum() - widths[0]) / 2
         ax.set_xlim(middle - (whole[0] - chart) / per / 2, middle + (whole[0] - chart) / per / 2)
         bottom = low * np.cos(TILT) - deep - (foot / per + 0.05 * size)
         ax.set_ylim(bottom, bottom + whole[1] / per)
@@ -67,20 +70,18 @@ class Drawing:
         return artist
 
     def _stage(self, figure: Figure, nth: int, low: float, high: float, deep: float) -> None:
-        ax, film, at = self.ax, self.film, nth * self.film.spacing
+        ax, film, at = self.ax, self.film, float(self.across[nth])
         ax.plot([at, at], np.array([low, high]) * np.cos(TILT), color="0.7", linestyle="--", linewidth=0.9)
         whole = np.exp(1j * np.linspace(0, 2 * np.pi, 91))
         if figure.is_rigid:
             pin = int(np.abs(figure.offset[0]).argmax())
             ax.plot(*seen(abs(figure.offset[0, pin]) * whole, figure.height[0, pin], at), color="0.85", linewidth=0.9)
-        elif not film.chart:
+        elif not film.chart and figure.offset.imag.any():
             tips = np.array([figure.in_space(frame)[0] for frame in range(film.frames)])
-            ax.plot(*seen(tips, figure.height[0, 0], at), color="0.85", linewidth=0.9)
-        colour = f"C{nth % 10}"
-        if len({np.sign(each.speed[0]) for each in film.figures}) > 1:
-            colour = FORWARD if figure.speed[0] > 0 else BACKWARD
+            ax.plot(*seen(tips, figure.height[0, 0], at), color="0.85", linewidth=0.5)
+        colour = f"C{film.colours[nth]}"
         arms = ax.plot([], [], color="0.3", linewidth=2.0, zorder=2)[0]
-        links = ax.plot([], [], color=colour, linewidth=1.8, zorder=3, marker="o" if self.few else "", markersize=3.0)[0]
+        links = ax.plot([], [], color=colour, linewidth=1.8, zorder=3, marker="o" if film.shows_pins else "", markersize=3.0)[0]
         stout = ax.plot([], [], color=colour, linewidth=4.5, alpha=0.45, zorder=2)[0]
         text = ax.text(at, low * np.cos(TILT) - 1.15 * deep - 0.02 * (high - low), "", ha="center", va="top", fontsize=8)
 
@@ -95,14 +96,14 @@ class Drawing:
         self._move(links, place)
         if film.stout.any():
             self._move(stout, lambda frame: stout.set_data(*_pieces(*links.get_data(), film.stout)))
-        self._bodies(links, colour)
+        self._bodies(links, 0.35 * float(np.abs(figure.offset).max()))
         self._supports(links)
         if len(figure.captions) > 1:
             self._move(text, lambda frame: text.set_text(plain(figure.caption(frame))))
         else:
             text.set_text(plain(figure.captions[0]))
 
-    def _bodies(self, links: Any, colour: str) -> None:
+    def _bodies(self, links: Any, wheel: float) -> None:
         bodies = self.film.bodies
         if not bodies.link.size:
             return
@@ -132,7 +133,7 @@ class Drawing:
             def turn(frame: int) -> None:
                 middle, ends = between(bodies.along)[wheels], between(bodies.along + 0.01)[wheels]
                 across = (ends - middle)[:, ::-1] * [1, -1]
-                across *= 0.06 * np.ptp(self.ax.get_ylim()) / np.hypot(*across.T)[:, None]
+                across *= wheel / np.maximum(np.hypot(*across.T), 1e-12)[:, None]
                 discs.set_segments(np.stack([middle - across, middle + across], 1))
 
             self._move(discs, turn)
@@ -151,17 +152,15 @@ class Drawing:
     def _chart(self, ax: Any) -> None:
         chart = self.film.chart
         assert chart is not None
-        for nth, (x, y) in enumerate(zip(chart.x, chart.y, strict=True)):
-            ax.plot(x, y, color=f"C{nth % 10}", linewidth=1.3)
+        for nth, (line, x, y) in enumerate(zip(chart.lines, chart.x, chart.y, strict=True)):
+            ax.plot(*line, color=f"C{nth % 10}", linewidth=1.3)
             dot = ax.plot([], [], "o", color=f"C{nth % 10}", markersize=7.0)[0]
 
             def place(frame: int, dot: Any = dot, x: Floats = x, y: Floats = y) -> None:
                 dot.set_data([x[frame]], [y[frame]])
 
             self._move(dot, place)
-        every = np.concatenate(chart.y)
-        if (every > 0).all() and every.max() > 100 * np.median(every):
-            ax.set_yscale("log")
+        ax.set_yscale("log" if chart.is_logarithmic else "linear")
         ax.set_xlabel(chart.x_label, fontsize=9)
         ax.set_ylabel(chart.y_label, fontsize=9)
         ax.tick_params(labelsize=8)
@@ -204,11 +203,20 @@ def write_gif(film: Film, path: Path, progress: Progress) -> None:
     image = require("PIL.Image", "animate", "a .gif film")
     drawing = Drawing(film)
     pictures = [image.fromarray(pixels) for pixels in drawing.frames(progress)]
-    middle = pictures[len(pictures) // 3]
-    palette = middle.quantize(COLOURS, dither=image.Dither.NONE)
+    palette = image.new("P", (1, 1))
+    palette.putpalette(_palette(len(film.figures)))
     few = [picture.quantize(palette=palette, dither=image.Dither.NONE) for picture in pictures]
     pause = round(1000 / film.frames_per_second)
     few[0].save(path, save_all=True, append_images=few[1:], duration=pause, loop=0, optimize=False)
+
+
+def _palette(figures: int) -> list[int]:
+    """What is drawn, in tints from full to white."""
+    to_rgb = require("matplotlib.colors", "animate", "a .gif film").to_rgb
+    names = ["black", LINK, "0.7", *(f"C{k}" for k in {*range(min(figures, 10)), 0, 3})]
+    pure = np.array([to_rgb(name) for name in names])[:, None]
+    tints = 1 - (1 - pure) * np.linspace(0.0, 1.0, TINTS)[:, None]
+    return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()  # type: ignore[no-any-return]
 
 
 def write_mp4(film: Film, path: Path, progress: Progress) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..plots.branches import BY_WEIGHT, HELD_QUANTITIES, QUANTITIES
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
-from ..plots.style import MOST_PINS_AS_DOTS
+from ..plots.style import MOST_PINS_AS_DOTS, thinned
 from ..results.branches import Branch, Branches
 from ..results.cord_motions import CordSwing
 from ..results.held_branches import HeldBranch, HeldBranches
@@ -253,7 +253,7 @@ def _swept(
     frames = asked.frames(FOR_A_SWEEP if asked.duration is None else asked.duration)
     fastest = max(float(np.abs(each.speed).max()) for each in stages)
     time_scale = asked.time_scale or TURN / fastest / FASTEST_TURN
-    figures, x, y = [], [], []
+    figures, x, y, lines = [], [], [], []
     for label, each, curve in zip(labels, stages, curves, strict=True):
         at = np.linspace(0.0, each.way[-1], frames)
         speed, scale = (np.interp(at, each.way, values) for values in (each.speed, each.scale))
@@ -266,9 +266,11 @@ def _swept(
         figures.append(
             Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions))
         )
+        kept = thinned(curve)
+        lines.append((np.abs(each.speed)[kept], curve[kept]))
         x.append(np.abs(speed))
         y.append(np.interp(at, each.way, curve))
-    return _film(result, figures, asked, time_scale, Chart(*axes, tuple(x), tuple(y)))
+    return _film(result, figures, asked, time_scale, Chart(*axes, tuple(lines), tuple(x), tuple(y)))
 
 
 def _between(at: Floats, way: Floats, rows: Any) -> Any:
@@ -358,7 +360,7 @@ def _film(
         time_scale=time_scale,
         names=names,
         stout=system.inverted if isinstance(system, Rig) else np.zeros(links, bool),
-        is_cord=isinstance(base, Cord),
+        shows_pins=few,
         is_held=isinstance(system, Held),
         chart=chart,
         clock=clock,
@@ -374,10 +376,11 @@ def _bodies(system: Any, base: Any) -> Bodies:
     weight = np.broadcast_to(base._compiled.weight, base.size)
     momentum = system._momentum(1.0) if isinstance(system, Rig) else np.zeros(base.size)
     link = np.flatnonzero((weight > 0) | (momentum != 0))
+    rod = math.sqrt(3) * base.radius_of_gyration / base.length
     arrays = {
         "along": base.centroid / base.length,
         "size": np.cbrt(weight / weight.max()),
-        "rod": math.sqrt(3) * base.radius_of_gyration / base.length,
+        "rod": np.where(rod < 1, rod, 0.0),  # what is longer is no rod
         "wheel": np.sign(momentum),
         "floats": floating(system if isinstance(system, Rig) else base),
     }

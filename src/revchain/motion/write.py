@@ -12,12 +12,17 @@ from ..results.files import naming, written_aside
 from ..systems.numbers import file_path, one_positive
 from .film import Film
 from .frames import write_gif, write_mp4
+from .grid import write_grid, write_xdmf
+from .page import write_page
+from .solid import write_glb
 from .staging import Asked, staged
 
 MOST_FRAMES = 20_000
 Progress = Callable[[int, int], None]
 Writer = Callable[[Film, Path, Progress], None]
-FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4}
+FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4, ".html": write_page}
+SOLIDS: dict[str, Writer] = {".glb": write_glb}
+GRIDS: dict[str, Writer] = {".vtu": write_grid, ".vtk": write_grid, ".xdmf": write_xdmf}
 
 
 def write_film(

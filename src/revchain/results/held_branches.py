@@ -14,13 +14,14 @@ from ..systems.numbers import Floats, Whole, place_of
 from .base import Field, Result, Results
 from .bent import HeldCordShape, HeldShape
 from .branches import branch_items, branch_sizes, fold_words, is_fold
+from .moving import Moving
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class HeldBranch(Result):
+class HeldBranch(Result, Moving):
     """A branch of shapes of a chain or cord held at a span, point by point; returned by `branch` and in what `branches` returns.
 
     Arrays have one number for each point, from the greatest speed to slower ones and, past a fold, back.
@@ -181,7 +182,7 @@ class HeldBranch(Result):
         return Sheet("point", heading, columns, facts, spread=True)
 
 
-class HeldBranches(Results[HeldBranch]):
+class HeldBranches(Results[HeldBranch], Moving):
     """The branches of a chain or cord held at a span that begin at one speed, by half waves."""
 
     __slots__ = ()

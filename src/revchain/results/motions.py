@@ -14,6 +14,7 @@ from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, boolean
 from ..systems.rig import Rig
 from .base import Field, Result
+from .moving import Moving
 from .sheet import Column, Sheet, speed_columns
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ BENT = 0.3  # of the length of a chain: offsets beyond are not of small amplitud
 MOST_RESONANCES = 60  # marked in a plot: more would blacken it
 
 
-class Response(Result):
+class Response(Result, Moving):
     """What a chain or rig does whose support is carried round a circle, at one speed or many; returned by `response`.
 
     Arrays have the shape of the speeds asked, ``(...)``, those of pins one axis more. Carried to and fro along a line
@@ -188,7 +189,7 @@ SWING = (
 )
 
 
-class Swing(Result):
+class Swing(Result, Moving):
     """A hanging chain, or rig, swinging in a plane after release, as the sum of its modes; returned by `swing`.
 
     Examples
@@ -312,7 +313,7 @@ WHIRL_SWING = (
 )
 
 
-class WhirlSwing(Result):
+class WhirlSwing(Result, Moving):
     """A rig with flywheels after release, as the sum of its whirls; returned by `swing`. Offsets are x + i y.
 
     Examples

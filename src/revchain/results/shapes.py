@@ -17,6 +17,7 @@ from ..systems.numbers import Floats, shown
 from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .diagrams import ForceDiagram
+from .moving import Moving
 from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
 from .sheet import Column, Sheet, digits
 
@@ -123,7 +124,7 @@ def forced(name: str) -> Any:
     return compute
 
 
-class Shape(Result):
+class Shape(Result, Moving):
     """One steady shape (relative equilibrium) of a system at one speed; arrays begin at the free, or lower, end."""
 
     __slots__ = ()
@@ -429,7 +430,7 @@ _CORE = (
 )
 
 
-class SteadyShapes(Results[Any]):
+class SteadyShapes(Results[Any], Moving):
     """The steady shapes of a system at one speed, by half waves, then inclination of the lowest link."""
 
     __slots__ = ()
