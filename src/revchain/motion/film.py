@@ -98,6 +98,11 @@ class Film:
         return int(self.figures[0].phase.size)
 
     @property
+    def is_rigid(self) -> bool:
+        """Whether all figures only turn."""
+        return all(figure.is_rigid for figure in self.figures)
+
+    @property
     def seconds(self) -> float:
         """How long it runs."""
         return self.frames / self.frames_per_second

@@ -226,6 +226,8 @@ def write_mp4(film: Film, path: Path, progress: Progress) -> None:
     size = drawing.canvas.get_width_height()
     writer = ffmpeg.write_frames(str(path), size, fps=film.frames_per_second, quality=7, macro_block_size=2)
     writer.send(None)
-    for pixels in drawing.frames(progress):
-        writer.send(np.ascontiguousarray(pixels))
-    writer.close()
+    try:
+        for pixels in drawing.frames(progress):
+            writer.send(pixels)
+    finally:
+        writer.close()

@@ -34,7 +34,7 @@ def write_page(film: Film, path: Path, progress: Callable[[int, int], None]) -> 
 def _light(film: Film) -> Film:
     """With no more frames and pins than a page holds; the script draws what is between frames."""
     pins = min(film.figures[0].offset.shape[1], PINS[1])
-    if all(figure.is_rigid for figure in film.figures):
+    if film.is_rigid:
         return film.thinned(film.frames, PINS[1])
     each = MOST_NUMBERS // (3 * len(film.figures))
     frames = int(np.clip(each // pins, *FRAMES))

@@ -16,8 +16,9 @@ from .film import Complex, Figure, Film, side_by_side
 
 MOST_LINKS = 400  # of a chain of more, every second pin or fewer
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
-SIDES = 12  # of a cylinder
-THIN, THICK, BALL, DISC = 0.006, 0.014, 0.035, 0.12  # radii, over the height of the whole
+SIDES = 20  # of a cylinder
+THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height of the whole
+DISC = 0.6  # radius of a flywheel, over the reach
 COLOURS = ("1f77b4", "ff7f0e", "2ca02c", "d62728", "9467bd", "8c564b", "e377c2", "7f7f7f", "bcbd22", "17becf")
 GREYS = {"body": "595959", "floating": "f0f0f0", "support": "1a1a1a", "axis": "b3b3b3", "forward": "1f77b4", "backward": "d62728"}
 FLOAT, SHORT, ARRAY, ELEMENTS = 5126, 5123, 34962, 34963  # of glTF
@@ -28,15 +29,11 @@ def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> N
     """One scene, a node for each figure; in it a node that turns, and in that one for each link and body."""
     links = min(film.figures[0].offset.shape[1] - 1, MOST_LINKS)
     keys = max(FEWEST_KEYS, MOST_PLACES // (links * len(film.figures)))
-    solid = _Solid(film.thinned(film.frames if _all_rigid(film) else keys, links + 1))
+    solid = _Solid(film.thinned(film.frames if film.is_rigid else keys, links + 1))
     for nth, (few, figure) in enumerate(zip(solid.film.figures, film.figures, strict=True)):
         solid.add(few, nth, figure.phase, film)
         progress(nth + 1, len(film.figures))
     path.write_bytes(solid.finished())
-
-
-def _all_rigid(film: Film) -> bool:
-    return all(figure.is_rigid for figure in film.figures)
 
 
 class _Solid:
@@ -200,7 +197,7 @@ class _Solid:
             if wheel:
                 half = 0.6 * THIN * self.tall * step / np.linalg.norm(step, axis=1)[:, None]
                 disc = GREYS["forward" if wheel > 0 else "backward"]
-                self._bar(f"flywheel of {of}", parent, middle - half, middle + half, DISC * self.tall, disc)
+                self._bar(f"flywheel of {of}", parent, middle - half, middle + half, DISC * film.reach, disc)
 
     def finished(self) -> bytes:
         """The whole file."""

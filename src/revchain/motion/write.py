@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..results.files import naming, written_aside
+from ..systems.extras import require
 from ..systems.numbers import file_path, one_positive
 from .film import Film
 from .frames import write_gif, write_mp4
@@ -23,6 +24,22 @@ Writer = Callable[[Film, Path, Progress], None]
 FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4, ".html": write_page}
 SOLIDS: dict[str, Writer] = {".glb": write_glb}
 GRIDS: dict[str, Writer] = {".vtu": write_grid, ".vtk": write_grid, ".xdmf": write_xdmf}
+
+METHODS = {ending: name for name, writers in (("animate", FILMS), ("to_glb", SOLIDS), ("to_vtk", GRIDS)) for ending in writers}
+
+
+def require_for(ending: str) -> None:
+    """Refuse an ending whose packages are missing, before anything is computed."""
+    if ending in (".gif", ".mp4"):
+        require("matplotlib", "animate", f"a {ending} film")
+    if ending == ".gif":
+        require("PIL", "animate", "a .gif film")
+    if ending == ".mp4":
+        require("imageio_ffmpeg", "animate", "a .mp4 film")
+    if ending == ".glb":
+        require("pygltflib", "exchange", "a .glb file")
+    if ending in (".vtu", ".vtk"):
+        require("meshio", "exchange", f"a {ending} file")
 
 
 def write_film(
@@ -42,6 +59,7 @@ def write_film(
     ending = os.path.splitext(file_path(place, "path", path))[1].lower()
     if ending not in writers:
         raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
+    require_for(ending)
     given = {"time_scale": time_scale, "duration": duration, "frames_per_second": frames_per_second}
     numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
     rate = numbers["frames_per_second"] or frames_per_second
@@ -50,6 +68,8 @@ def write_film(
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
     film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+    if writers[ending] is write_grid and not film.is_rigid:
+        raise ValueError(f"{place}: this result is another at every instant; path must end in .xdmf, got {os.fspath(path)}")
     with naming(path), written_aside(path) as [aside]:
         writers[ending](film, aside, progress or _silent)
 
