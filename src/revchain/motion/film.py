@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,11 +36,13 @@ class Figure:
     def in_space(self, frame: int) -> Complex:
         """Offsets as seen from outside."""
         row: Complex = self.offset[0 if self.is_rigid else frame]
-        return row * np.exp(1j * self.phase[frame])
+        turned: Complex = row * np.exp(1j * self.phase[frame])
+        return turned
 
     def heights(self, frame: int) -> Floats:
         """In one frame."""
-        return self.height[0 if len(self.height) == 1 else frame]
+        row: Floats = self.height[0 if len(self.height) == 1 else frame]
+        return row
 
     def caption(self, frame: int) -> str:
         """In one frame."""
@@ -91,6 +94,7 @@ class Film:
     is_held: bool = False  # at both ends
     chart: Chart | None = None
     clock: tuple[str, ...] = ("",)  # 1 or F
+    note: str = ""
 
     @property
     def frames(self) -> int:
@@ -122,7 +126,7 @@ class Film:
         """Room for each figure, m; for none less than `least`."""
         low, high = self.low_and_high
         reach = np.array([float(np.abs(figure.offset).max()) for figure in self.figures])
-        return np.maximum(2 * GAP * np.maximum(reach, 0.1 * (high - low)), least)
+        return np.asarray(np.maximum(2 * GAP * np.maximum(reach, 0.1 * (high - low)), least))
 
     @property
     def colours(self) -> tuple[int, ...]:
@@ -134,7 +138,7 @@ class Film:
     def words(self) -> str:
         """Gravity, and how much slower or faster than the motion the film is."""
         pull = f"gravity {self.gravity:.6g} m/s²" if self.gravity else "without gravity"
-        return f"{pull}; {pace(self.time_scale)}"
+        return f"{pull}; {pace(self.time_scale)}" + f"; {self.note}" * bool(self.note)
 
     def thinned(self, frames: int, pins: int) -> Film:
         """At most so many frames and pins, the ends kept; bodies go with the pins of their links."""
@@ -143,7 +147,7 @@ class Film:
         if rows.size == self.frames and kept.size == self.figures[0].offset.shape[1]:
             return self
 
-        def few(values: NDArray[np.generic]) -> NDArray[np.generic]:
+        def few(values: Any) -> Any:
             return values if len(values) == 1 else values[rows]
 
         figures = tuple(

@@ -17,7 +17,7 @@ from .film import Complex, Figure, Film, side_by_side
 
 TILT = np.radians(14.0)  # of the view from above
 TALL, WIDE, LEAST = 4.6, 11.0, 4.4  # inches: height of the figures at most, width of the film at most and at least
-CAPTION, CHART = 0.95, 3.3  # inches: widths
+CAPTION, CHART, LETTER, BOLD = 0.95, 3.3, 0.07, 0.082  # inches: widths
 MOST_PINS = 400
 TINTS = 12  # of each colour of a GIF
 Progress = Callable[[int, int], None]
@@ -39,7 +39,8 @@ class Drawing:
         self.across = side_by_side(widths)
         drawn = (per * widths.sum(), per * 1.1 * size)
         head, foot = 0.62, 0.9
-        whole = np.array([max(drawn[0] + chart, LEAST), max(drawn[1], 1.5) + head + foot])
+        written = max(BOLD * len(film.system), LETTER * (len(film.words) + len(film.clock[-1]) + 2))
+        whole = np.array([max(drawn[0] + chart, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
         whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs
         figure = require("matplotlib.figure", "animate", "animation").Figure(figsize=whole, dpi=100)
         self.canvas = require("matplotlib.backends.backend_agg", "animate", "animation").FigureCanvasAgg(figure)
@@ -95,7 +96,7 @@ class Drawing:
         self._move(arms, lambda frame: None)
         self._move(links, place)
         if film.stout.any():
-            self._move(stout, lambda frame: stout.set_data(*_pieces(*links.get_data(), film.stout)))
+            self._move(stout, lambda frame: stout.set_data(*_pieces(links, film.stout)))
         self._bodies(links, 0.35 * float(np.abs(figure.offset).max()))
         self._supports(links)
         if len(figure.captions) > 1:
@@ -109,7 +110,7 @@ class Drawing:
             return
 
         def between(share: Floats) -> Any:
-            return np.column_stack(_along(*links.get_data(), bodies.link, share))
+            return np.column_stack(_along(links, bodies.link, share))
 
         long = bodies.rod > 0
         if long.any():
@@ -184,14 +185,16 @@ def seen(offset: Complex | Floats, height: Any, across: float) -> tuple[Floats, 
     return across + point.real, np.asarray(height) * np.cos(TILT) + point.imag * np.sin(TILT)
 
 
-def _along(x: Floats, y: Floats, link: Any, share: Floats) -> tuple[Floats, Floats]:
+def _along(line: Any, link: Any, share: Floats) -> tuple[Floats, Floats]:
     """Places on links, from their upper pins."""
+    x, y = line.get_data()
     down = x[link] - x[link + 1], y[link] - y[link + 1]
     return x[link + 1] + share * down[0], y[link + 1] + share * down[1]
 
 
-def _pieces(x: Floats, y: Floats, which: Any) -> tuple[Floats, Floats]:
+def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
     """Some links, each by itself."""
+    x, y = line.get_data()
     links = np.flatnonzero(which)
     none = np.full(links.size, np.nan)
     first, second = (np.stack([at[links], at[links + 1], none], 1).ravel() for at in (x, y))
@@ -216,7 +219,7 @@ def _palette(figures: int) -> list[int]:
     names = ["black", LINK, "0.7", *(f"C{k}" for k in {*range(min(figures, 10)), 0, 3})]
     pure = np.array([to_rgb(name) for name in names])[:, None]
     tints = 1 - (1 - pure) * np.linspace(0.0, 1.0, TINTS)[:, None]
-    return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()  # type: ignore[no-any-return]
+    return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()
 
 
 def write_mp4(film: Film, path: Path, progress: Progress) -> None:

@@ -50,10 +50,9 @@ def write_xdmf(film: Film, path: Path, progress: Progress) -> None:
 
 
 def _item(parent: Any, values: Any) -> None:
-    whole = values.dtype.kind == "i"
     size = " ".join(map(str, values.shape))
-    kind = {"NumberType": "Int", "Precision": "8"} if whole else {"NumberType": "Float", "Precision": "8"}
-    item = ElementTree.SubElement(parent, "DataItem", Format="XML", Dimensions=size, **kind)
+    kind = "Int" if values.dtype.kind == "i" else "Float"
+    item = ElementTree.SubElement(parent, "DataItem", Format="XML", Dimensions=size, NumberType=kind, Precision="8")
     item.text = " ".join(map(repr, values.ravel().tolist()))
 
 

@@ -47,6 +47,7 @@ def _data(film: Film) -> dict[str, Any]:
     bodies, chart = film.bodies, film.chart
     return {
         "gravity": film.words.partition(";")[0],
+        "note": film.note,
         "scale": film.time_scale,
         "seconds": film.seconds,
         "frames": film.frames,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..systems.extras import require
 from ..systems.numbers import Floats
-from .film import Complex, Figure, Film, side_by_side
+from .film import Complex, Figure, Film, pace, side_by_side
 
 MOST_LINKS = 400  # of a chain of more, every second pin or fewer
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
@@ -51,7 +51,7 @@ class _Solid:
         self.materials: dict[str, int] = {}
         self.meshes: dict[tuple[str, str], int] = {}
         self.accessors: dict[str, tuple[int, int, int]] = {}
-        self.animation = gltf.Animation(name=film.words.partition("; ")[2], samplers=[], channels=[])
+        self.animation = gltf.Animation(name=pace(film.time_scale), samplers=[], channels=[])
         self.clocks: dict[int, int] = {}
 
     def seconds(self, film: Film) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import Any
 
@@ -33,6 +33,7 @@ PLACES = 101  # of a cord
 LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless asked
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
 MOST_STAGES = 150  # of a branch that are asked for
+Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, speed, and what offsets are multiplied by
 
 
 @dataclass(frozen=True)
@@ -81,13 +82,13 @@ def _(modes: Modes, asked: Asked) -> Film:
     height = np.asarray(straight.height, float)
     largest = _reach_of_small(height, len(rows))
     both = bool(getattr(modes, "has_momentum", False))
-    named: list[tuple[str, Complex, Floats, float, float]] = []
+    named: list[Turning] = []
     for row in rows:
         shape = np.asarray(modes.shape[row], float)
         way = (" forward" if modes.angular_speed[row] > 0 else " backward") * both
         scale = largest / np.abs(shape).max()
-        named.append((f"mode {modes.number[row]}{way}", shape + 0j, height, float(modes.angular_speed[row]), scale))
-    return _turning(modes, named, asked)
+        named.append((f"mode {modes.number[row]}{way}", shape, height, float(modes.angular_speed[row]), scale))
+    return replace(_turning(modes, named, asked), note="offsets exaggerated")
 
 
 @staged.register
@@ -103,13 +104,13 @@ def _(shapes: SteadyShapes, asked: Asked) -> Film:
 
 
 def _of_shapes(shapes: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
-    named: list[tuple[str, Complex, Floats, float, float]] = []
+    named: list[Turning] = []
     tensions = []
     for shape, label in zip(shapes, labels, strict=True):
         waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
         offset, height = _bent(shape)
         speed = shape.angular_speed * getattr(shape, "direction", 1)
-        named.append((f"{label}\n{waves}".strip(), offset + 0j, height, speed, 1.0))
+        named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
         tensions.append(None if hasattr(shape, "arc_length") else shape.tension)
     return _turning(of, named, asked, tensions)
 
@@ -124,11 +125,11 @@ def _bent(shape: Any) -> tuple[Floats, Floats]:
 
 def _turning(
     result: Any,
-    named: list[tuple[str, Complex, Floats, float, float]],
+    named: list[Turning],
     asked: Asked,
     tensions: Sequence[Floats | None] | None = None,
 ) -> Film:
-    """Figures that only turn: label, offsets, heights, speed, and what offsets are multiplied by."""
+    """Figures that only turn."""
     period = np.array([TURN / abs(speed) for *_, speed, _ in named if speed])
     slow, fast = (float(period.max()), float(period.min())) if period.size else (SLOWEST_TURN, SLOWEST_TURN)
     scale = asked.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
@@ -139,10 +140,10 @@ def _turning(
     figures = [
         Figure(
             label,
-            larger * offset[None],
+            larger * offset[None] + 0j,
             height[None],
             np.array([larger]),
-            speed * time,
+            np.asarray(speed * time),
             np.array([speed]),
             (f"{label}\n{speed_words(speed)}",),
             None if tensions is None else tensions[nth],
@@ -228,7 +229,7 @@ def _(found: Response, asked: Asked) -> Film:
     scale = np.minimum(largest / np.quantile(most, 0.75), largest / most)
     if speed.size == 1:
         label = "carried round"
-        return _turning(found, [(label, offset[0] + 0j, height, float(speed[0]), float(scale[0]))], asked)
+        return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], asked)
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
     axes = ("speed (rad/s)", "largest distance from axis (m)")

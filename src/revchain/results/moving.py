@@ -133,8 +133,9 @@ class Moving:
         """
         from ..motion.write import SOLIDS, write_film
 
-        given = {"figures": figures, "time_scale": time_scale, "duration": duration, "progress": progress}
-        write_film(self, "to_glb", SOLIDS, path, **given)
+        write_film(
+            self, "to_glb", SOLIDS, path, figures=figures, time_scale=time_scale, duration=duration, progress=progress
+        )
 
     def to_vtk(
         self,
