@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -224,13 +226,22 @@ def _palette(figures: int) -> list[int]:
 
 def write_mp4(film: Film, path: Path, progress: Progress) -> None:
     """H.264, by ffmpeg."""
-    ffmpeg = require("imageio_ffmpeg", "animate", "a .mp4 film")
+    ffmpeg = require("imageio_ffmpeg", "animate", "a .mp4 film").get_ffmpeg_exe()
     drawing = Drawing(film)
-    size = drawing.canvas.get_width_height()
-    writer = ffmpeg.write_frames(str(path), size, fps=film.frames_per_second, quality=7, macro_block_size=2)
-    writer.send(None)
-    try:
-        for pixels in drawing.frames(progress):
-            writer.send(pixels)
-    finally:
-        writer.close()
+    size = "x".join(map(str, drawing.canvas.get_width_height()))
+    taken = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(film.frames_per_second), "-i", "-"]
+    made = ["-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+    command = [ffmpeg, "-loglevel", "error", "-y", *taken, *made, str(path)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdin is not None and process.stderr is not None
+        try:
+            with suppress(BrokenPipeError):  # what is wrong it says itself
+                for pixels in drawing.frames(progress):
+                    process.stdin.write(pixels.tobytes())
+                process.stdin.close()
+            said = process.stderr.read().decode(errors="replace").strip()
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode:
+        raise OSError(f"ffmpeg says: {said or process.returncode}")

@@ -36,7 +36,9 @@ def _light(film: Film) -> Film:
     pins = min(film.figures[0].offset.shape[1], PINS[1])
     if film.is_rigid:
         return film.thinned(film.frames, PINS[1])
-    each = MOST_NUMBERS // (3 * len(film.figures))
+    first = film.figures[0]
+    arrays = 1 + bool(first.offset.imag.any()) + (len(first.height) > 1)
+    each = MOST_NUMBERS // (arrays * len(film.figures))
     frames = int(np.clip(each // pins, *FRAMES))
     return film.thinned(frames, int(np.clip(each // frames, *PINS)))
 
