@@ -172,7 +172,7 @@ class _Solid:
                 self._channel(node, what, values.astype(np.float32), self.seconds(self.film))
 
     def _bar(self, name: str, parent: int, upper: Floats, lower: Floats, radius: float, colour: str) -> None:
-        along = lower - upper
+        along = upper - lower  # upwards, as most links are: near the turn of none
         long = np.maximum(np.linalg.norm(along, axis=1), 1e-9 * self.tall)
         node = self._node(name, parent, mesh=self._mesh("cylinder", colour))
         wide = np.full_like(long, radius)
@@ -219,7 +219,7 @@ def _turned_to(way: Floats) -> Floats:
     found = np.column_stack([way[:, 2], np.zeros(len(way)), -way[:, 0], 1 + way[:, 1]])
     size = np.linalg.norm(found, axis=1)
     down = size < 1e-6
-    found[down], size[down] = [1.0, 0.0, 0.0, 0.0], 1.0
+    found[down], size[down] = [0.0, 0.0, 1.0, 0.0], 1.0
     found /= size[:, None]
     flips = np.cumprod(np.concatenate([[1.0], np.where((found[1:] * found[:-1]).sum(axis=1) < 0, -1.0, 1.0)]))
     return np.asarray(found * flips[:, None])  # the shorter way from frame to frame
