@@ -32,6 +32,7 @@ TURN = 2 * math.pi
 PLACES = 101  # of a cord
 LONGEST, FOR_A_SWEEP = 10.0, 12.0  # seconds of film, unless asked
 SLOWEST_TURN, FASTEST_TURN = 4.0, 0.8  # seconds of film
+MOST_FRAMES = 20_000
 MOST_STAGES = 150  # of a branch that are asked for
 Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, speed, and what offsets are multiplied by
 
@@ -63,6 +64,12 @@ class Asked:
         return chosen
 
     def frames(self, seconds: float) -> int:
+        """How many there are."""
+        if seconds * self.frames_per_second > MOST_FRAMES:
+            raise ValueError(
+                f"{self.place}: duration times frames_per_second must be at most {MOST_FRAMES}, "
+                f"got {seconds:g} s at {self.frames_per_second:g}"
+            )
         return max(2, round(seconds * self.frames_per_second))
 
 
@@ -343,7 +350,7 @@ def _film(
     clock: tuple[str, ...] = ("",),
 ) -> Film:
     system = result.system
-    base = system.system if isinstance(system, Held) else system.chain if isinstance(system, Rig) else system
+    base = Straight(system).base
     few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
     links = figures[0].offset.shape[1] - 1
     names: tuple[str, ...] = ()
@@ -383,6 +390,6 @@ def _bodies(system: Any, base: Any) -> Bodies:
         "size": np.cbrt(weight / weight.max()),
         "rod": np.where(rod < 1, rod, 0.0),  # what is longer is no rod
         "wheel": np.sign(momentum),
-        "floats": floating(system if isinstance(system, Rig) else base),
+        "floats": floating(system),
     }
     return Bodies(link, **{name: np.asarray(array)[link] for name, array in arrays.items()})

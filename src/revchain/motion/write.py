@@ -8,9 +8,11 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..results.files import naming, written_aside
 from ..systems.extras import require
-from ..systems.numbers import file_path, one_positive
+from ..systems.numbers import file_path, one_positive, shown
 from .film import Film
 from .frames import write_gif, write_mp4
 from .grid import write_grid, write_xdmf
@@ -18,7 +20,8 @@ from .page import write_page
 from .solid import write_glb
 from .staging import Asked, staged
 
-MOST_FRAMES = 20_000
+RATES = (0.1, 1000.0)  # frames in a second
+MOST_TURNS = 5000  # of a solid, which has four keys for each
 Progress = Callable[[int, int], None]
 Writer = Callable[[Film, Path, Progress], None]
 FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4, ".html": write_page}
@@ -60,14 +63,19 @@ def write_film(
     if ending not in writers:
         raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
     require_for(ending)
-    given = {"time_scale": time_scale, "duration": duration, "frames_per_second": frames_per_second}
+    given = {"time_scale": time_scale, "duration": duration}
     numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
-    rate = numbers["frames_per_second"] or frames_per_second
-    if rate * (numbers["duration"] or 0.0) > MOST_FRAMES:
-        raise ValueError(f"{place}: duration times frames_per_second must be at most {MOST_FRAMES}, got {rate * (duration or 0):g}")
+    rate = one_positive(place, "frames_per_second", frames_per_second)
+    if not RATES[0] <= rate <= RATES[1]:
+        raise ValueError(f"{place}: frames_per_second must be from {RATES[0]:g} to {RATES[1]:g}, got {rate:g}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"{place}: progress must be a function of two numbers, got {shown(progress)}")
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
     film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+    turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
+    if ending == ".glb" and turns > MOST_TURNS:
+        raise ValueError(f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns")
     if writers[ending] is write_grid and not film.is_rigid:
         raise ValueError(f"{place}: this result is another at every instant; path must end in .xdmf, got {os.fspath(path)}")
     with naming(path), written_aside(path) as [aside]:

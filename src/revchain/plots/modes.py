@@ -164,8 +164,8 @@ class Straight:
 
 
 def floating(system: System) -> NDArray[np.bool_]:
-    """Of each link of a chain or rig: whether the fluid bears more than it weighs."""
-    base: Any = system.chain if isinstance(system, Rig) else system
+    """Of each link: whether the fluid bears more than it weighs."""
+    base: Any = Straight(system).base
     weight = np.broadcast_to(base._compiled.weight, base.size)
     if not isinstance(system, Rig) or system.displaced is None:
         return np.zeros(base.size, bool)
