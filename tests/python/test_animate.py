@@ -41,6 +41,8 @@ def test_the_pace():
     shown = film(found)
     turns = TURN / (np.abs(found.angular_speed) * shown.time_scale)  # seconds of film
     assert turns.min() >= 0.8 * (1 - 1e-2) and abs(turns.max() - shown.seconds) < 1e-12  # the slowest closes its round
+    twice = film(found, duration=2.5 * shown.seconds)
+    assert abs(turns.max() * shown.time_scale / twice.time_scale * 2 - twice.seconds) < 1e-12
     assert film(found, time_scale=0.01).seconds == 10.0
     one = film(rc.modes(CHAIN, 1))
     assert abs(one.figures[0].phase[1] * one.frames - TURN) < 1e-12

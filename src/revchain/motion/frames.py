@@ -21,7 +21,7 @@ TILT = np.radians(14.0)  # of the view from above
 TALL, WIDE, LEAST = 4.6, 11.0, 4.4  # inches: height of the figures at most, width of the film at most and at least
 CAPTION, CHART, LETTER, BOLD = 0.95, 3.3, 0.07, 0.082  # inches: widths
 MOST_PINS = 400
-TINTS = 12  # of each colour of a GIF
+TINTS = 8  # of each colour of a GIF
 Progress = Callable[[int, int], None]
 
 
@@ -40,7 +40,8 @@ class Drawing:
             per = min((WIDE - chart) / widths.sum(), TALL / (1.1 * size))
         self.across = side_by_side(widths)
         drawn = (per * widths.sum(), per * 1.1 * size)
-        head, foot = 0.62, 0.9
+        lines = 1 + max(caption.count("\n") for figure in film.figures for caption in figure.captions)
+        head, foot = 0.62, 0.35 + 0.16 * lines
         written = max(BOLD * len(film.system), LETTER * (len(film.words) + len(film.clock[-1]) + 2))
         whole = np.array([max(drawn[0] + chart, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
         whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs

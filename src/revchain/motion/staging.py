@@ -140,9 +140,11 @@ def _turning(
     period = np.array([TURN / abs(speed) for *_, speed, _ in named if speed])
     slow, fast = (float(period.max()), float(period.min())) if period.size else (SLOWEST_TURN, SLOWEST_TURN)
     scale = asked.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
-    frames = asked.frames(min(slow / scale, LONGEST) if asked.duration is None else asked.duration)
-    if asked.time_scale is None and asked.duration is None and slow / scale <= LONGEST:
-        scale = slow * asked.frames_per_second / frames  # the slowest ends where it began
+    seconds = min(slow / scale, LONGEST) if asked.duration is None else asked.duration
+    frames = asked.frames(seconds)
+    turns = math.floor(seconds * scale / slow * (1 + 1e-9))
+    if asked.time_scale is None and turns:
+        scale = turns * slow * asked.frames_per_second / frames  # the slowest ends where it began
     time = scale * np.arange(frames) / asked.frames_per_second
     figures = [
         Figure(
