@@ -4,6 +4,7 @@
 import base64
 import json
 import re
+import shutil
 import subprocess
 
 import numpy as np
@@ -179,6 +180,27 @@ def test_places_of_pixels(tmp_path):
                 assert np.abs(around - to_rgb(f"C{nth}")).max(axis=2).min() < 0.25, (frame, nth)
 
 
+def test_arms_of_a_carousel_are_drawn_with_it():
+    """In each frame the arm ends at the support, as it is in that frame."""
+    from revchain.motion.frames import Drawing
+
+    shown = film(ALL["shapes of a carousel"](), duration=0.4)
+    drawing = Drawing(shown)
+    lines = [artist for artist, _ in drawing.moving if hasattr(artist, "get_xdata")]
+    order = {artist: [] for artist in lines}
+    for artist in lines:
+        artist.draw = lambda renderer, artist=artist, draw=artist.draw: (order[artist].append(np.array(artist.get_data())), draw(renderer))
+    for _ in drawing.frames(lambda done, total: None):
+        pass
+    arms = [order[line] for line in lines if line.get_color() == "0.3"]
+    chains = [order[line] for line in lines if len(line.get_xdata()) == 3 and line.get_color().startswith("C")]
+    assert len(arms) == len(chains) == len(shown.figures)
+    for arm, chain in zip(arms, chains, strict=True):
+        assert len(arm) == len(chain) == shown.frames
+        for one, other in zip(arm, chain, strict=True):
+            assert np.array_equal(one[:, 1], other[:, -1])
+
+
 def test_mp4(tmp_path):
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
     path = tmp_path / "film.mp4"
@@ -248,6 +270,76 @@ def test_pages_of_long_chains_are_light(tmp_path):
         found.animate(path)
         assert path.stat().st_size < 200_000
         assert data_of(path)[1]["pins"] >= 40
+
+
+BROWSER = """
+const drawn = { words: "", texts: [], paths: [] }, elements = {};
+const noted = (name, value) => { if (!Number.isFinite(value)) throw new Error(`${name} got ${value}`); };
+let path = [];
+const pen = new Proxy({}, {
+  get: (it, name) => it[name] ?? ((...given) => {
+    if (name === "fillText") { noted(name, given[1]); noted(name, given[2]); drawn.texts.push(given[0]); return; }
+    given.flat().forEach((value) => noted(String(name), value));
+    if (name === "beginPath") path = [];
+    if (name === "moveTo" || name === "lineTo") path.push(given);
+    if (name === "stroke") drawn.paths.push({ colour: it.strokeStyle, width: it.lineWidth, points: path });
+  }),
+  set: (it, name, value) => { it[name] = value; return true; },
+});
+const element = (id) => elements[id] ??= {
+  textContent: id === "data" ? DATA : "", value: 0, style: {}, clientWidth: 900, clientHeight: 500, getContext: () => pen, remove() {},
+};
+globalThis.document = { getElementById: element };
+globalThis.window = { devicePixelRatio: 1, innerHeight: 700, addEventListener() {} };
+globalThis.matchMedia = () => ({ matches: true });
+globalThis.location = { hash: "#t=TIME" };
+globalThis.requestAnimationFrame = () => 0;
+"""
+
+
+@pytest.mark.parametrize("time", [0.7])
+@pytest.mark.parametrize("kind", ALL)
+def test_script_of_a_page(kind, time, tmp_path):
+    """It draws every pin where the film has it, by parallel projection, and says what the film says."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not installed")
+    path = tmp_path / "page.html"
+    ALL[kind]().animate(path, duration=2.0)
+    text, data = data_of(path)
+    script = re.findall(r"<script>\n(.*?)</script>", text, re.DOTALL)[0]
+    (tmp_path / "page.js").write_text(
+        BROWSER.replace("DATA", json.dumps(json.dumps(data))).replace("TIME", str(time))
+        + f"(() => {{ {script} }})();"
+        + "\ndrawn.words = element('words').textContent;\nconsole.log(JSON.stringify(drawn));\n",
+        "utf-8",
+    )
+    done = subprocess.run([node, tmp_path / "page.js"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    drawn = json.loads(done.stdout)
+    shown = film(ALL[kind](), duration=2.0).thinned(data["frames"], data["pins"])
+    at = 0.0 if shown.is_rigid else time / shown.seconds * (shown.frames - 1)
+    frame = round(at)
+    assert drawn["words"].startswith(shown.words) and drawn["words"].endswith(shown.clock[frame if len(shown.clock) > 1 else 0])
+    for figure in shown.figures:
+        assert all(line in drawn["texts"] for line in figure.caption(frame).splitlines())
+    chains = [np.array(each["points"]) for each in drawn["paths"] if len(each["points"]) == data["pins"] and each["width"] == 2]
+    assert len(chains) == len(shown.figures)
+    tilt, scales = 0.245, []
+    for figure, points in zip(shown.figures, chains, strict=True):
+        before, after = int(at), min(int(at) + 1, shown.frames - 1)
+        rows = [figure.offset[0 if figure.is_rigid else k] for k in (before, after)]
+        levels = [figure.heights(k) for k in (before, after)]
+        part = at - before
+        turned = figure.speed[0] * shown.time_scale * time if figure.is_rigid else np.interp(at, np.arange(shown.frames), figure.phase)
+        pins = (rows[0] * (1 - part) + rows[1] * part) * np.exp(1j * turned)
+        level = levels[0] * (1 - part) + levels[1] * part
+        flat = np.column_stack([pins.real, -(level * np.cos(tilt) + pins.imag * np.sin(tilt))])
+        flat, points = flat - flat[-1], points - points[-1]
+        scale = np.abs(points).max() / np.abs(flat).max()
+        assert np.abs(points - scale * flat).max() < 0.1  # pixels
+        scales.append(scale)
+    assert np.ptp(scales) < 1e-2 * scales[0]
 
 
 def test_words_of_a_page_are_safe(tmp_path):

@@ -96,8 +96,8 @@ class Drawing:
             held = np.array([part for end in ends for part in (0.0, offset[end], np.nan)])
             arms.set_data(*seen(held, np.repeat(height[ends], 3), at))
 
-        self._move(arms, lambda frame: None)
-        self._move(links, place)
+        self._move(arms, place)
+        self._move(links, lambda frame: None)
         if film.stout.any():
             self._move(stout, lambda frame: stout.set_data(*_pieces(links, film.stout)))
         self._bodies(links, 0.35 * float(np.abs(figure.offset).max()))
