@@ -90,7 +90,11 @@ def test_a_branch_is_gone_through_from_end_to_end():
 
 
 def test_a_branch_passes_its_folds():
-    isolated = [each for each in rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=13.0) if each.folds.size]
+    isolated = [
+        each
+        for each in rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=13.0)
+        if each.folds.size
+    ]
     for branch in isolated:
         speeds = film(branch, duration=20.0).figures[0].speed
         for fold in branch.folds:
@@ -107,7 +111,9 @@ def test_a_response_goes_out_at_its_speeds():
     widest = np.abs(figure.offset).max(axis=1)
     assert widest.max() <= 0.25 * CHAIN.total_length * (1 + 1e-12) and np.ptp(figure.scale) > 0
     assert figure.captions[-1].endswith(f"offsets {figure.scale[-1]:.3g}:1")
-    resonant = rc.response(CHAIN, angular_speed=[3.0, float(rc.modes(CHAIN).angular_speed[0]), 4.0], support_radius=0.01)
+    resonant = rc.response(
+        CHAIN, angular_speed=[3.0, float(rc.modes(CHAIN).angular_speed[0]), 4.0], support_radius=0.01
+    )
     assert np.isfinite(film(resonant).figures[0].offset).all()
 
 
@@ -126,7 +132,9 @@ def test_bodies_are_on_their_links():
     bodies = film(rc.modes(WHEELS)).bodies
     assert bodies.link.tolist() == [0, 1, 2, 3] and np.allclose(bodies.along, 0.5)
     assert bodies.wheel.tolist() == [1, -1, 0, 0]
-    assert bodies.rod[0] == 0 and np.allclose(bodies.rod[1:], np.sqrt(3) * 0.02 / 0.1)  # the first is no rod: it would be longer than the link
+    assert bodies.rod[0] == 0 and np.allclose(
+        bodies.rod[1:], np.sqrt(3) * 0.02 / 0.1
+    )  # the first is no rod: it would be longer than the link
     assert film(rc.modes(CHAIN)).names == ("links[0] load", "links[1] $hook$", "links[2] </script>")
     assert film(ONE["cord shape"]()).bodies.along.tolist() == [1.0]
 
@@ -189,7 +197,10 @@ def test_arms_of_a_carousel_are_drawn_with_it():
     lines = [artist for artist, _ in drawing.moving if hasattr(artist, "get_xdata")]
     order = {artist: [] for artist in lines}
     for artist in lines:
-        artist.draw = lambda renderer, artist=artist, draw=artist.draw: (order[artist].append(np.array(artist.get_data())), draw(renderer))
+        artist.draw = lambda renderer, artist=artist, draw=artist.draw: (
+            order[artist].append(np.array(artist.get_data())),
+            draw(renderer),
+        )
     for _ in drawing.frames(lambda done, total: None):
         pass
     arms = [order[line] for line in lines if line.get_color() == "0.3"]
@@ -265,7 +276,11 @@ def test_pages_of_long_chains_are_light(tmp_path):
     chain = rc.Chain.uniform_rods(120, length=1.0)
     path = tmp_path / "page.html"
     released = 0.1 * np.linspace(1.0, 0.0, 121) ** 2
-    results = [rc.modes(chain, 6), rc.swing(chain, released, None, [0.0, 60.0]), rc.modes(rc.Chain.uniform_rods(20_000), 6)]
+    results = [
+        rc.modes(chain, 6),
+        rc.swing(chain, released, None, [0.0, 60.0]),
+        rc.modes(rc.Chain.uniform_rods(20_000), 6),
+    ]
     for found in [*results, rc.branches(rc.Chain.uniform_rods(40, length=1.0), max_angular_speed=30.0)]:
         found.animate(path)
         assert path.stat().st_size < 200_000
@@ -287,7 +302,8 @@ const pen = new Proxy({}, {
   set: (it, name, value) => { it[name] = value; return true; },
 });
 const element = (id) => elements[id] ??= {
-  textContent: id === "data" ? DATA : "", value: 0, style: {}, clientWidth: 900, clientHeight: 500, getContext: () => pen, remove() {},
+  textContent: id === "data" ? DATA : "", value: 0, style: {}, clientWidth: 900, clientHeight: 500,
+  getContext: () => pen, remove() {},
 };
 globalThis.document = { getElementById: element };
 globalThis.window = { devicePixelRatio: 1, innerHeight: 700, addEventListener() {} };
@@ -320,10 +336,16 @@ def test_script_of_a_page(kind, time, tmp_path):
     shown = film(ALL[kind](), duration=2.0).thinned(data["frames"], data["pins"])
     at = 0.0 if shown.is_rigid else time / shown.seconds * (shown.frames - 1)
     frame = round(at)
-    assert drawn["words"].startswith(shown.words) and drawn["words"].endswith(shown.clock[frame if len(shown.clock) > 1 else 0])
+    assert drawn["words"].startswith(shown.words) and drawn["words"].endswith(
+        shown.clock[frame if len(shown.clock) > 1 else 0]
+    )
     for figure in shown.figures:
         assert all(line in drawn["texts"] for line in figure.caption(frame).splitlines())
-    chains = [np.array(each["points"]) for each in drawn["paths"] if len(each["points"]) == data["pins"] and each["width"] == 2]
+    chains = [
+        np.array(each["points"])
+        for each in drawn["paths"]
+        if len(each["points"]) == data["pins"] and each["width"] == 2
+    ]
     assert len(chains) == len(shown.figures)
     tilt, scales = 0.245, []
     for figure, points in zip(shown.figures, chains, strict=True):
@@ -331,7 +353,11 @@ def test_script_of_a_page(kind, time, tmp_path):
         rows = [figure.offset[0 if figure.is_rigid else k] for k in (before, after)]
         levels = [figure.heights(k) for k in (before, after)]
         part = at - before
-        turned = figure.speed[0] * shown.time_scale * time if figure.is_rigid else np.interp(at, np.arange(shown.frames), figure.phase)
+        turned = (
+            figure.speed[0] * shown.time_scale * time
+            if figure.is_rigid
+            else np.interp(at, np.arange(shown.frames), figure.phase)
+        )
         pins = (rows[0] * (1 - part) + rows[1] * part) * np.exp(1j * turned)
         level = levels[0] * (1 - part) + levels[1] * part
         flat = np.column_stack([pins.real, -(level * np.cos(tilt) + pins.imag * np.sin(tilt))])
@@ -386,7 +412,10 @@ def test_nothing_to_show(tmp_path):
         (rc.modes(CHAIN, angular_speed=(0.0, 0.1)), "there are no modes"),
         (rc.steady_shapes(CHAIN, angular_speed=0.1), "there is no shape to draw"),
         (rc.branches(CHAIN, max_angular_speed=0.5), "there is no branch to draw"),
-        (rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1]), "every pin is needed; ask the response without pins="),
+        (
+            rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1]),
+            "every pin is needed; ask the response without pins=",
+        ),
         (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
         (rc.swing(CHAIN, RELEASED, None, [1.0]), "needs two times or more"),
     ):

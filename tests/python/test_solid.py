@@ -86,7 +86,7 @@ def test_glb_is_whole(kind, tmp_path):
     assert reached == set(range(len(file.nodes)))
     shown = film(found)
     assert len(file.scenes[0].nodes) == len(shown.figures)
-    for root, turning, inside in figures_of(file):
+    for root, _, inside in figures_of(file):
         assert sum(is_link(node) for node in inside) == shown.figures[0].offset.shape[1] - 1
         assert sum(node.name.startswith("body of") for node in inside) == shown.bodies.link.size
         assert sum(node.name.startswith("flywheel of") for node in inside) == np.count_nonzero(shown.bodies.wheel)
@@ -101,7 +101,9 @@ def test_glb_is_whole(kind, tmp_path):
         assert (np.diff(times, axis=0) > 0).all() and times[0] == 0
         if channel.target.path == "rotation":
             assert np.allclose(np.linalg.norm(output, axis=1), 1, atol=1e-6)
-            assert ((output[1:] * output[:-1]).sum(axis=1) > -1e-6).all()  # the short way round; an arm may change sides
+            assert (
+                (output[1:] * output[:-1]).sum(axis=1) > -1e-6
+            ).all()  # the short way round; an arm may change sides
 
 
 def test_modes_are_where_they_are(tmp_path):
@@ -139,7 +141,9 @@ def test_shapes_bodies_and_arms(tmp_path):
         assert np.allclose(body.translation, [shapes[1].offset[k], shapes[1].height[k], 0.0], atol=1e-6)
     sizes = [named[f"body of links[{k}]"].scale[0] for k in (0, 1)]
     assert abs(sizes[1] / sizes[0] - (5.0 / 80.0) ** (1 / 3)) < 1e-6
-    assert "arm" not in {node.name for _, _, nodes in figures_of(saved(rc.modes(CHAIN), tmp_path / "b.glb")) for node in nodes}
+    assert "arm" not in {
+        node.name for _, _, nodes in figures_of(saved(rc.modes(CHAIN), tmp_path / "b.glb")) for node in nodes
+    }
 
 
 @pytest.mark.parametrize("kind", ["swing", "whirl swing", "branch"])
@@ -180,7 +184,9 @@ def test_refused(tmp_path):
         found.to_glb("a.gltf")
     with pytest.raises(ValueError, match=r"Modes\.to_vtk: path must end in \.vtu, \.vtk, \.xdmf, got a\.stl"):
         found.to_vtk("a.stl")
-    with pytest.raises(ValueError, match=r"Swing\.to_vtk: this result is another at every instant; path must end in \.xdmf"):
+    with pytest.raises(
+        ValueError, match=r"Swing\.to_vtk: this result is another at every instant; path must end in \.xdmf"
+    ):
         ONE["swing"]().to_vtk(tmp_path / "a.vtu")
     with pytest.raises(ValueError, match=r"Modes\.to_glb: figures|mode must be from 1 to 3, got 0"):
         found.to_glb(tmp_path / "a.glb", figures=[0])
@@ -204,11 +210,17 @@ def test_grids(ending, tmp_path):
         pins = slice(4 * nth, 4 * nth + 4)
         links = slice(3 * nth, 3 * nth + 3)
         across = read.points[pins][-1, 0]
-        assert np.allclose(read.points[pins], np.column_stack([across + shape.offset, 0 * shape.offset, shape.height]), atol=1e-14)
+        assert np.allclose(
+            read.points[pins], np.column_stack([across + shape.offset, 0 * shape.offset, shape.height]), atol=1e-14
+        )
         assert np.array_equal(read.point_data["offset"][pins, 0], shape.offset)
         assert np.allclose(read.point_data["velocity"][pins, 1], shape.angular_speed * shape.offset, rtol=1e-15)
         assert np.array_equal(read.cell_data["tension"][0][links], shape.tension)
-        assert (read.cell_data["figure"][0][links] == nth).all() and read.cell_data["link"][0][links].tolist() == [0, 1, 2]
+        assert (read.cell_data["figure"][0][links] == nth).all() and read.cell_data["link"][0][links].tolist() == [
+            0,
+            1,
+            2,
+        ]
         assert np.array_equal(block.data[links], np.column_stack([np.arange(3), np.arange(1, 4)]) + 4 * nth)
         assert across >= first
         first = across + np.abs(shape.offset).max()
@@ -217,7 +229,9 @@ def test_grids(ending, tmp_path):
 
 def items(parent):
     return {
-        each.get("Name"): np.array(each.find("DataItem").text.split(), float).reshape([*map(int, each.find("DataItem").get("Dimensions").split())])
+        each.get("Name"): np.array(each.find("DataItem").text.split(), float).reshape(
+            [*map(int, each.find("DataItem").get("Dimensions").split())]
+        )
         for each in parent.findall("Attribute")
     }
 
@@ -248,5 +262,7 @@ def test_xdmf_of_modes(tmp_path):
             where = found.shape[row] * np.exp(1j * found.angular_speed[row] * time)
             assert np.allclose(read["offset"][pins, 0] + 1j * read["offset"][pins, 1], where, atol=1e-14)
             moved = 1j * found.angular_speed[row] * where
-            assert np.allclose(read["velocity"][pins, 0] + 1j * read["velocity"][pins, 1], moved, rtol=1e-12, atol=1e-12)
+            assert np.allclose(
+                read["velocity"][pins, 0] + 1j * read["velocity"][pins, 1], moved, rtol=1e-12, atol=1e-12
+            )
             assert (read["angular_speed"][4 * nth : 4 * nth + 4] == found.angular_speed[row]).all()

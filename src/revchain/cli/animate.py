@@ -26,21 +26,33 @@ def animate(
     scene: SceneFile,
     out: Annotated[
         Path,
-        typer.Option("--out", "-o", metavar="FILE", help="Film (.gif, .mp4), page (.html), solid (.glb), grid (.vtu, .vtk, .xdmf)."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FILE",
+            help="Film (.gif, .mp4), page (.html), solid (.glb), grid (.vtu, .vtk, .xdmf).",
+        ),
     ],
     question: Annotated[
         str | None,
-        typer.Option("--ask", metavar="|".join(QUESTIONS), help="What is shown; the first that the scene asks if left out."),
+        typer.Option(
+            "--ask", metavar="|".join(QUESTIONS), help="What is shown; the first that the scene asks if left out."
+        ),
     ] = None,
     figures: Annotated[
         str | None,
-        typer.Option(metavar='"1; 3"', help="Modes by their numbers; shapes and branches by their places, from 0. The first six if left out."),
+        typer.Option(
+            metavar='"1; 3"',
+            help="Modes by their numbers; shapes and branches by their places, from 0. The first six if left out.",
+        ),
     ] = None,
     time_scale: Annotated[
         float | None, typer.Option(metavar="X", help="Seconds of motion in one second of film; 1 is real time.")
     ] = None,
     duration: Annotated[float | None, typer.Option(metavar="S", help="Seconds of film.")] = None,
-    frames_per_second: Annotated[float | None, typer.Option(metavar="K", help="25 if left out; not of .html and .glb.")] = None,
+    frames_per_second: Annotated[
+        float | None, typer.Option(metavar="K", help="25 if left out; not of .html and .glb.")
+    ] = None,
     gravity: Gravity = None,
     quiet: Quiet = False,
 ) -> None:
@@ -81,4 +93,7 @@ def _numbers(text: str) -> list[int]:
     try:
         return [int(part) for part in text.split(";")]
     except ValueError:
-        raise Stop(f'--figures: must be whole numbers with semicolons between them, such as "1; 3", got {text}', ExitCode.WRONG_USAGE) from None
+        raise Stop(
+            f'--figures: must be whole numbers with semicolons between them, such as "1; 3", got {text}',
+            ExitCode.WRONG_USAGE,
+        ) from None

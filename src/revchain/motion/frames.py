@@ -63,7 +63,12 @@ class Drawing:
         for nth, each in enumerate(film.figures):
             self._stage(each, nth, low, high, deep)
         if chart:
-            inner = (across + 0.8 / whole[0], (foot + 0.1) / whole[1], 1 - across - 1.0 / whole[0], drawn[1] / whole[1] - 0.04)
+            inner = (
+                across + 0.8 / whole[0],
+                (foot + 0.1) / whole[1],
+                1 - across - 1.0 / whole[0],
+                drawn[1] / whole[1] - 0.04,
+            )
             self._chart(figure.add_axes(inner))
         self.canvas.draw()
         self.background = self.canvas.copy_from_bbox(figure.bbox)
@@ -85,9 +90,13 @@ class Drawing:
             ax.plot(*seen(tips, figure.height[0, 0], at), color="0.85", linewidth=0.5)
         colour = f"C{film.colours[nth]}"
         arms = ax.plot([], [], color="0.3", linewidth=2.0, zorder=2)[0]
-        links = ax.plot([], [], color=colour, linewidth=1.8, zorder=3, marker="o" if film.shows_pins else "", markersize=3.0)[0]
+        links = ax.plot(
+            [], [], color=colour, linewidth=1.8, zorder=3, marker="o" if film.shows_pins else "", markersize=3.0
+        )[0]
         stout = ax.plot([], [], color=colour, linewidth=4.5, alpha=0.45, zorder=2)[0]
-        text = ax.text(at, low * np.cos(TILT) - 1.15 * deep - 0.02 * (high - low), "", ha="center", va="top", fontsize=8)
+        text = ax.text(
+            at, low * np.cos(TILT) - 1.15 * deep - 0.02 * (high - low), "", ha="center", va="top", fontsize=8
+        )
 
         def place(frame: int) -> None:
             offset, height = figure.in_space(frame), figure.heights(frame)
@@ -131,7 +140,9 @@ class Drawing:
         wheels = np.flatnonzero(bodies.wheel)
         if wheels.size:
             colours = [FORWARD if bodies.wheel[k] > 0 else BACKWARD for k in wheels]
-            discs = require("matplotlib.collections", "animate", "animation").LineCollection([], colors=colours, linewidths=4, zorder=4)
+            discs = require("matplotlib.collections", "animate", "animation").LineCollection(
+                [], colors=colours, linewidths=4, zorder=4
+            )
             self.ax.add_collection(discs)
 
             def turn(frame: int) -> None:

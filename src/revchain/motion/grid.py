@@ -30,7 +30,11 @@ def write_xdmf(film: Film, path: Path, progress: Progress) -> None:
     """XDMF 3 with all numbers inside: one grid for each frame, its time that of the motion."""
     root = ElementTree.Element("Xdmf", Version="3.0")
     steps = ElementTree.SubElement(
-        ElementTree.SubElement(root, "Domain"), "Grid", Name=film.system, GridType="Collection", CollectionType="Temporal"
+        ElementTree.SubElement(root, "Domain"),
+        "Grid",
+        Name=film.system,
+        GridType="Collection",
+        CollectionType="Temporal",
     )
     lines = _lines(film)
     for frame in range(film.frames):
@@ -81,7 +85,9 @@ def _of_pins(film: Film, frame: int) -> dict[str, Any]:
         "offset": np.column_stack([offset.real, offset.imag, np.zeros(offset.size)]),
     }
     if film.chart is None and any(figure.speed.any() for figure in film.figures):
-        moved = np.concatenate([1j * _row(figure.speed, frame) * each for figure, each in zip(film.figures, true, strict=True)])
+        moved = np.concatenate(
+            [1j * _row(figure.speed, frame) * each for figure, each in zip(film.figures, true, strict=True)]
+        )
         found["velocity"] = np.column_stack([moved.real, moved.imag, np.zeros(moved.size)])
     return found
 
@@ -94,7 +100,9 @@ def _of_links(film: Film, frame: int) -> dict[str, Any]:
         "figure": np.repeat(np.arange(many), links),
         "angular_speed": np.repeat([_row(figure.speed, frame) for figure in film.figures], links),
     }
-    tensions = [figure.tension for figure in film.figures if figure.tension is not None and figure.tension.size == links]
+    tensions = [
+        figure.tension for figure in film.figures if figure.tension is not None and figure.tension.size == links
+    ]
     if len(tensions) == many:
         found["tension"] = np.concatenate(tensions)
     return found

@@ -62,8 +62,12 @@ def _data(film: Film) -> dict[str, Any]:
         "held": film.is_held,
         "stands": bool(film.stout.all()),
         "stout": np.flatnonzero(film.stout).tolist(),
-        "bodies": {name: _rounded(getattr(bodies, name)) for name in ("link", "along", "size", "rod", "wheel", "floats")},
-        "figures": [_figure(figure, COLOURS[colour]) for figure, colour in zip(film.figures, film.colours, strict=True)],
+        "bodies": {
+            name: _rounded(getattr(bodies, name)) for name in ("link", "along", "size", "rod", "wheel", "floats")
+        },
+        "figures": [
+            _figure(figure, COLOURS[colour]) for figure, colour in zip(film.figures, film.colours, strict=True)
+        ],
         "clock": film.clock,
         "chart": None
         if chart is None

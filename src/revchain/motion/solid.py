@@ -20,7 +20,14 @@ SIDES = 20  # of a cylinder
 THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height of the whole
 DISC = 0.6  # radius of a flywheel, over the reach
 COLOURS = ("1f77b4", "ff7f0e", "2ca02c", "d62728", "9467bd", "8c564b", "e377c2", "7f7f7f", "bcbd22", "17becf")
-GREYS = {"body": "595959", "floating": "f0f0f0", "support": "1a1a1a", "axis": "b3b3b3", "forward": "1f77b4", "backward": "d62728"}
+GREYS = {
+    "body": "595959",
+    "floating": "f0f0f0",
+    "support": "1a1a1a",
+    "axis": "b3b3b3",
+    "forward": "1f77b4",
+    "backward": "d62728",
+}
 FLOAT, SHORT, ARRAY, ELEMENTS = 5126, 5123, 34962, 34963  # of glTF
 Floats32 = NDArray[np.float32]
 
@@ -85,7 +92,9 @@ class _Solid:
         if colour not in self.materials:
             # glTF has linear light, colours of the web do not
             light = [(int(colour[k : k + 2], 16) / 255) ** 2.2 for k in (0, 2, 4)]
-            rough = self.gltf.PbrMetallicRoughness(baseColorFactor=[*light, 1.0], metallicFactor=0.1, roughnessFactor=0.6)
+            rough = self.gltf.PbrMetallicRoughness(
+                baseColorFactor=[*light, 1.0], metallicFactor=0.1, roughnessFactor=0.6
+            )
             self.file.materials.append(self.gltf.Material(name=f"#{colour}", pbrMetallicRoughness=rough))
             self.materials[colour] = len(self.file.materials) - 1
         return self.materials[colour]
@@ -117,10 +126,14 @@ class _Solid:
         return number
 
     def _channel(self, node: int, what: str, values: Floats32, times: int) -> None:
-        sampler = self.gltf.AnimationSampler(input=times, output=self._accessor(values, f"VEC{values.shape[1]}"), interpolation="LINEAR")
+        sampler = self.gltf.AnimationSampler(
+            input=times, output=self._accessor(values, f"VEC{values.shape[1]}"), interpolation="LINEAR"
+        )
         self.animation.samplers.append(sampler)
         target = self.gltf.AnimationChannelTarget(node=node, path=what)
-        self.animation.channels.append(self.gltf.AnimationChannel(sampler=len(self.animation.samplers) - 1, target=target))
+        self.animation.channels.append(
+            self.gltf.AnimationChannel(sampler=len(self.animation.samplers) - 1, target=target)
+        )
 
     # ---- what is drawn
 
@@ -129,15 +142,28 @@ class _Solid:
         film, thin = self.film, THIN * self.tall
         low, high = film.low_and_high
         extras = {"gravity": film.gravity, "time_scale": film.time_scale, "caption": figure.caption(0)}
-        root = self._node(figure.label.replace("\n", ", ") or "figure", None, translation=[float(self.across[nth]), 0.0, 0.0], extras=extras)
-        self._node("axis", root, mesh=self._mesh("cylinder", GREYS["axis"]), translation=[0.0, (low + high) / 2, 0.0], scale=[thin / 3, high - low, thin / 3])
+        root = self._node(
+            figure.label.replace("\n", ", ") or "figure",
+            None,
+            translation=[float(self.across[nth]), 0.0, 0.0],
+            extras=extras,
+        )
+        self._node(
+            "axis",
+            root,
+            mesh=self._mesh("cylinder", GREYS["axis"]),
+            translation=[0.0, (low + high) / 2, 0.0],
+            scale=[thin / 3, high - low, thin / 3],
+        )
         turning = self._node("turning", root)
         self._turn(figure, turning, phase, whole)
         points = in_space(figure.offset, figure.height)
         colour = COLOURS[film.colours[nth]]
         for k in range(points.shape[1] - 1):
             name = film.names[k] if film.names else f"segment {k}"
-            self._bar(name, turning, points[:, k + 1], points[:, k], (THICK if film.stout[k] else THIN) * self.tall, colour)
+            self._bar(
+                name, turning, points[:, k + 1], points[:, k], (THICK if film.stout[k] else THIN) * self.tall, colour
+            )
         self._bodies(turning, points)
         for end in (0, -1) if film.is_held else (-1,):
             self._ball("support", turning, points[:, end], 0.6 * BALL * self.tall, GREYS["support"])
@@ -193,7 +219,9 @@ class _Solid:
             grey = GREYS["floating" if floats else "body"]
             self._ball(f"body of {of}", parent, middle, BALL * self.tall * max(size, 0.3), grey)
             if rod:
-                self._bar(f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, grey)
+                self._bar(
+                    f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, grey
+                )
             if wheel:
                 half = 0.6 * THIN * self.tall * step / np.linalg.norm(step, axis=1)[:, None]
                 disc = GREYS["forward" if wheel > 0 else "backward"]
@@ -236,8 +264,15 @@ def _cylinder() -> tuple[Floats32, Floats32, NDArray[np.uint16]]:
     k, after, n = np.arange(SIDES), (np.arange(SIDES) + 1) % SIDES, SIDES
     side = [np.column_stack([k, k + n, after]), np.column_stack([after, k + n, after + n])]
     fan = np.arange(1, n - 1)
-    ends = [np.column_stack([0 * fan + 2 * n, fan + 2 * n, fan + 1 + 2 * n]), np.column_stack([0 * fan + 3 * n, fan + 1 + 3 * n, fan + 3 * n])]
-    return points.astype(np.float32), normals.astype(np.float32), np.concatenate([*side, *ends]).astype(np.uint16).ravel()
+    ends = [
+        np.column_stack([0 * fan + 2 * n, fan + 2 * n, fan + 1 + 2 * n]),
+        np.column_stack([0 * fan + 3 * n, fan + 1 + 3 * n, fan + 3 * n]),
+    ]
+    return (
+        points.astype(np.float32),
+        normals.astype(np.float32),
+        np.concatenate([*side, *ends]).astype(np.uint16).ravel(),
+    )
 
 
 def _ball() -> tuple[Floats32, Floats32, NDArray[np.uint16]]:
@@ -246,7 +281,9 @@ def _ball() -> tuple[Floats32, Floats32, NDArray[np.uint16]]:
     down, about = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, n + 1), indexing="ij")
     points = np.stack([np.sin(down) * np.cos(about), np.cos(down), np.sin(down) * np.sin(about)], -1).reshape(-1, 3)
     at = (np.arange(rows)[:, None] * (n + 1) + np.arange(n)).ravel()
-    faces = np.concatenate([np.column_stack([at, at + 1, at + n + 1]), np.column_stack([at + 1, at + n + 2, at + n + 1])])
+    faces = np.concatenate(
+        [np.column_stack([at, at + 1, at + n + 1]), np.column_stack([at + 1, at + n + 2, at + n + 1])]
+    )
     inside = np.concatenate([np.repeat(np.arange(rows) > 0, n), np.repeat(np.arange(rows) < rows - 1, n)])
     points = points.astype(np.float32)
     return points, points, faces[inside].astype(np.uint16).ravel()

@@ -270,12 +270,12 @@ def _swept(
         turned = np.cumsum((speed[1:] + speed[:-1]) / 2) * time_scale / asked.frames_per_second
         captions = [f"{label}\n{speed_words(now)}".strip() for now in speed.tolist()]
         if np.ptp(each.scale):
-            captions = [f"{text}\noffsets {larger:.3g}:1" for text, larger in zip(captions, scale.tolist(), strict=True)]
+            captions = [
+                f"{text}\noffsets {larger:.3g}:1" for text, larger in zip(captions, scale.tolist(), strict=True)
+            ]
         offset = _between(at, each.way, each.offset)
         height = _between(at, each.way, each.height)
-        figures.append(
-            Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions))
-        )
+        figures.append(Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions)))
         kept = thinned(curve)
         lines.append((np.abs(each.speed)[kept], curve[kept]))
         x.append(np.abs(speed))
@@ -322,7 +322,9 @@ def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Fl
     first, last = float(found.time.min(initial=np.inf)), float(found.time.max(initial=-np.inf))
     if not first < last:
         raise ValueError(f"{asked.place}: the swing needs two times or more, the first and the last of the film")
-    seconds = asked.duration or min((last - first) / (asked.time_scale or 1.0), LONGEST if asked.time_scale is None else np.inf)
+    seconds = asked.duration or min(
+        (last - first) / (asked.time_scale or 1.0), LONGEST if asked.time_scale is None else np.inf
+    )
     frames = asked.frames(seconds)
     time_scale = asked.time_scale or (last - first) / seconds
     time = first + np.arange(frames) / asked.frames_per_second * time_scale

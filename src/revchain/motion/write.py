@@ -28,7 +28,9 @@ FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4, ".html": write
 SOLIDS: dict[str, Writer] = {".glb": write_glb}
 GRIDS: dict[str, Writer] = {".vtu": write_grid, ".vtk": write_grid, ".xdmf": write_xdmf}
 
-METHODS = {ending: name for name, writers in (("animate", FILMS), ("to_glb", SOLIDS), ("to_vtk", GRIDS)) for ending in writers}
+METHODS = {
+    ending: name for name, writers in (("animate", FILMS), ("to_glb", SOLIDS), ("to_vtk", GRIDS)) for ending in writers
+}
 
 
 def require_for(ending: str) -> None:
@@ -75,9 +77,13 @@ def write_film(
     film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
     if ending == ".glb" and turns > MOST_TURNS:
-        raise ValueError(f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns")
+        raise ValueError(
+            f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns"
+        )
     if writers[ending] is write_grid and not film.is_rigid:
-        raise ValueError(f"{place}: this result is another at every instant; path must end in .xdmf, got {os.fspath(path)}")
+        raise ValueError(
+            f"{place}: this result is another at every instant; path must end in .xdmf, got {os.fspath(path)}"
+        )
     with naming(path), written_aside(path) as [aside]:
         writers[ending](film, aside, progress or _silent)
 

@@ -17,7 +17,9 @@ CAROUSEL = rc.Rig(rc.Chain(mass=[80.0, 5.0], length=[1.0, 3.0]), support=rc.Supp
 TOP = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=0.2))
 BLADE = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.5)
 ROPE = rc.Held(rc.Cord(1.0), span=0.5)
-ARMS = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.5, lower=rc.Support(radius=0.1), upper=rc.Support(radius=0.2))
+ARMS = rc.Held(
+    rc.Chain.uniform_rods(10, length=1.0), span=0.5, lower=rc.Support(radius=0.1), upper=rc.Support(radius=0.2)
+)
 RELEASED = [0.05, 0.02, 0.01, 0.0]
 TIMES = np.linspace(0.5, 2.5, 21)
 
