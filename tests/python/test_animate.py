@@ -465,3 +465,11 @@ def test_every_kind_of_moving_result_is_here():
 
     shown = {kind.__name__ for kind in kinds(Moving) if not kind.__name__.startswith("_")}
     assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving", "Shape"}  # bases
+
+
+def test_speeds_of_both_directions_are_in_the_chart():
+    rig = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.3))
+    both = film(rc.response(rig, angular_speed=np.linspace(-3.0, 3.0, 30), support_radius=0.01))
+    assert both.chart.x[0][0] == -3.0 and both.chart.x[0][-1] == 3.0 and (np.diff(both.figures[0].phase)[:100] < 0).all()
+    back = film(rc.branch(rig, 1, max_angular_speed=9.0, direction=-1))
+    assert (back.chart.x[0] > 0).all() and (back.figures[0].speed < 0).all()

@@ -173,6 +173,7 @@ class Film:
             chart=chart,
             clock=_few(self.clock, rows),
             bodies=self.bodies if same else Bodies(),
+            shows_pins=self.shows_pins and same,
             names=self.names if same else (),
             stout=self.stout[kept[:-1]],
             frames_per_second=(rows.size - 1) / (self.frames - 1) * self.frames_per_second,

@@ -277,8 +277,9 @@ def _swept(
         height = _between(at, each.way, each.height)
         figures.append(Figure(label, offset, height, scale, np.concatenate([[0.0], turned]), speed, tuple(captions)))
         kept = thinned(curve)
-        lines.append((np.abs(each.speed)[kept], curve[kept]))
-        x.append(np.abs(speed))
+        way = -1.0 if (each.speed <= 0).all() else 1.0  # a branch of backward rotation is drawn as one of forward
+        lines.append((way * each.speed[kept], curve[kept]))
+        x.append(way * speed)
         y.append(np.interp(at, each.way, curve))
     return _film(result, figures, asked, time_scale, Chart(*axes, tuple(lines), tuple(x), tuple(y)))
 
