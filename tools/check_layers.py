@@ -100,10 +100,10 @@ FORBIDDEN = {
 # What one compiler knows and another refuses, and the headers that hold it.
 COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
 COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
-# Folders of src/revchain, each of which may import from itself and those before it. Pictures are imported when something
-# is drawn, by the class that is drawn; they compute nothing and import only what is said here.
+# Folders of src/revchain, each of which may import from itself and those before it. Pictures and films are imported when
+# something is drawn, by the class that is drawn; they solve nothing and import only what is said here.
 PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "scenes", "studies", "cli")
-PICTURES = {"systems", "results"}
+PICTURES = {"plots": {"systems", "results"}, "motion": {"systems", "results", "plots"}}
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}
 
@@ -217,7 +217,7 @@ def check_python(path: Path) -> list[str]:
     """Complains about one module of the package; the modules of ours that it imports when it is itself imported."""
     here = path.relative_to(PYTHON).with_suffix("").parts
     own, ours = here[0] if len(here) > 1 else "", []
-    if len(here) > 1 and own not in (*PYTHON_FOLDERS, "plots"):
+    if len(here) > 1 and own not in {*PYTHON_FOLDERS, *PICTURES}:
         complain(path, 1, f"unknown folder {own}; its place goes into PYTHON_FOLDERS in tools/check_layers.py")
         return []
     for node, at_import in imports_of(ast.parse(path.read_text(encoding="utf-8"))):
@@ -226,8 +226,9 @@ def check_python(path: Path) -> list[str]:
         names = [target] if node.module and len(target) > 1 else [(*target, name.name) for name in node.names]
         for name in names:
             folder_of = name[0] if len(name) > 1 or name[0] in PYTHON_FOLDERS else ""
-            if folder_of in PYTHON_FOLDERS and own:
-                allowed = PICTURES if own == "plots" else PYTHON_FOLDERS[: PYTHON_FOLDERS.index(own) + 1]
+            known = PYTHON_FOLDERS if own in PYTHON_FOLDERS else (*PYTHON_FOLDERS, *PICTURES)
+            if folder_of in known and own:
+                allowed = {own, *PICTURES[own]} if own in PICTURES else {*PYTHON_FOLDERS[: PYTHON_FOLDERS.index(own) + 1]}
                 if folder_of not in allowed:
                     complain(path, node.lineno, f"{own} must not import {folder_of}")
             if at_import and (PYTHON.joinpath(*name).with_suffix(".py")).is_file():

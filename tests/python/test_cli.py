@@ -226,6 +226,66 @@ def ends_in_one_sentence(done, code, words):
     assert done[2].startswith("revchain: ") and words in done[2]
 
 
+ENDINGS = (".gif", ".mp4", ".html", ".glb", ".vtu", ".vtk", ".xdmf")
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_animate(run, ending):
+    for package in {".gif": ["PIL"], ".mp4": ["imageio_ffmpeg"], ".glb": ["pygltflib"]}.get(ending, ["meshio"]):
+        pytest.importorskip(package)
+    code, out, err = run("animate", "watch.toml", "-o", f"film{ending}", "--duration", 0.2)
+    assert (code, out, err) == (0, f"wrote film{ending}\n", "")
+    whole = Path(f"film{ending}").read_bytes()
+    assert len(whole) > 3000
+    code, out, err = run("animate", "watch.toml", "-o", f"film{ending}", "--duration", 0.2, "--figures", "2; 1", "--quiet")
+    assert (code, out, err) == (0, "", "") and Path(f"film{ending}").read_bytes() != whole
+    assert files() == sorted([f"film{ending}", "watch.toml"])
+
+
+@pytest.mark.parametrize("question", ["shapes", "response", "swing"])
+def test_animate_shows_what_is_asked(run, question):
+    Path("swinging.toml").write_text(SWINGING)
+    code, _, err = run("animate", "swinging.toml", "-o", f"{question}.html", "--ask", question, "--gravity", "1.62 m/s^2")
+    assert (code, err) == (0, "")
+    page = Path(f"{question}.html").read_text("utf-8")
+    assert "gravity 1.62 m/s²" in page
+    assert {"shapes": "half wave", "response": "carried round", "swing": "t = 0.000 s"}[question] in page
+    code, _, err = run("animate", "swinging.toml", "-o", "first.html", "--gravity", "1.62")
+    assert code == 0 and "half wave" in Path("first.html").read_text("utf-8")  # the first that the scene asks
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["-o", "film.avi"], 2, "--out: film.avi must end in .gif, .mp4, .html, .glb, .vtu, .vtk, .xdmf"),
+        ([], 2, "missing option '--out' / '-o'; see revchain animate --help"),
+        (["-o", "a.html", "--ask", "tune"], 2, "--ask: must be one of modes, shapes, response, swing, branches, got tune"),
+        (["-o", "a.html", "--ask", "shapes"], 2, "watch.toml: ask.shapes: give angular_speed or conical_height"),
+        (["-o", "a.html", "--figures", "1, 2"], 2, '--figures: must be whole numbers with semicolons between them, such as "1; 3"'),
+        (["-o", "a.html", "--figures", "9"], 2, "watch.toml: modes: mode must be from 1 to 4, got 9"),
+        (["-o", "a.html", "--duration", "0"], 2, "--duration: must be positive and finite, got 0"),
+        (["-o", "a.html", "--time-scale", "-1"], 2, "--time-scale: must be positive and finite, got -1"),
+        (["-o", "a.glb", "--frames-per-second", "9"], 2, "--frames-per-second: a .glb file has no frames; leave it out"),
+        (["-o", "a.gif", "--duration", "1e6"], 2, "watch.toml: modes: duration times frames_per_second must be at most 20000"),
+        (["-o", "a.html", "--gravity", "-1"], 2, "--gravity: must be positive"),
+        (["-o", "missing/a.html"], 4, "missing/a.html: cannot be written: No such file or directory"),
+    ],
+)
+def test_animate_refuses(run, arguments, code, words):
+    ends_in_one_sentence(run("animate", "watch.toml", *arguments), code, words)
+    assert files() == ["watch.toml"]
+
+
+def test_animate_of_scenes_that_cannot_be_shown(run):
+    ends_in_one_sentence(run("animate", "missing.toml", "-o", "a.html"), 3, "missing.toml: cannot be read")
+    code, out, err = run("animate", SCENES / "troposkien.toml", "-o", "a.html", "--ask", "modes")
+    assert code == 2 and "a chain or cord whose ends are held a span apart; ask for its shapes" in err and out == ""
+    Path("few.toml").write_text(SWINGING.replace("conical_height = 0.05", "conical_height = 5.0"))
+    ends_in_one_sentence(run("animate", "few.toml", "-o", "a.html"), 2, "few.toml: shapes: there is no shape to draw")
+    ends_in_one_sentence(run("animate", "few.toml", "-o", "a.vtu", "--ask", "swing"), 2, "path must end in .xdmf")
+    assert files() == ["few.toml", "watch.toml"]
+
+
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [

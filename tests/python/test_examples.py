@@ -274,6 +274,13 @@ def test_experiments_are_whole():
     assert document.count("\n**Asked**") == document.count("\n**Take**") == document.count("\n**Expect**") == 11
 
 
+def frames_of(path):
+    """Each picture of a GIF."""
+    sequence = pytest.importorskip("PIL.ImageSequence")
+    with pytest.importorskip("PIL.Image").open(path) as film:
+        return [frame.copy() for frame in sequence.Iterator(film)]
+
+
 PAGES = [path for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if "```python" in path.read_text("utf-8")]
 
 
@@ -293,6 +300,12 @@ def test_python_of_pages(python, tmp_path, page):
         assert [line.rstrip() for line in found.splitlines()] == expected.splitlines(), code
     for name in re.findall(r"savefig\(\"(.*?)\"\)", page.read_text("utf-8")):
         assert (tmp_path / name).stat().st_size > 1000 and (ROOT / "docs/figures" / name).is_file()
+    for name in re.findall(r"animate\(\"(.*?\.gif)\"", page.read_text("utf-8")):
+        made, kept = (frames_of(folder / name) for folder in (tmp_path, ROOT / "docs/figures"))
+        assert len(made) == len(kept) > 1 and made[0].size == kept[0].size
+        differences = [np.abs(np.subtract(*(np.asarray(each.convert("L"), float) for each in pair))) for pair in zip(made, kept, strict=True)]
+        assert max(map(np.mean, differences)) < 1.0  # of 255: letters may differ
+        assert (ROOT / "docs/figures" / name).stat().st_size < 400_000
 
 
 def test_readme_has_the_table_of_questions():

@@ -114,6 +114,11 @@ ONE_OF = {
     "Study.from_dict": {"data": STUDY},
     "study.Study.from_dict": {"data": STUDY},
 }
+WRITTEN = {  # by method: a film of a few frames
+    "animate": {"path": "film.html", "duration": 0.2},
+    "to_glb": {"path": "solid.glb", "duration": 0.2},
+    "to_vtk": {"path": "grid.xdmf", "duration": 0.2},
+}
 # Some are loaded when first asked for: all of them here, so that the list does not depend on which tests came before.
 FILES = [
     importlib.import_module(one.name)
@@ -181,7 +186,7 @@ def baseline(name, function):
     named = [one.name for one in parameters if one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)]
     needed = [one.name for one in parameters if one.default is one.empty and one.name in named]
     extra = ONE_OF.get(name, {})
-    known = {**{one: GIVEN.get(one, 1.0) for one in needed}, **extra}
+    known = {**{one: GIVEN.get(one, 1.0) for one in needed}, **WRITTEN.get(name.rpartition(".")[2], {}), **extra}
     if name in ("elliptic.complete", "elliptic.complete_pi", "elliptic.incomplete", "elliptic.incomplete_pi", "elliptic.jacobi"):
         known["modulus"] = 0.5
     return known, named

@@ -19,7 +19,7 @@ from ..scenes.error import SceneError
 from ..scenes.scene import json_schema, load_scene
 from ..scenes.upgrade import upgraded_text
 from ..studies.study import study_schema
-from . import ask, sweep  # noqa: F401  their commands come first
+from . import animate, ask, sweep  # noqa: F401  their commands come first
 from .exit_codes import ExitCode
 from .frame import STDOUT, Stop, app, guarded, run_app
 

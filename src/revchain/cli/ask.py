@@ -61,7 +61,7 @@ def run(
     quiet: Quiet = False,
 ) -> None:
     """Answer all questions of a scene; find its modes if it has none."""
-    read, folder = _read(scene, gravity, units), Path("out", scene.stem) if out is None else out
+    read, folder = read_scene(scene, gravity, units), Path("out", scene.stem) if out is None else out
     kinds = [".txt", ".json", ".csv", ".png"]
     try:
         require("matplotlib", "plot", "the picture")
@@ -91,7 +91,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
     def command(scene: Path, **given: Any) -> None:
         common = {name: given.pop(name) for name in COMMON if name in given}
         changed = {name: _meant(field, given[name]) for name, field in fields.items() if given[name] is not None}
-        read = _read(scene, common["gravity"], common["units"])
+        read = read_scene(scene, common["gravity"], common["units"])
         outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"])
         report = _answer(scene, read, question, changed, outputs, common["units"], common["quiet"])
         if STDOUT in (common["json"], common["csv"]):
@@ -167,7 +167,7 @@ def _number(text: str) -> Any:
     return text.strip()
 
 
-def _read(path: Path, gravity: str | None, units: str) -> Scene:
+def read_scene(path: Path, gravity: str | None, units: str) -> Scene:
     """The scene, with another gravity if one is given."""
     if units not in ("deg", "rad"):
         raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
@@ -191,18 +191,9 @@ def _answer(
     quiet: bool,
 ) -> Report:
     """Answer one question and write the files. The outputs are opened first."""
-    if sentence := without_answer(question, scene.system(), path):
-        raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
+    refuse_without_answer(path, scene, question)
     with written_aside(*(place for place, _ in outputs)) as asides:
-        try:
-            if question == "modes":
-                console = Console(stderr=True)
-                found = watched(lambda progress: scene._answer(question, changed, progress), console, quiet)
-            else:
-                found = scene._answer(question, changed)
-        except SceneError as error:
-            said = [f"{path}: {_said(each.key, each.reason, question, changed, path)}" for each in error.problems]
-            raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
+        found = answer_of(path, scene, question, changed, quiet)
         report = Report(scene, path.stem, question, found, units)
         for aside, (place, kind) in zip(asides, outputs, strict=True):
             try:
@@ -213,6 +204,23 @@ def _answer(
             except OSError as error:  # says the place that was asked for, or none
                 raise OSError(error.errno, error.strerror or str(error), str(place)) from None
     return report
+
+
+def refuse_without_answer(path: Path, scene: Scene, question: str) -> None:
+    """Stop where a question has no answer for what hangs."""
+    if sentence := without_answer(question, scene.system(), path):
+        raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
+
+
+def answer_of(path: Path, scene: Scene, question: str, changed: dict[str, Any], quiet: bool) -> Any:
+    """The result, with a bar while modes are found."""
+    try:
+        if question == "modes":
+            return watched(lambda progress: scene._answer(question, changed, progress), Console(stderr=True), quiet)
+        return scene._answer(question, changed)
+    except SceneError as error:
+        said = [f"{path}: {_said(each.key, each.reason, question, changed, path)}" for each in error.problems]
+        raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
 
 
 def _drawn(found: Any) -> Any:

@@ -3,12 +3,22 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from threading import Event, Thread
 from typing import TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 from .. import _core
 
@@ -21,6 +31,22 @@ def bar_of(what: str, console: Console, quiet: bool, *columns: ProgressColumn) -
     """A progress bar, shown only on a terminal."""
     shown = (TextColumn(what), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn(), *columns)
     return Progress(*shown, console=console, transient=True, disable=quiet or not console.is_terminal)
+
+
+def counted(stack: ExitStack, what: str, quiet: bool) -> Callable[[int, int], None]:
+    """What is called with how many are done, of how many: a bar after a while, where there is a terminal."""
+    bar = bar_of(what, Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
+    task = bar.add_task(what, total=None)
+    began = time.monotonic()
+    started: list[bool] = []
+
+    def told(done: int, total: int) -> None:
+        if not started and time.monotonic() - began > PATIENCE:
+            started.append(True)
+            stack.enter_context(bar)
+        bar.update(task, completed=done, total=total)
+
+    return told
 
 
 def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:

@@ -6,15 +6,12 @@ from __future__ import annotations
 import sys
 import time
 import warnings
-from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
-from rich.progress import MofNCompleteColumn, TimeRemainingColumn
 
 from ..plots.sweep import why_not_drawn
 from ..results.files import written_aside
@@ -25,7 +22,7 @@ from ..studies.sweep import dask_client
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
-from .progress import PATIENCE, bar_of
+from .progress import counted
 
 SENTENCES = 5  # number of refused points that are shown
 MAX_SHOWN = 10**7  # largest number of results with a summary
@@ -75,7 +72,7 @@ def sweep(
     with ExitStack() as stack:
         picture = None if plot is None else _picture(plot, out, stack)
         executor = None if dask is None else _executor(dask, workers, stack)
-        told = _bar(stack, given.points, quiet)
+        told = counted(stack, "points", quiet)
         threads = None if executor is not None else workers
         try:
             with warnings.catch_warnings(record=True) as warned:
@@ -131,22 +128,6 @@ def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
         stack.callback(client.cluster.close)
     executor: Executor = client.get_executor()
     return executor
-
-
-def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], None]:
-    """A function that shows a progress bar after a while, on a terminal."""
-    bar = bar_of("points", Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
-    task = bar.add_task("points", total=points)
-    began = time.monotonic()
-    started: list[bool] = []
-
-    def told(done: int, total: int) -> None:
-        if not started and time.monotonic() - began > PATIENCE:
-            started.append(True)
-            stack.enter_context(bar)
-        bar.update(task, completed=done, total=total)
-
-    return told
 
 
 def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:

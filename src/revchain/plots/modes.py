@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..results.motions import Response
 from ..results.sheet import digits
@@ -40,7 +41,7 @@ LETTER = 0.07  # inches
 WHEEL = 0.6  # half the length of the bar of a flywheel
 
 
-class _Straight:
+class Straight:
     """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
 
     def __init__(self, system: System) -> None:
@@ -79,6 +80,10 @@ class _Straight:
         """To where the names reach, where columns are as wide as they are by default."""
         longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
         return max((far + n * LETTER * SPACING / COLUMN for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
+
+    def height(self) -> Floats:
+        """Of each pin or place, above the support, or the lower end of what is held at both ends."""
+        return self.level if self.upwards else -self.level
 
     def finish(self, ax: Axes, bodies: bool = True) -> None:
         low, high = float(self.level.min()), float(self.level.max())
@@ -167,9 +172,7 @@ class _Straight:
         assert isinstance(chain, Chain)
         weight = np.broadcast_to(chain._compiled.weight, chain.size)
         middle = self._middles()
-        heavy, floats = weight > 0, np.zeros(chain.size, bool)
-        if isinstance(system, Rig) and system.displaced is not None:
-            floats = np.broadcast_to(next(iter(system.displaced._given.values())), chain.size) > weight
+        heavy, floats = weight > 0, floating(system)
         reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
         long = heavy & (reach > 0)
         ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
@@ -188,6 +191,15 @@ class _Straight:
             ax.annotate(name, (x + side * far, z), xytext=(9 * side, 0), textcoords="offset points", **place)
 
 
+def floating(system: System) -> NDArray[np.bool_]:
+    """Of each link: whether the fluid bears more than it weighs."""
+    base: Any = Straight(system).base
+    weight = np.broadcast_to(base._compiled.weight, base.size)
+    if not isinstance(system, Rig) or system.displaced is None:
+        return np.zeros(base.size, bool)
+    return np.broadcast_to(next(iter(system.displaced._given.values())), base.size) > weight
+
+
 def len_of(system: Any) -> int:
     """Number of links; 0 of a cord."""
     return system.size if isinstance(system, Chain | Rig) else 0
@@ -196,7 +208,7 @@ def len_of(system: Any) -> int:
 def plot_system(system: System, ax: Axes | None) -> Axes:
     """A system at rest; see `Chain.plot`."""
     ax = axes_or_new(ax, 4.2, 6.0)
-    straight = _Straight(system)
+    straight = Straight(system)
     straight.at_rest(ax)
     straight.finish(ax)
     ax.set_xlim(-1.3, max(1.3, straight.reach()))
@@ -211,9 +223,9 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
 
 def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
     """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
-    if ax is not None or system is None or not _Straight(system).few:
+    if ax is not None or system is None or not Straight(system).few:
         return axes_or_new(ax, width, height)
-    straight = _Straight(system)
+    straight = Straight(system)
     own = 1.1 + 0.7 * max(1.0, straight.reach() / 1.3)
     left, right = new_figure(min(width + own, WIDEST), height).subplots(1, 2, width_ratios=[own, width])
     plot_system(system, left).set_xlabel(straight.said)
@@ -236,6 +248,14 @@ def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[in
     return numbers
 
 
+def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
+    """Places of the modes to draw in the arrays; of a rig both directions of each number."""
+    if which is None and len(modes):
+        return np.arange(min(len(modes), MOST_SHAPES))
+    numbers = chosen(place, modes.number, which)
+    return np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
+
+
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
     """See `Modes.plot` and `RigModes.plot`."""
     place = f"revchain.{type(modes).__name__}.plot"
@@ -245,12 +265,8 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
-    if which is None and (rigged or len(modes)):
-        rows = np.arange(min(len(modes), MOST_SHAPES))
-    else:
-        numbers = chosen(place, modes.number, which)
-        rows = np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
-    straight = _Straight(system)
+    rows = np.arange(0) if rigged and not len(modes) and which is None else rows_of(place, modes, which)
+    straight = Straight(system)
     labels = [straight.said]
     if carried is not None:
         labels.append(_speed_label("carried round", float(carried.angular_speed)))
@@ -296,7 +312,7 @@ def _speed_label(name: str, speed: float) -> str:
     return "\n".join(lines)
 
 
-def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float) -> None:
+def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
     colour = f"C{(int(modes.number[row]) - 1) % 10}"
     if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
@@ -317,7 +333,7 @@ def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: floa
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     """The response at one speed as a shape, the support on its circle."""
-    straight = _Straight(found.system)
+    straight = Straight(found.system)
     offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
     ax = beside_at_rest(found.system, ax, 5.0, 6.0)
     straight.axis(ax, 0.0)

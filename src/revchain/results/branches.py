@@ -15,6 +15,7 @@ from ..systems.cord import Cord
 from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of
 from ..systems.rig import Rig
 from .base import Field, Result, Results
+from .moving import Moving
 from .shapes import SteadyShape, forced, is_driven
 from .sheet import Column, Sheet
 
@@ -52,7 +53,7 @@ class StabilityWindow(Result):
         return Sheet("end", f"Stability window: {self.verdict}", columns, {"verdict": self.verdict})
 
 
-class Branch(Result):
+class Branch(Result, Moving):
     """A branch of steady shapes, point by point along its arc; returned by `branch` and `branches`.
 
     Arrays have one number for each point.
@@ -309,7 +310,7 @@ class Branch(Result):
         return Sheet("point", heading, columns, facts, spread=True)
 
 
-class Branches(Results[Branch]):
+class Branches(Results[Branch], Moving):
     """All branches found down to one conical height; returned by `branches`.
 
     The branches of the modes come first, slowest first; with the support off the axis it is the branch from rest. The

@@ -12,6 +12,7 @@ from ..systems.cord import Cord
 from ..systems.numbers import Floats
 from .base import Field, Result
 from .motions import energy_words
+from .moving import Moving
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ CORD_SWING = (
 )
 
 
-class CordSwing(Result):
+class CordSwing(Result, Moving):
     """Free motion of a cord in a plane after release, as a sum of its modes; returned by `swing`.
 
     Examples

@@ -14,13 +14,14 @@ from ..systems.numbers import Floats, Whole, place_of
 from .base import Field, Result, Results
 from .bent import HeldCordShape, HeldShape
 from .branches import branch_items, branch_sizes, fold_words, is_fold
+from .moving import Moving
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class HeldBranch(Result):
+class HeldBranch(Result, Moving):
     """A branch of steady shapes of a chain or cord held at a span; returned by `branch` and `branches`.
 
     Arrays have one number for each point, from the greatest speed to lower speeds and, after a fold, back.
@@ -182,7 +183,7 @@ class HeldBranch(Result):
         return Sheet("point", heading, columns, facts, spread=True)
 
 
-class HeldBranches(Results[HeldBranch]):
+class HeldBranches(Results[HeldBranch], Moving):
     """The branches of a chain or cord held at a span that start at one speed, ordered by half waves.
 
     Examples

@@ -17,6 +17,7 @@ from ..systems.held import Held
 from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive, refuse_beyond_memory, refuse_where
 from ..systems.rig import Rig
 from .base import Field, Result
+from .moving import Moving
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[An
     return compute
 
 
-class Modes(Result):
+class Modes(Result, Moving):
     """The modes of a system, slowest first: speeds, shapes, nodes and error bounds of k modes of N links.
 
     Heights and bounds are computed at once. Shapes, nodes, residuals and sensitivities are computed when they are first

@@ -14,6 +14,7 @@ from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, boolean
 from ..systems.rig import Rig
 from .base import Field, Result
+from .moving import Moving
 from .sheet import Column, Sheet, speed_columns
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ BENT = 0.3  # part of the length of a chain; a larger offset is not a small ampl
 MOST_RESONANCES = 60  # largest number that a plot marks; more would blacken it
 
 
-class Response(Result):
+class Response(Result, Moving):
     """Forced motion of a chain or rig whose support moves in a circle, at one or more speeds; returned by `response`.
 
     Arrays have the shape of the given speeds, ``(...)``; those of pins have one more axis. If the support moves to and fro
@@ -188,7 +189,7 @@ SWING = (
 )
 
 
-class Swing(Result):
+class Swing(Result, Moving):
     """Free motion of a chain or rig in a plane after release, as a sum of its modes; returned by `swing`.
 
     Examples
@@ -315,7 +316,7 @@ WHIRL_SWING = (
 )
 
 
-class WhirlSwing(Result):
+class WhirlSwing(Result, Moving):
     """Free motion of a rig with flywheels after release, as a sum of its whirls; returned by `swing`.
 
     Offsets are complex, x + i y.

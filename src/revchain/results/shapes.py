@@ -17,6 +17,7 @@ from ..systems.numbers import Floats, shown
 from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .diagrams import ForceDiagram
+from .moving import Moving
 from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
 from .sheet import Column, Sheet, digits
 
@@ -126,7 +127,7 @@ def forced(name: str) -> Any:
     return compute
 
 
-class Shape(Result):
+class Shape(Result, Moving):
     """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
 
     __slots__ = ()
@@ -434,7 +435,7 @@ _CORE = (
 )
 
 
-class SteadyShapes(Results[Any]):
+class SteadyShapes(Results[Any], Moving):
     """The steady shapes of a system at one speed, ordered by half waves, then inclination of the lowest link.
 
     Examples

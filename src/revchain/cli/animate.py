@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command that writes the answer of a scene as a film, a page or a solid."""
+
+from __future__ import annotations
+
+import math
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..motion.write import METHODS, require_for
+from ..results.files import written_aside
+from ..scenes.ask import QUESTIONS
+from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene, refuse_without_answer
+from .exit_codes import ExitCode
+from .frame import EXIT_CODES, Stop, app, guarded
+from .progress import counted
+from .report import Report
+
+
+@app.command(epilog=EXIT_CODES)
+@guarded
+def animate(
+    scene: SceneFile,
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FILE",
+            help="Film (.gif, .mp4), page (.html), solid (.glb), grid (.vtu, .vtk, .xdmf).",
+        ),
+    ],
+    question: Annotated[
+        str | None,
+        typer.Option(
+            "--ask", metavar="|".join(QUESTIONS), help="What is shown; the first that the scene asks if left out."
+        ),
+    ] = None,
+    figures: Annotated[
+        str | None,
+        typer.Option(
+            metavar='"1; 3"',
+            help="Modes by their numbers; shapes and branches by their places, from 0. The first six if left out.",
+        ),
+    ] = None,
+    time_scale: Annotated[
+        float | None, typer.Option(metavar="X", help="Seconds of motion in one second of film; 1 is real time.")
+    ] = None,
+    duration: Annotated[float | None, typer.Option(metavar="S", help="Seconds of film.")] = None,
+    frames_per_second: Annotated[
+        float | None, typer.Option(metavar="K", help="25 if left out; not of .html and .glb.")
+    ] = None,
+    gravity: Gravity = None,
+    quiet: Quiet = False,
+) -> None:
+    """See it move: write a film, a page that plays it, or a solid for three-dimensional viewers."""
+    ending = out.suffix.lower()
+    if ending not in METHODS:
+        raise Stop(f"--out: {out} must end in {', '.join(METHODS)}", ExitCode.WRONG_USAGE)
+    require_for(ending)
+    if scene.resolve() == out.resolve():
+        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    numbers = {"time_scale": time_scale, "duration": duration, "frames_per_second": frames_per_second}
+    given = {name: value for name, value in numbers.items() if value is not None}
+    for name, value in given.items():
+        if not 0 < value < math.inf:
+            raise Stop(f"--{name.replace('_', '-')}: must be positive and finite, got {value:g}", ExitCode.WRONG_USAGE)
+    if frames_per_second is not None and ending in (".html", ".glb"):
+        raise Stop(f"--frames-per-second: a {ending} file has no frames; leave it out", ExitCode.WRONG_USAGE)
+    which = None if figures is None else _numbers(figures)
+    read = read_scene(scene, gravity, "deg")
+    asked = question or next(iter(each for each in read.asks if each in QUESTIONS), "modes")
+    if asked not in QUESTIONS:
+        raise Stop(f"--ask: must be one of {', '.join(QUESTIONS)}, got {asked}", ExitCode.WRONG_USAGE)
+    refuse_without_answer(scene, read, asked)
+    with written_aside(out) as [aside], ExitStack() as stack:
+        found = answer_of(scene, read, asked, {}, quiet)
+        try:
+            getattr(found, METHODS[ending])(aside, figures=which, progress=counted(stack, "frames", quiet), **given)
+        except OSError as error:  # says the place that was asked for
+            raise OSError(error.errno, error.strerror or str(error), str(out)) from None
+        except ValueError as error:
+            raise Stop(f"{scene}: {asked}: {str(error).partition(': ')[2]}", ExitCode.WRONG_USAGE) from None
+    if not quiet:
+        print(f"wrote {out}")
+    Report(read, scene.stem, asked, found, "deg").check(scene)
+
+
+def _numbers(text: str) -> list[int]:
+    try:
+        return [int(part) for part in text.split(";")]
+    except ValueError:
+        raise Stop(
+            f'--figures: must be whole numbers with semicolons between them, such as "1; 3", got {text}',
+            ExitCode.WRONG_USAGE,
+        ) from None

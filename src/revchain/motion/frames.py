@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Films as pictures: .gif and .mp4, drawn by matplotlib, only what moves anew in each frame."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..plots.modes import BACKWARD, FORWARD, LINK
+from ..plots.style import plain
+from ..systems.extras import require
+from ..systems.numbers import Floats
+from .film import Complex, Figure, Film, side_by_side
+
+TILT = np.radians(14.0)  # of the view from above
+TALL, WIDE, LEAST = 4.6, 11.0, 4.4  # inches: height of the figures at most, width of the film at most and at least
+CAPTION, CHART, LETTER, BOLD = 0.95, 3.3, 0.07, 0.082  # inches: widths
+MOST_PINS = 400
+TINTS = 8  # of each colour of a GIF
+Progress = Callable[[int, int], None]
+
+
+class Drawing:
+    """A film on a canvas."""
+
+    def __init__(self, film: Film) -> None:
+        self.film = film = film.thinned(film.frames, MOST_PINS)
+        low, high = film.low_and_high
+        deep = film.reach * np.sin(TILT)
+        size = max(high - low, 0.1 * film.reach) * np.cos(TILT) + 2 * deep
+        chart = CHART if film.chart is not None else 0.0
+        per = TALL / (1.1 * size)  # inches a metre
+        for _ in range(5):
+            widths = film.widths(CAPTION / per)
+            per = min((WIDE - chart) / widths.sum(), TALL / (1.1 * size))
+        self.across = side_by_side(widths)
+        drawn = (per * widths.sum(), per * 1.1 * size)
+        lines = 1 + max(caption.count("\n") for figure in film.figures for caption in figure.captions)
+        head, foot = 0.62, 0.35 + 0.16 * lines
+        written = max(BOLD * len(film.system), LETTER * (len(film.words) + len(film.clock[-1]) + 2))
+        whole = np.array([max(drawn[0] + chart, LEAST, min(written, WIDE)), max(drawn[1], 1.5) + head + foot])
+        whole = 2 * np.round(50 * whole) / 100  # an even number of pixels, which H.264 needs
+        figure = require("matplotlib.figure", "animate", "animation").Figure(figsize=whole, dpi=100)
+        self.canvas = require("matplotlib.backends.backend_agg", "animate", "animation").FigureCanvasAgg(figure)
+        across = (whole[0] - chart) / whole[0]
+        ax = self.ax = figure.add_axes((0.0, 0.0, across, 1.0))
+        ax.set_axis_off()
+        middle = (widths.sum() - widths[0]) / 2
+        ax.set_xlim(middle - (whole[0] - chart) / per / 2, middle + (whole[0] - chart) / per / 2)
+        bottom = low * np.cos(TILT) - deep - (foot / per + 0.05 * size)
+        ax.set_ylim(bottom, bottom + whole[1] / per)
+        self.moving: list[tuple[Any, Callable[[int], None]]] = []
+        figure.text(0.012, 1 - 0.08 / whole[1], plain(film.system), va="top", fontsize=9, weight="bold")
+        words = plain(film.words)
+        clock = figure.text(0.012, 1 - 0.3 / whole[1], words, va="top", fontsize=9)
+        if len(film.clock) > 1:
+            self._move(clock, lambda frame: clock.set_text(f"{words}; {film.clock[frame]}"))
+        for nth, each in enumerate(film.figures):
+            self._stage(each, nth, low, high, deep)
+        if chart:
+            inner = (
+                across + 0.8 / whole[0],
+                (foot + 0.1) / whole[1],
+                1 - across - 1.0 / whole[0],
+                drawn[1] / whole[1] - 0.04,
+            )
+            self._chart(figure.add_axes(inner))
+        self.canvas.draw()
+        self.background = self.canvas.copy_from_bbox(figure.bbox)
+
+    def _move(self, artist: Any, update: Callable[[int], None]) -> Any:
+        artist.set_animated(True)
+        self.moving.append((artist, update))
+        return artist
+
+    def _stage(self, figure: Figure, nth: int, low: float, high: float, deep: float) -> None:
+        ax, film, at = self.ax, self.film, float(self.across[nth])
+        ax.plot([at, at], np.array([low, high]) * np.cos(TILT), color="0.7", linestyle="--", linewidth=0.9)
+        whole = np.exp(1j * np.linspace(0, 2 * np.pi, 91))
+        if figure.is_rigid:
+            pin = int(np.abs(figure.offset[0]).argmax())
+            ax.plot(*seen(abs(figure.offset[0, pin]) * whole, figure.height[0, pin], at), color="0.85", linewidth=0.9)
+        elif not film.chart and figure.offset.imag.any():
+            tips = np.array([figure.in_space(frame)[0] for frame in range(film.frames)])
+            ax.plot(*seen(tips, figure.height[0, 0], at), color="0.85", linewidth=0.5)
+        colour = f"C{film.colours[nth]}"
+        arms = ax.plot([], [], color="0.3", linewidth=2.0, zorder=2)[0]
+        links = ax.plot(
+            [], [], color=colour, linewidth=1.8, zorder=3, marker="o" if film.shows_pins else "", markersize=3.0
+        )[0]
+        stout = ax.plot([], [], color=colour, linewidth=4.5, alpha=0.45, zorder=2)[0]
+        text = ax.text(
+            at, low * np.cos(TILT) - 1.15 * deep - 0.02 * (high - low), "", ha="center", va="top", fontsize=8
+        )
+
+        def place(frame: int) -> None:
+            offset, height = figure.in_space(frame), figure.heights(frame)
+            links.set_data(*seen(offset, height, at))
+            ends = [-1, 0] if film.is_held else [-1]
+            held = np.array([part for end in ends for part in (0.0, offset[end], np.nan)])
+            arms.set_data(*seen(held, np.repeat(height[ends], 3), at))
+
+        self._move(arms, place)
+        self._move(links, lambda frame: None)
+        if film.stout.any():
+            self._move(stout, lambda frame: stout.set_data(*_pieces(links, film.stout)))
+        self._bodies(links, 0.35 * float(np.abs(figure.offset).max()))
+        self._supports(links)
+        if len(figure.captions) > 1:
+            self._move(text, lambda frame: text.set_text(plain(figure.caption(frame))))
+        else:
+            text.set_text(plain(figure.captions[0]))
+
+    def _bodies(self, links: Any, wheel: float) -> None:
+        bodies = self.film.bodies
+        if not bodies.link.size:
+            return
+
+        def between(share: Floats) -> Any:
+            return np.column_stack(_along(links, bodies.link, share))
+
+        long = bodies.rod > 0
+        if long.any():
+            rods = self.ax.plot([], [], color=LINK, linewidth=6.0, alpha=0.35, zorder=3, solid_capstyle="butt")[0]
+
+            def lay(frame: int) -> None:
+                ends = [between(bodies.along + sign * bodies.rod)[long] for sign in (-1, 1)]
+                none = np.full_like(ends[0], np.nan)
+                rods.set_data(*np.stack([*ends, none], 1).reshape(-1, 2).T)
+
+            self._move(rods, lay)
+        face = np.where(bodies.floats, "white", LINK)
+        balls = self.ax.scatter(bodies.size, bodies.size, s=20 + 60 * bodies.size, c=face, edgecolors=LINK, zorder=4)
+        self._move(balls, lambda frame: balls.set_offsets(between(bodies.along)))
+        wheels = np.flatnonzero(bodies.wheel)
+        if wheels.size:
+            colours = [FORWARD if bodies.wheel[k] > 0 else BACKWARD for k in wheels]
+            discs = require("matplotlib.collections", "animate", "animation").LineCollection(
+                [], colors=colours, linewidths=4, zorder=4
+            )
+            self.ax.add_collection(discs)
+
+            def turn(frame: int) -> None:
+                middle, ends = between(bodies.along)[wheels], between(bodies.along + 0.01)[wheels]
+                across = (ends - middle)[:, ::-1] * [1, -1]
+                across *= wheel / np.maximum(np.hypot(*across.T), 1e-12)[:, None]
+                discs.set_segments(np.stack([middle - across, middle + across], 1))
+
+            self._move(discs, turn)
+
+    def _supports(self, links: Any) -> None:
+        kinds = [(-1, "^" if self.film.stout.all() else "v")] + [(0, "^")] * self.film.is_held
+        for end, marker in kinds:
+            mark = self.ax.plot([], [], marker=marker, color="black", markersize=7.0, zorder=5)[0]
+
+            def place(frame: int, end: int = end, mark: Any = mark) -> None:
+                x, y = links.get_data()
+                mark.set_data([x[end]], [y[end]])
+
+            self._move(mark, place)
+
+    def _chart(self, ax: Any) -> None:
+        chart = self.film.chart
+        assert chart is not None
+        for nth, (line, x, y) in enumerate(zip(chart.lines, chart.x, chart.y, strict=True)):
+            ax.plot(*line, color=f"C{nth % 10}", linewidth=1.3)
+            dot = ax.plot([], [], "o", color=f"C{nth % 10}", markersize=7.0)[0]
+
+            def place(frame: int, dot: Any = dot, x: Floats = x, y: Floats = y) -> None:
+                dot.set_data([x[frame]], [y[frame]])
+
+            self._move(dot, place)
+        ax.set_yscale("log" if chart.is_logarithmic else "linear")
+        ax.set_xlabel(chart.x_label, fontsize=9)
+        ax.set_ylabel(chart.y_label, fontsize=9)
+        ax.tick_params(labelsize=8)
+        for side in ("top", "right"):
+            ax.spines[side].set_visible(False)
+
+    def frames(self, progress: Progress) -> Iterator[Any]:
+        """Each as an array of pixels, red, green, blue."""
+        for frame in range(self.film.frames):
+            self.canvas.restore_region(self.background)
+            for artist, update in self.moving:
+                update(frame)
+                artist.axes.draw_artist(artist) if artist.axes else artist.figure.draw_artist(artist)
+            yield np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+            progress(frame + 1, self.film.frames)
+
+
+def seen(offset: Complex | Floats, height: Any, across: float) -> tuple[Floats, Floats]:
+    """Where points of space are in the picture: seen from the side, a little from above."""
+    point = np.asarray(offset, complex)
+    return across + point.real, np.asarray(height) * np.cos(TILT) + point.imag * np.sin(TILT)
+
+
+def _along(line: Any, link: Any, share: Floats) -> tuple[Floats, Floats]:
+    """Places on links, from their upper pins."""
+    x, y = line.get_data()
+    down = x[link] - x[link + 1], y[link] - y[link + 1]
+    return x[link + 1] + share * down[0], y[link + 1] + share * down[1]
+
+
+def _pieces(line: Any, which: Any) -> tuple[Floats, Floats]:
+    """Some links, each by itself."""
+    x, y = line.get_data()
+    links = np.flatnonzero(which)
+    none = np.full(links.size, np.nan)
+    first, second = (np.stack([at[links], at[links + 1], none], 1).ravel() for at in (x, y))
+    return first, second
+
+
+def write_gif(film: Film, path: Path, progress: Progress) -> None:
+    """An endless loop."""
+    image = require("PIL.Image", "animate", "a .gif film")
+    drawing = Drawing(film)
+    pictures = [image.fromarray(pixels) for pixels in drawing.frames(progress)]
+    palette = image.new("P", (1, 1))
+    palette.putpalette(_palette(len(film.figures)))
+    few = [picture.quantize(palette=palette, dither=image.Dither.NONE) for picture in pictures]
+    pause = round(1000 / film.frames_per_second)
+    few[0].save(path, save_all=True, append_images=few[1:], duration=pause, loop=0, optimize=False)
+
+
+def _palette(figures: int) -> list[int]:
+    """What is drawn, in tints from full to white."""
+    to_rgb = require("matplotlib.colors", "animate", "a .gif film").to_rgb
+    names = ["black", LINK, "0.7", *(f"C{k}" for k in {*range(min(figures, 10)), 0, 3})]
+    pure = np.array([to_rgb(name) for name in names])[:, None]
+    tints = 1 - (1 - pure) * np.linspace(0.0, 1.0, TINTS)[:, None]
+    return np.unique((255 * tints).round().astype(int).reshape(-1, 3), axis=0).ravel().tolist()
+
+
+def write_mp4(film: Film, path: Path, progress: Progress) -> None:
+    """H.264, by ffmpeg."""
+    ffmpeg = require("imageio_ffmpeg", "animate", "a .mp4 film").get_ffmpeg_exe()
+    drawing = Drawing(film)
+    size = "x".join(map(str, drawing.canvas.get_width_height()))
+    taken = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(film.frames_per_second), "-i", "-"]
+    made = ["-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+    command = [ffmpeg, "-loglevel", "error", "-y", *taken, *made, str(path)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdin is not None and process.stderr is not None
+        try:
+            with suppress(BrokenPipeError):  # what is wrong it says itself
+                for pixels in drawing.frames(progress):
+                    process.stdin.write(pixels.tobytes())
+                process.stdin.close()
+            said = process.stderr.read().decode(errors="replace").strip()
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode:
+        raise OSError(f"ffmpeg says: {said or process.returncode}")

@@ -1,0 +1,475 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Films and pages: every place in them is that of the result, at its time."""
+
+import base64
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from moving import ALL, CHAIN, ONE, RELEASED, TIMES, WHEELS, film
+
+import revchain as rc
+from revchain.motion.film import pace
+
+pytest.importorskip("matplotlib")
+image = pytest.importorskip("PIL.Image")
+
+TURN = 2 * np.pi
+
+
+# ---- what is where, and when
+
+
+def test_modes_turn_at_their_own_speeds():
+    found = rc.modes(WHEELS)
+    shown = film(found, duration=2.0, time_scale=0.1)
+    assert len(shown.figures) == min(len(found), 6) and shown.frames == 50 and shown.seconds == 2.0
+    for k, figure in enumerate(shown.figures):
+        assert np.allclose(figure.offset[0].real / figure.scale[0], found.shape[k], rtol=1e-15, atol=0)
+        assert np.allclose(figure.phase, found.angular_speed[k] * 0.1 * np.arange(50) / 25, rtol=1e-14, atol=0)
+        assert figure.captions[0].splitlines()[1] == f"{found.angular_speed[k]:#.4g} rad/s"
+        whirled = figure.scale[0] * found.shape[k] * np.exp(1j * found.angular_speed[k] * 0.1 * 30 / 25)
+        assert np.allclose(figure.in_space(30), whirled, atol=1e-15)
+    assert {figure.label.split()[-1] for figure in shown.figures} == {"forward", "backward"}
+    assert shown.words == "gravity 9.80665 m/s²; 10 times slower than in reality; offsets exaggerated"
+
+
+def test_the_pace():
+    found = rc.modes(rc.Chain.uniform_rods(20, length=1.0), 3)
+    shown = film(found)
+    turns = TURN / (np.abs(found.angular_speed) * shown.time_scale)  # seconds of film
+    assert turns.min() >= 0.8 * (1 - 1e-2) and abs(turns.max() - shown.seconds) < 1e-12  # the slowest closes its round
+    twice = film(found, duration=2.5 * shown.seconds)
+    assert abs(turns.max() * shown.time_scale / twice.time_scale * 2 - twice.seconds) < 1e-12
+    assert film(found, time_scale=0.01).seconds == 10.0
+    one = film(rc.modes(CHAIN, 1))
+    assert abs(one.figures[0].phase[1] * one.frames - TURN) < 1e-12
+    assert pace(1.0) == "in real time"
+    assert (pace(0.125), pace(20.0)) == ("8 times slower than in reality", "20 times faster than in reality")
+
+
+@pytest.mark.parametrize("kind", ["shapes", "shapes of a carousel", "shapes of a blade", "shapes on arms", "shape"])
+def test_shapes_are_true_to_scale(kind):
+    found = ALL[kind]()
+    shapes = [found] if kind == "shape" else found
+    shown = film(found, figures=None if kind == "shape" else [len(shapes) - 1, 0])
+    for figure, shape in zip(shown.figures, [shapes[0]] if kind == "shape" else [shapes[-1], shapes[0]], strict=True):
+        assert np.array_equal(figure.offset[0], shape.offset) and np.array_equal(figure.height[0], shape.height)
+        assert figure.speed[0] == shape.angular_speed and np.array_equal(figure.tension, shape.tension)
+
+
+def test_places_of_cords():
+    for kind in ("cord shape", "held cord shape", "shapes of a rope"):
+        found = ALL[kind]()
+        shape = found[0] if kind == "shapes of a rope" else found
+        figure = film(found).figures[0]
+        at = shape.at(np.linspace(0, 1, 101))
+        assert np.array_equal(figure.offset[0], at.offset) and np.array_equal(figure.height[0], at.height)
+
+
+def test_a_branch_is_gone_through_from_end_to_end():
+    branch = rc.branch(CHAIN, 1, max_angular_speed=9.0)
+    shown = film(branch, duration=3.0)
+    [figure] = shown.figures
+    assert np.array_equal(figure.offset[0], np.zeros(4)) and figure.height[0, 0] == -CHAIN.total_length
+    assert np.allclose(figure.offset[-1], branch.shape(-1).offset, rtol=1e-15)
+    assert np.allclose(figure.height[-1], branch.shape(-1).height, rtol=1e-14)
+    assert figure.speed[0] == branch.angular_speed[0] and figure.speed[-1] == branch.angular_speed[-1]
+    chords = np.hypot(np.diff(figure.offset.real, axis=1), np.diff(figure.height, axis=1))
+    assert np.abs(chords / CHAIN.length - 1).max() < 3e-3  # between points, shapes are interpolated
+    mean = (figure.speed[1:] + figure.speed[:-1]) / 2
+    assert np.allclose(np.diff(figure.phase), mean * shown.time_scale / 25, rtol=1e-9)
+    for frame in (20, 40, 60):  # what is shown is a shape of that speed
+        [shape] = branch.at(angular_speed=figure.speed[frame])
+        assert np.abs(figure.offset[frame] - shape.offset).max() < 5e-3
+        assert abs(shown.chart.x[0][frame] - figure.speed[frame]) < 1e-12
+        assert abs(shown.chart.y[0][frame] - abs(shape.offset[0])) < 5e-3
+
+
+def test_a_branch_passes_its_folds():
+    isolated = [
+        each
+        for each in rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=13.0)
+        if each.folds.size
+    ]
+    for branch in isolated:
+        speeds = film(branch, duration=20.0).figures[0].speed
+        for fold in branch.folds:
+            assert np.abs(speeds - branch.angular_speed[fold]).min() < 1e-3
+    assert isolated
+
+
+def test_a_response_goes_out_at_its_speeds():
+    found = ONE["response"]()
+    shown = film(found, duration=81 / 25)
+    [figure] = shown.figures
+    assert np.allclose(figure.speed, found.angular_speed, rtol=1e-12)
+    assert np.allclose(figure.offset.real / figure.scale[:, None], found.offset, rtol=1e-9, atol=1e-12)
+    widest = np.abs(figure.offset).max(axis=1)
+    assert widest.max() <= 0.25 * CHAIN.total_length * (1 + 1e-12) and np.ptp(figure.scale) > 0
+    assert figure.captions[-1].endswith(f"offsets {figure.scale[-1]:.3g}:1")
+    resonant = rc.response(
+        CHAIN, angular_speed=[3.0, float(rc.modes(CHAIN).angular_speed[0]), 4.0], support_radius=0.01
+    )
+    assert np.isfinite(film(resonant).figures[0].offset).all()
+
+
+@pytest.mark.parametrize("kind", ["swing", "rig swing", "whirl swing", "cord swing"])
+def test_a_swing_is_where_it_is_at_each_time(kind):
+    found = ONE[kind]()
+    shown = film(found, time_scale=1.0, frames_per_second=10.0)
+    [figure] = shown.figures
+    assert shown.frames == TIMES.size - 1  # the film ends one frame before the last time, so that it runs as long
+    true = figure.offset / figure.scale[0]
+    assert np.abs(true - found.offset[:-1]).max() < 1e-14
+    assert shown.clock[3] == f"t = {TIMES[3]:.3f} s" and not figure.phase.any()
+
+
+def test_bodies_are_on_their_links():
+    bodies = film(rc.modes(WHEELS)).bodies
+    assert bodies.link.tolist() == [0, 1, 2, 3] and np.allclose(bodies.along, 0.5)
+    assert bodies.wheel.tolist() == [1, -1, 0, 0]
+    assert bodies.rod[0] == 0 and np.allclose(
+        bodies.rod[1:], np.sqrt(3) * 0.02 / 0.1
+    )  # the first is no rod: it would be longer than the link
+    assert film(rc.modes(CHAIN)).names == ("links[0] load", "links[1] $hook$", "links[2] </script>")
+    assert film(ONE["cord shape"]()).bodies.along.tolist() == [1.0]
+
+
+def test_thinned_films_keep_the_ends():
+    whole = film(rc.modes(rc.Chain.uniform_rods(10_000), 2))
+    few = whole.thinned(whole.frames, 300)
+    for one, other in zip(few.figures, whole.figures, strict=True):
+        assert one.offset.shape == (1, 300)
+        assert np.array_equal(one.offset[0, [0, -1]], other.offset[0, [0, -1]])
+    swing = film(ONE["swing"]())
+    fewer = swing.thinned(11, 100)
+    assert fewer.frames == 11 and fewer.clock[-1] == swing.clock[-1] and fewer.bodies is swing.bodies
+    assert abs((fewer.frames - 1) / fewer.frames_per_second - (swing.frames - 1) / swing.frames_per_second) < 1e-12
+
+
+# ---- films
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_gif(kind, tmp_path):
+    path = tmp_path / "film.gif"
+    told = []
+    ALL[kind]().animate(path, duration=0.6, frames_per_second=10, progress=lambda *done: told.append(done))
+    with image.open(path) as film_:
+        assert film_.n_frames == 6 and film_.info["loop"] == 0 and film_.info["duration"] == 100
+        pictures = []
+        for frame in range(6):
+            film_.seek(frame)
+            pictures.append(np.asarray(film_.convert("RGB"), int))
+    assert all(np.abs(one - other).max() > 100 for one, other in zip(pictures, pictures[1:], strict=False))
+    assert (pictures[0] == 255).all(axis=2).mean() > 0.8  # on white paper
+    assert told == [(k, 6) for k in range(1, 7)]
+
+
+def test_places_of_pixels(tmp_path):
+    """The free end of a mode is drawn where its film has it, in its colour."""
+    from matplotlib.colors import to_rgb
+
+    from revchain.motion.frames import Drawing, seen
+
+    found = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 6)
+    shown = film(found, duration=1.0)
+    drawing = Drawing(shown)
+    for frame, picture in enumerate(drawing.frames(lambda done, total: None)):
+        for nth, figure in enumerate(shown.figures):
+            row = figure.in_space(frame)
+            x, y = seen(row[[5, 60]], figure.height[0, [5, 60]], drawing.across[nth])
+            for column, line in drawing.ax.transData.transform(np.column_stack([x, y])):
+                around = picture[int(len(picture) - line) - 1 :, int(column) - 1 :][:3, :3] / 255.0
+                assert np.abs(around - to_rgb(f"C{nth}")).max(axis=2).min() < 0.25, (frame, nth)
+
+
+def test_arms_of_a_carousel_are_drawn_with_it():
+    """In each frame the arm ends at the support, as it is in that frame."""
+    from revchain.motion.frames import Drawing
+
+    shown = film(ALL["shapes of a carousel"](), duration=0.4)
+    drawing = Drawing(shown)
+    lines = [artist for artist, _ in drawing.moving if hasattr(artist, "get_xdata")]
+    order = {artist: [] for artist in lines}
+    for artist in lines:
+        artist.draw = lambda renderer, artist=artist, draw=artist.draw: (
+            order[artist].append(np.array(artist.get_data())),
+            draw(renderer),
+        )
+    for _ in drawing.frames(lambda done, total: None):
+        pass
+    arms = [order[line] for line in lines if line.get_color() == "0.3"]
+    chains = [order[line] for line in lines if len(line.get_xdata()) == 3 and line.get_color().startswith("C")]
+    assert len(arms) == len(chains) == len(shown.figures)
+    for arm, chain in zip(arms, chains, strict=True):
+        assert len(arm) == len(chain) == shown.frames
+        for one, other in zip(arm, chain, strict=True):
+            assert np.array_equal(one[:, 1], other[:, -1])
+
+
+def test_mp4(tmp_path):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    path = tmp_path / "film.mp4"
+    for kind in ("modes of a rig", "branch"):
+        ALL[kind]().animate(path, duration=0.6)
+        read = [ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+        done = subprocess.run(read, capture_output=True, check=True)
+        [about] = re.findall(r"Stream #0:0.*?: Video: (h264.*)", done.stderr.decode())[:1]
+        wide, tall = map(int, re.findall(r"(\d{3,})x(\d{3,})", about)[0])
+        frames = np.frombuffer(done.stdout, np.uint8).reshape(-1, tall, wide, 3).astype(int)
+        assert "yuv420p" in about and "25 fps" in about and len(frames) == 15
+        assert np.abs(frames[0] - frames[-1]).max() > 100 and (frames[0] > 250).all(axis=2).mean() > 0.8
+
+
+def test_ffmpeg_that_fails(tmp_path, monkeypatch):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    program = tmp_path / "ffmpeg"
+    program.write_text("#!/bin/sh\necho no such codec >&2\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(ffmpeg, "get_ffmpeg_exe", lambda: str(program))
+    with pytest.raises(OSError, match="ffmpeg says: no such codec"):
+        rc.modes(CHAIN).animate(tmp_path / "film.mp4", duration=0.4)
+    assert not (tmp_path / "film.mp4").exists()
+
+
+# ---- pages
+
+
+def data_of(path):
+    text = path.read_text("utf-8")
+    [data] = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
+    return text, json.loads(data)
+
+
+def unpacked(packed, pins):
+    numbers = np.frombuffer(base64.b64decode(packed["data"]), "<i2") * packed["unit"]
+    return numbers.reshape(-1, pins)
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_page(kind, tmp_path):
+    path = tmp_path / "page.html"
+    found = ALL[kind]()
+    found.animate(path, duration=2.0)
+    text, data = data_of(path)
+    assert len(text.encode()) < 200_000 and "@" not in text.partition("<script")[0]
+    assert not re.search(r"https?://|\bsrc=|<link|@import|url\(", text)  # one file that needs no other
+    shown = film(found, duration=2.0)
+    shown = shown.thinned(data["frames"], data["pins"])
+    for figure, packed in zip(shown.figures, data["figures"], strict=True):
+        for name, values in (("re", figure.offset.real), ("im", figure.offset.imag), ("height", figure.height)):
+            read = unpacked(packed[name], data["pins"])
+            assert np.abs(read - values).max() <= packed[name]["unit"] * (0.5 + 1e-9)
+        assert packed["captions"] == list(figure.captions)
+        if packed["rate"] is None:
+            assert np.allclose(packed["phase"], figure.phase, rtol=1e-5)
+        else:
+            assert packed["rate"] == figure.speed[0] and data["scale"] == shown.time_scale
+
+
+def test_pages_of_long_chains_are_light(tmp_path):
+    chain = rc.Chain.uniform_rods(120, length=1.0)
+    path = tmp_path / "page.html"
+    released = 0.1 * np.linspace(1.0, 0.0, 121) ** 2
+    results = [
+        rc.modes(chain, 6),
+        rc.swing(chain, released, None, [0.0, 60.0]),
+        rc.modes(rc.Chain.uniform_rods(20_000), 6),
+    ]
+    for found in [*results, rc.branches(rc.Chain.uniform_rods(40, length=1.0), max_angular_speed=30.0)]:
+        found.animate(path)
+        assert path.stat().st_size < 200_000
+        assert data_of(path)[1]["pins"] >= 40
+
+
+BROWSER = """
+const drawn = { words: "", texts: [], paths: [] }, elements = {};
+const noted = (name, value) => { if (!Number.isFinite(value)) throw new Error(`${name} got ${value}`); };
+let path = [];
+const pen = new Proxy({}, {
+  get: (it, name) => it[name] ?? ((...given) => {
+    if (name === "fillText") { noted(name, given[1]); noted(name, given[2]); drawn.texts.push(given[0]); return; }
+    given.flat().forEach((value) => noted(String(name), value));
+    if (name === "beginPath") path = [];
+    if (name === "moveTo" || name === "lineTo") path.push(given);
+    if (name === "stroke") drawn.paths.push({ colour: it.strokeStyle, width: it.lineWidth, points: path });
+  }),
+  set: (it, name, value) => { it[name] = value; return true; },
+});
+const element = (id) => elements[id] ??= {
+  textContent: id === "data" ? DATA : "", value: 0, style: {}, clientWidth: 900, clientHeight: 500,
+  getContext: () => pen, remove() {},
+};
+globalThis.document = { getElementById: element };
+globalThis.window = { devicePixelRatio: 1, innerHeight: 700, addEventListener() {} };
+globalThis.matchMedia = () => ({ matches: true });
+globalThis.location = { hash: "#t=TIME" };
+globalThis.requestAnimationFrame = () => 0;
+"""
+
+
+@pytest.mark.parametrize("time", [0.7])
+@pytest.mark.parametrize("kind", ALL)
+def test_script_of_a_page(kind, time, tmp_path):
+    """It draws every pin where the film has it, by parallel projection, and says what the film says."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not installed")
+    path = tmp_path / "page.html"
+    ALL[kind]().animate(path, duration=2.0)
+    text, data = data_of(path)
+    script = re.findall(r"<script>\n(.*?)</script>", text, re.DOTALL)[0]
+    (tmp_path / "page.js").write_text(
+        BROWSER.replace("DATA", json.dumps(json.dumps(data))).replace("TIME", str(time))
+        + f"(() => {{ {script} }})();"
+        + "\ndrawn.words = element('words').textContent;\nconsole.log(JSON.stringify(drawn));\n",
+        "utf-8",
+    )
+    done = subprocess.run([node, tmp_path / "page.js"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    drawn = json.loads(done.stdout)
+    shown = film(ALL[kind](), duration=2.0).thinned(data["frames"], data["pins"])
+    at = 0.0 if shown.is_rigid else time / shown.seconds * (shown.frames - 1)
+    frame = round(at)
+    assert drawn["words"].startswith(shown.words) and drawn["words"].endswith(
+        shown.clock[frame if len(shown.clock) > 1 else 0]
+    )
+    for figure in shown.figures:
+        assert all(line in drawn["texts"] for line in figure.caption(frame).splitlines())
+    chains = [
+        np.array(each["points"])
+        for each in drawn["paths"]
+        if len(each["points"]) == data["pins"] and each["width"] == 2
+    ]
+    assert len(chains) == len(shown.figures)
+    tilt, scales = 0.245, []
+    for figure, points in zip(shown.figures, chains, strict=True):
+        before, after = int(at), min(int(at) + 1, shown.frames - 1)
+        rows = [figure.offset[0 if figure.is_rigid else k] for k in (before, after)]
+        levels = [figure.heights(k) for k in (before, after)]
+        part = at - before
+        turned = (
+            figure.speed[0] * shown.time_scale * time
+            if figure.is_rigid
+            else np.interp(at, np.arange(shown.frames), figure.phase)
+        )
+        pins = (rows[0] * (1 - part) + rows[1] * part) * np.exp(1j * turned)
+        level = levels[0] * (1 - part) + levels[1] * part
+        flat = np.column_stack([pins.real, -(level * np.cos(tilt) + pins.imag * np.sin(tilt))])
+        flat, points = flat - flat[-1], points - points[-1]
+        scale = np.abs(points).max() / np.abs(flat).max()
+        assert np.abs(points - scale * flat).max() < 0.1  # pixels
+        scales.append(scale)
+    assert np.ptp(scales) < 1e-2 * scales[0]
+
+
+def test_words_of_a_page_are_safe(tmp_path):
+    path = tmp_path / "page.html"
+    film_ = rc.modes(CHAIN)
+    film_.animate(path)
+    text, data = data_of(path)
+    assert text.count("</script>") == 2 and "offsets exaggerated" in data["note"]
+
+
+# ---- what is refused
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "words"),
+    [
+        ("modes", {"path": "film.avi"}, r"Modes\.animate: path must end in \.gif, \.mp4, \.html, got film\.avi"),
+        ("modes", {"figures": [4]}, r"mode must be from 1 to 3, got 4"),
+        ("modes", {"figures": []}, r"modes names no mode"),
+        ("modes", {"figures": 1.5}, r"modes must be a list of whole numbers, got 1\.5"),
+        ("modes", {"time_scale": 0.0}, r"time_scale must be positive and finite, got 0"),
+        ("modes", {"duration": -1.0}, r"duration must be positive"),
+        ("modes", {"duration": 1e9}, r"duration times frames_per_second must be at most 20000, got 1e\+09 s at 25"),
+        ("modes", {"frames_per_second": np.inf}, r"frames_per_second must be positive and finite"),
+        ("modes", {"frames_per_second": 1e4}, r"frames_per_second must be from 0\.1 to 1000, got 10000"),
+        ("shapes", {"figures": [9]}, r"SteadyShapes\.animate: figures must be from -\d to \d, got 9"),
+        ("shapes", {"figures": []}, r"figures names no shape"),
+        ("branches", {"figures": [99]}, r"Branches\.animate: figures must be from"),
+        ("shape", {"figures": [0]}, r"SteadyShape\.animate: figures is for several modes, shapes or branches"),
+        ("swing", {"figures": [0]}, r"Swing\.animate: figures is for several"),
+    ],
+)
+def test_refused(kind, given, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = ALL[kind]()
+    with pytest.raises(ValueError, match=words):
+        found.animate(**{"path": "film.html", **given})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_to_show(tmp_path):
+    path = tmp_path / "page.html"
+    for found, words in (
+        (rc.modes(CHAIN, angular_speed=(0.0, 0.1)), "there are no modes"),
+        (rc.steady_shapes(CHAIN, angular_speed=0.1), "there is no shape to draw"),
+        (rc.branches(CHAIN, max_angular_speed=0.5), "there is no branch to draw"),
+        (
+            rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1]),
+            "every pin is needed; ask the response without pins=",
+        ),
+        (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
+        (rc.swing(CHAIN, RELEASED, None, [1.0]), "needs two times or more"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            found.animate(path)
+    assert not path.exists()
+
+
+def test_what_cannot_be_written_leaves_what_was_there(tmp_path):
+    path = tmp_path / "film.gif"
+    path.write_text("before")
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        rc.modes(CHAIN).animate(path, duration=0.2, progress=stop)
+    assert path.read_text() == "before" and [each.name for each in tmp_path.iterdir()] == ["film.gif"]
+    with pytest.raises(OSError, match=r"No such file or directory.*film\.gif"):
+        rc.modes(CHAIN).animate(tmp_path / "missing" / "film.gif")
+
+
+def test_packages_that_are_missing(python, without):
+    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio") + (
+        "import revchain as rc\n"
+        "m = rc.modes(rc.Chain.uniform_rods(12), 2)\n"
+        "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'), (m.to_vtk, 'a.vtu')):\n"
+        "    try: method(path)\n"
+        "    except ImportError as error: print(error)\n"
+        "m.animate('a.html'); m.to_vtk('a.xdmf', duration=0.2)\n"
+    )
+    done = python("-c", program)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines() == [
+        'a .gif film needs matplotlib: pip install "revchain[animate]"',
+        'a .mp4 film needs matplotlib: pip install "revchain[animate]"',
+        'a .glb file needs pygltflib: pip install "revchain[exchange]"',
+        'a .vtu file needs meshio: pip install "revchain[exchange]"',
+    ]
+
+
+def test_every_kind_of_moving_result_is_here():
+    from revchain.results.moving import Moving
+
+    def kinds(of):
+        return {of} | {each for kind in of.__subclasses__() for each in kinds(kind)}
+
+    shown = {kind.__name__ for kind in kinds(Moving) if not kind.__name__.startswith("_")}
+    assert shown == {type(make()).__name__ for make in ALL.values()} | {"Moving", "Shape"}  # bases
+
+
+def test_speeds_of_both_directions_are_in_the_chart():
+    rig = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.3))
+    both = film(rc.response(rig, angular_speed=np.linspace(-3.0, 3.0, 30), support_radius=0.01))
+    assert both.chart.x[0][0] == -3.0 and both.chart.x[0][-1] == 3.0 and (np.diff(both.figures[0].phase)[:100] < 0).all()
+    back = film(rc.branch(rig, 1, max_angular_speed=9.0, direction=-1))
+    assert (back.chart.x[0] > 0).all() and (back.figures[0].speed < 0).all()

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solids and grids: what is in the files is what the results have."""
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from moving import ALL, CHAIN, ONE, TIMES, WHEELS, film
+
+import revchain as rc
+
+gltf = pytest.importorskip("pygltflib")
+
+SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+FLOAT, SHORT = 5126, 5123
+
+
+def numbers(file, accessor):
+    """What an accessor stands for."""
+    of = file.accessors[accessor]
+    view = file.bufferViews[of.bufferView]
+    kind = {FLOAT: np.dtype("<f4"), SHORT: np.dtype("<u2")}[of.componentType]
+    assert view.byteOffset % 4 == 0 and view.byteLength == of.count * SIZES[of.type] * kind.itemsize
+    data = file.binary_blob()[view.byteOffset : view.byteOffset + view.byteLength]
+    return np.frombuffer(data, kind).reshape(of.count, -1)
+
+
+def saved(found, path, **given):
+    found.to_glb(path, **given)
+    return gltf.GLTF2().load(path)
+
+
+def turned(quaternion, point):
+    x, y, z, w = np.moveaxis(np.asarray(quaternion, float), -1, 0)
+    axis = np.stack([x, y, z], -1)
+    point = np.broadcast_to(point, axis.shape)
+    return point + 2 * np.cross(axis, np.cross(axis, point) + w[..., None] * point)
+
+
+def figures_of(file):
+    """(root, nodes of what turns) of each figure."""
+    for number in file.scenes[0].nodes:
+        root = file.nodes[number]
+        [turning] = [file.nodes[child] for child in root.children if file.nodes[child].name == "turning"]
+        yield root, turning, [file.nodes[child] for child in turning.children]
+
+
+def ends(translation, rotation, scale):
+    """The upper and the lower end of a cylinder of height 1."""
+    half = turned(rotation, [0.0, 0.5, 0.0]) * np.asarray(scale)[..., 1:2]
+    return np.asarray(translation) + half, np.asarray(translation) - half
+
+
+def is_link(node):
+    return node.name.startswith(("links[", "segment"))
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_glb_is_whole(kind, tmp_path):
+    found = ALL[kind]()
+    file = saved(found, tmp_path / "solid.glb")
+    assert file.asset.version == "2.0" and len(file.scenes) == 1 and file.scene == 0
+    [buffer] = file.buffers
+    assert buffer.byteLength <= len(file.binary_blob()) < buffer.byteLength + 4
+    ends_ = max(view.byteOffset + view.byteLength for view in file.bufferViews)
+    assert ends_ == buffer.byteLength
+    for number, accessor in enumerate(file.accessors):
+        values = numbers(file, number)
+        assert np.isfinite(values).all()
+        if accessor.min:
+            assert np.array_equal(accessor.min, values.min(axis=0)) and np.array_equal(accessor.max, values.max(axis=0))
+    for mesh in file.meshes:
+        [part] = mesh.primitives
+        points, faces = numbers(file, part.attributes.POSITION), numbers(file, part.indices).reshape(-1, 3)
+        assert len(file.accessors[part.attributes.POSITION].max) == 3 and faces.max() < len(points)
+        assert np.allclose(np.linalg.norm(numbers(file, part.attributes.NORMAL), axis=1), 1, atol=1e-6)
+        corners = points[faces].astype(float)
+        outwards = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert (np.einsum("ij,ij->i", outwards, corners.mean(axis=1)) > 0).all()  # seen from outside
+    reached, todo = set(), list(file.scenes[0].nodes)
+    while todo:
+        node = todo.pop()
+        assert node not in reached
+        reached.add(node)
+        todo += file.nodes[node].children
+    assert reached == set(range(len(file.nodes)))
+    shown = film(found)
+    assert len(file.scenes[0].nodes) == len(shown.figures)
+    for root, _, inside in figures_of(file):
+        assert sum(is_link(node) for node in inside) == shown.figures[0].offset.shape[1] - 1
+        assert sum(node.name.startswith("body of") for node in inside) == shown.bodies.link.size
+        assert sum(node.name.startswith("flywheel of") for node in inside) == np.count_nonzero(shown.bodies.wheel)
+        assert sum(node.name == "support" for node in inside) == 1 + shown.is_held
+        assert root.extras["gravity"] == shown.gravity and root.extras["time_scale"] == shown.time_scale
+        assert all(abs(np.linalg.norm(node.rotation) - 1) < 1e-6 for node in inside if node.rotation is not None)
+    [animation] = file.animations
+    for channel in animation.channels:
+        sampler = animation.samplers[channel.sampler]
+        times, output = numbers(file, sampler.input), numbers(file, sampler.output)
+        assert len(file.accessors[sampler.input].max) == 1 and len(times) == len(output)
+        assert (np.diff(times, axis=0) > 0).all() and times[0] == 0
+        if channel.target.path == "rotation":
+            assert np.allclose(np.linalg.norm(output, axis=1), 1, atol=1e-6)
+            assert (
+                (output[1:] * output[:-1]).sum(axis=1) > -1e-6
+            ).all()  # the short way round; an arm may change sides
+
+
+def test_modes_are_where_they_are(tmp_path):
+    found = rc.modes(WHEELS)
+    file = saved(found, tmp_path / "solid.glb", time_scale=0.05, duration=3.0)
+    [animation] = file.animations
+    channels = {channel.target.node: animation.samplers[channel.sampler] for channel in animation.channels}
+    shown = film(found, time_scale=0.05, duration=3.0)
+    for row, (root, turning, inside) in enumerate(figures_of(file)):
+        links = [node for node in inside if is_link(node)]
+        upper, lower = zip(*(ends(n.translation, n.rotation, n.scale) for n in links), strict=True)
+        pins = np.array([lower[0], *upper])
+        scale = shown.figures[row].scale[0]
+        assert np.allclose(pins[:, 0], scale * found.shape[row], atol=2e-7)
+        assert np.allclose(pins[:, 1], shown.figures[row].height[0], atol=2e-7) and np.abs(pins[:, 2]).max() < 2e-7
+        sampler = channels[file.nodes.index(turning)]
+        times, turns = numbers(file, sampler.input)[:, 0].astype(float), numbers(file, sampler.output)
+        where = turned(turns, [1.0, 0.0, 0.0])
+        angle = found.angular_speed[row] * 0.05 * times
+        assert np.allclose(where, np.column_stack([np.cos(angle), 0 * angle, -np.sin(angle)]), atol=2e-5)
+        assert times[-1] == 3.0 and np.abs(np.diff(angle)).max() < np.pi / 2 + 1e-4
+        assert root.name == shown.figures[row].label
+
+
+def test_shapes_bodies_and_arms(tmp_path):
+    shapes = ALL["shapes of a carousel"]()
+    file = saved(shapes, tmp_path / "solid.glb", figures=[1])
+    [(root, _, inside)] = figures_of(file)
+    assert root.name == f"shape 2, {shapes[1].half_waves} half wave{'s' * (shapes[1].half_waves != 1)}"
+    named = {node.name: node for node in inside}
+    on_axis, support = ends(*(getattr(named["arm"], name) for name in ("translation", "rotation", "scale")))
+    assert np.allclose(on_axis, 0, atol=1e-6) and np.allclose(support, [1.0, 0.0, 0.0], atol=1e-6)
+    for k in (0, 1):  # bodies are point masses at lower pins; their size goes by the cube root of the mass
+        body = named[f"body of links[{k}]"]
+        assert np.allclose(body.translation, [shapes[1].offset[k], shapes[1].height[k], 0.0], atol=1e-6)
+    sizes = [named[f"body of links[{k}]"].scale[0] for k in (0, 1)]
+    assert abs(sizes[1] / sizes[0] - (5.0 / 80.0) ** (1 / 3)) < 1e-6
+    assert "arm" not in {
+        node.name for _, _, nodes in figures_of(saved(rc.modes(CHAIN), tmp_path / "b.glb")) for node in nodes
+    }
+
+
+@pytest.mark.parametrize("kind", ["swing", "whirl swing", "branch"])
+def test_what_bends_is_keyed(kind, tmp_path):
+    """Links, at the times of their keys, are where the film has them."""
+    found = ONE[kind]()
+    given = {"duration": 2.0} | ({} if kind == "branch" else {"time_scale": 1.0})
+    file = saved(found, tmp_path / "solid.glb", **given)
+    shown = film(found, **given)
+    [figure] = shown.figures
+    [animation] = file.animations
+    [(_, _, inside)] = figures_of(file)
+    tracks = {(c.target.node, c.target.path): animation.samplers[c.sampler] for c in animation.channels}
+    for k, node in enumerate(node for node in inside if is_link(node)):
+        parts = []
+        for what in ("translation", "rotation", "scale"):
+            sampler = tracks.get((file.nodes.index(node), what))
+            still = np.broadcast_to(getattr(node, what), (shown.frames, len(getattr(node, what))))
+            parts.append(still if sampler is None else numbers(file, sampler.output).astype(float))
+            if sampler is not None:
+                assert np.allclose(numbers(file, sampler.input)[:, 0], np.arange(shown.frames) / 25, atol=1e-6)
+        upper, lower = ends(*parts)
+        for end, pin in ((upper, k + 1), (lower, k)):
+            assert np.abs(end[:, 0] - figure.offset[:, pin].real).max() < 1e-5
+            assert np.abs(end[:, 2] + figure.offset[:, pin].imag).max() < 1e-5
+            assert np.abs(end[:, 1] - np.broadcast_to(figure.height, figure.offset.shape)[:, pin]).max() < 1e-5
+
+
+def test_long_chains_are_thinned(tmp_path):
+    file = saved(rc.modes(rc.Chain.uniform_rods(5000), 2), tmp_path / "solid.glb")
+    assert [sum(map(is_link, inside)) for _, _, inside in figures_of(file)] == [400, 400]
+    assert (tmp_path / "solid.glb").stat().st_size < 400_000
+
+
+def test_refused(tmp_path):
+    found = rc.modes(CHAIN)
+    with pytest.raises(ValueError, match=r"Modes\.to_glb: path must end in \.glb, got a\.gltf"):
+        found.to_glb("a.gltf")
+    with pytest.raises(ValueError, match=r"Modes\.to_vtk: path must end in \.vtu, \.vtk, \.xdmf, got a\.stl"):
+        found.to_vtk("a.stl")
+    with pytest.raises(
+        ValueError, match=r"Swing\.to_vtk: this result is another at every instant; path must end in \.xdmf"
+    ):
+        ONE["swing"]().to_vtk(tmp_path / "a.vtu")
+    with pytest.raises(ValueError, match=r"Modes\.to_glb: figures|mode must be from 1 to 3, got 0"):
+        found.to_glb(tmp_path / "a.glb", figures=[0])
+    assert list(tmp_path.iterdir()) == []
+
+
+# ---- grids
+
+
+@pytest.mark.parametrize("ending", [".vtu", ".vtk"])
+def test_grids(ending, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    shapes = rc.steady_shapes(CHAIN, angular_speed=9.0)
+    shapes.to_vtk(tmp_path / f"grid{ending}")
+    read = meshio.read(tmp_path / f"grid{ending}")
+    [block] = read.cells
+    assert block.type == "line" and len(block.data) == 3 * len(shapes)
+    at = film(shapes)
+    first = 0.0
+    for nth, shape in enumerate(shapes):
+        pins = slice(4 * nth, 4 * nth + 4)
+        links = slice(3 * nth, 3 * nth + 3)
+        across = read.points[pins][-1, 0]
+        assert np.allclose(
+            read.points[pins], np.column_stack([across + shape.offset, 0 * shape.offset, shape.height]), atol=1e-14
+        )
+        assert np.array_equal(read.point_data["offset"][pins, 0], shape.offset)
+        assert np.allclose(read.point_data["velocity"][pins, 1], shape.angular_speed * shape.offset, rtol=1e-15)
+        assert np.array_equal(read.cell_data["tension"][0][links], shape.tension)
+        assert (read.cell_data["figure"][0][links] == nth).all() and read.cell_data["link"][0][links].tolist() == [
+            0,
+            1,
+            2,
+        ]
+        assert np.array_equal(block.data[links], np.column_stack([np.arange(3), np.arange(1, 4)]) + 4 * nth)
+        assert across >= first
+        first = across + np.abs(shape.offset).max()
+    assert len(at.figures) == len(shapes)
+
+
+def items(parent):
+    return {
+        each.get("Name"): np.array(each.find("DataItem").text.split(), float).reshape(
+            [*map(int, each.find("DataItem").get("Dimensions").split())]
+        )
+        for each in parent.findall("Attribute")
+    }
+
+
+def test_xdmf_of_a_swing(tmp_path):
+    found = ONE["swing"]()
+    found.to_vtk(tmp_path / "swing.xdmf", time_scale=1.0, frames_per_second=10.0)
+    grids = ElementTree.parse(tmp_path / "swing.xdmf").findall("./Domain/Grid/Grid")
+    assert len(grids) == TIMES.size - 1
+    for k, grid in enumerate(grids):
+        assert abs(float(grid.find("Time").get("Value")) - (TIMES[k] - TIMES[0])) < 1e-12
+        offset = items(grid)["offset"]
+        assert np.abs(offset[:, 0] - found.offset[k]).max() < 1e-14 and not offset[:, 1:].any()
+    assert "velocity" not in items(grids[0])
+
+
+def test_xdmf_of_modes(tmp_path):
+    found = rc.modes(WHEELS)
+    found.to_vtk(tmp_path / "modes.xdmf", time_scale=0.01, duration=1.0, figures=[1])
+    grids = ElementTree.parse(tmp_path / "modes.xdmf").findall("./Domain/Grid/Grid")
+    rows = np.flatnonzero(found.number == 1)
+    for frame in (0, 11, 24):
+        time = float(grids[frame].find("Time").get("Value"))
+        assert abs(time - 0.01 * frame / 25) < 1e-15
+        read = items(grids[frame])
+        for nth, row in enumerate(rows):
+            pins = slice(5 * nth, 5 * nth + 5)
+            where = found.shape[row] * np.exp(1j * found.angular_speed[row] * time)
+            assert np.allclose(read["offset"][pins, 0] + 1j * read["offset"][pins, 1], where, atol=1e-14)
+            moved = 1j * found.angular_speed[row] * where
+            assert np.allclose(
+                read["velocity"][pins, 0] + 1j * read["velocity"][pins, 1], moved, rtol=1e-12, atol=1e-12
+            )
+            assert (read["angular_speed"][4 * nth : 4 * nth + 4] == found.angular_speed[row]).all()
