@@ -102,7 +102,7 @@ COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|
 COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
 # Folders of src/revchain, each of which may import from itself and those before it. Pictures are imported when something
 # is drawn, by the class that is drawn; they compute nothing and import only what is said here.
-PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "scenes", "studies", "cli")
+PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "exchange", "scenes", "studies", "cli")
 PICTURES = {"systems", "results"}
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}

@@ -106,6 +106,7 @@ if _TYPE_CHECKING:
     from .closed_forms.statics import TransverseModes as TransverseModes
     from .closed_forms.statics import funicular_polygon as funicular_polygon
     from .closed_forms.statics import transverse_modes as transverse_modes
+    from .exchange.mjcf import to_mjcf as to_mjcf
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
@@ -130,6 +131,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "funicular_polygon": "closed_forms.statics",
     "transverse_modes": "closed_forms.statics",
     "load": "results.storage",
+    "to_mjcf": "exchange.mjcf",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
 _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
