@@ -76,7 +76,7 @@ class Mechanism:
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """A steady motion: its speed, joint angles, how far the spring gives way, and rates of wheels over those of the links."""
+    """A steady motion: speed, joint angles, how far the spring gives way, rates of wheels relative to links, tensions."""
 
     name: str
     speed: float
@@ -94,6 +94,8 @@ def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism,
         _refuse(place, given, system)
     if shapes is not None and gravity is not None:
         raise ValueError(f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}")
+    if shapes == []:
+        raise ValueError(f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}")
     g = given.gravity if shapes is not None else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
     rig = system if isinstance(system, Rig) else Rig(system)
     if rig.displaced is not None:

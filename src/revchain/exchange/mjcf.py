@@ -77,13 +77,12 @@ def to_mjcf(
     """
     place = "revchain.to_mjcf"
     made, states = mechanism(place, system, gravity)
-    step = one_positive(place, "timestep", timestep) if timestep is not None else min(_step(made, s) for s in states or [None])
+    step = one_positive(place, "timestep", timestep) if timestep is not None else min(_step(made, state) for state in states)
     model = _model(made, step)
-    if states:
-        frames = Xml.SubElement(model, "keyframe")
-        for state in states:
-            frame = _keyframe(made, state)
-            Xml.SubElement(frames, "key", name=state.name, qpos=numbers(*frame[0]), qvel=numbers(*frame[1]))
+    frames = Xml.SubElement(model, "keyframe")
+    for state in states:
+        at, rate = _keyframe(made, state)
+        Xml.SubElement(frames, "key", name=state.name, qpos=numbers(*at), qvel=numbers(*rate))
     return written(place, model, path)
 
 
@@ -103,12 +102,11 @@ def numbers(*values: Any) -> str:
     return " ".join(repr(float(value) + 0.0) for value in values)
 
 
-def _step(made: Mechanism, state: State | None) -> float:
-    heavy = made.mass[made.mass > 0].min() * made.length.min()
-    hung = made.mass.sum() * made.gravity if state is None else state.tension.max()
-    step = math.tau / _STEPS_OF_LINK * math.sqrt(heavy / hung) / 2
-    turn = math.tau / abs(state.speed) if state is not None and state.speed else math.inf
-    return float(min(step, turn / _STEPS))
+def _step(made: Mechanism, state: State) -> float:
+    light = made.mass[made.mass > 0].min() * made.length.min()
+    step = math.pi / _STEPS_OF_LINK * math.sqrt(light / state.tension.max())
+    turn = math.tau / abs(state.speed) if state.speed else math.inf
+    return min(step, turn / _STEPS)
 
 
 def _model(made: Mechanism, step: float) -> Xml.Element:

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models of multibody engines: MuJoCo starts in the steady state and stays there, and reads back what was written."""
+
+import json
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+mujoco = pytest.importorskip("mujoco")
+
+RODS = rc.Chain.uniform_rods(3, length=1.0, mass=2.0)
+WHEELS = rc.Flywheel(mass=0.3, radius_of_gyration=0.1, spin=[100.0, 0.0, 20.0], driven=[False, False, True])
+RIGS = {
+    "arm": rc.Rig(RODS, support=rc.Support(radius=0.3)),
+    "spring": rc.Rig(RODS, support=rc.Support(stiffness=300.0, mass=0.5)),
+    "arm and spring": rc.Rig(RODS, support=rc.Support(stiffness=300.0, radius=0.2)),
+    "flywheels": rc.Rig(RODS, flywheels=WHEELS),
+    "momentum": rc.Rig(rc.Chain.uniform_rods(2, weight=20.0), flywheels=rc.Flywheel(momentum=0.2, axial_moment=0.3)),
+}
+BODIES = rc.Chain(mass=[1.3, 0.4, 2.1], length=[0.7, 0.5, 0.9], centroid=[0.31, -0.1, 1.1], radius_of_gyration=[0.2, 0.3, 0.1])
+BY_SIZE = {n: rc.Chain.uniform_rods(n, length=1.0, mass=2.0) for n in (1, 3, 5, 20)}
+SYSTEMS = {**{f"{n} rods": chain for n, chain in BY_SIZE.items()}, **RIGS, "bodies": BODIES}
+ROD = {"centroid": [0.2, 0.0, 0.2, 0.7], "radius_of_gyration": [0.1, 0.0, 0.1, 0.0]}  # threads and a point mass
+SYSTEMS["threads"] = rc.Chain(mass=[1.0, 0.0, 3.0, 0.5], length=[0.4, 0.3, 0.4, 0.7], **ROD)
+
+
+def shapes_of(system, speed=10.0):
+    return rc.steady_shapes(system, angular_speed=speed)[:4]
+
+
+def started(text):
+    """MuJoCo in the first keyframe of a model."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def links_of(model):
+    """Numbers of the bodies that are links, from the free end up."""
+    names = [f"link_{k}" for k in range(model.nbody)]
+    known = [model.body(k).name for k in range(model.nbody)]
+    return [known.index(name) for name in names if name in known]
+
+
+def pins(model, data):
+    """Places of the pins from the free end up."""
+    return np.vstack([data.site("free_end").xpos, data.xpos[links_of(model)]])
+
+
+def hinges(model):
+    """Places of the links' two angles and of the carriage among the coordinates, which are still in steady motion."""
+    names = [model.joint(j).name for j in range(model.njnt)]
+    return [j for j, name in enumerate(names) if name != "turn" and not name.endswith("_spin")]
+
+
+def scale(system):
+    chain = getattr(system, "chain", system)
+    heavy = 9.80665 * chain.total_mass if chain.by_mass else chain.total_weight
+    return heavy * chain.total_length
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+def test_no_force_is_needed(system):
+    """Inverse dynamics: all joints but the turntable at rest, no acceleration, and no moment at any joint."""
+    for shape in shapes_of(system):
+        model, data = started(rc.to_mjcf(shape))
+        data.qacc[:] = 0
+        mujoco.mj_inverse(model, data)
+        assert np.abs(data.qfrc_inverse).max() <= 1e-12 * scale(system)  # measured 4e-14
+        assert not data.qvel[hinges(model)].any() and data.qvel[0] == shape.direction * shape.angular_speed
+
+
+@pytest.mark.parametrize("size", BY_SIZE)
+@pytest.mark.parametrize("integrator", ["RK4", "Euler"])
+def test_it_stays_for_ten_turns(size, integrator):
+    """A steady shape is a fixed point of every integrator in these coordinates: what moves is rounding."""
+    shape = rc.steady_shapes(BY_SIZE[size], conical_height=0.05)[0]
+    assert shape.stability().verdict == "minimum"
+    model, data = started(rc.to_mjcf(shape).replace("RK4", integrator))
+    start = data.qpos.copy()
+    mujoco.mj_step(model, data, round(10 * shape.period / model.opt.timestep))
+    still = hinges(model)
+    assert np.abs(data.qpos[still] - start[still]).max() < 1e-10  # rad; measured 3e-13
+    assert data.qpos[0] == pytest.approx(shape.angular_speed * data.time, rel=1e-9)
+
+
+def without_turning(model, data, shape):
+    """The same motion with the turntable at rest: it must not matter, as a turntable in the axis drives nothing."""
+    speed, turn = shape.angular_speed, np.zeros(3)
+    data.qvel[:] = 0
+    for k in reversed(range(shape.inclination.size)):
+        angle = shape.inclination[k]
+        across = np.array([np.cos(angle), 0.0, np.sin(angle)])
+        rate = speed * np.sin(angle) - turn @ across
+        data.joint(f"link_{k}_sideways").qvel[:] = rate
+        turn = turn + rate * across
+    mujoco.mj_forward(model, data)
+
+
+@pytest.mark.parametrize("size", BY_SIZE)
+def test_drift_is_that_of_the_integrator(size):
+    """With the turntable at rest all hinges move, and MuJoCo makes errors: halving its step says how large they are."""
+    chain = BY_SIZE[size]
+    shape = rc.steady_shape(chain, mode=1, angular_speed=1.15 * rc.modes(chain, 1).angular_speed[0])
+    ends = []
+    for step in (shape.period / 500, shape.period / 1000):
+        model, data = started(rc.to_mjcf(shape, timestep=step))
+        without_turning(model, data, shape)
+        mujoco.mj_step(model, data, round(10 * shape.period / step))
+        mujoco.mj_kinematics(model, data)
+        ends.append(pins(model, data))
+    error, own = np.abs(ends[0] - shape.position).max(), 16 / 15 * np.abs(ends[0] - ends[1]).max()
+    assert own > 1e-13 and error <= 1.1 * own + 1e-11  # m; the error of RK4 falls to a sixteenth
+
+
+@pytest.mark.parametrize("system", [BY_SIZE[3], BY_SIZE[5], *RIGS.values()], ids=["3 rods", "5 rods", *RIGS])
+def test_unstable_shapes_leave_at_their_growth_rate(system):
+    found = [rc.steady_shapes(system, angular_speed=n, hanging_only=n < 30) for n in (8.0, 11.0, 15.0, 20.0, 30.0)]
+    shapes = [shape for shapes in found for shape in shapes if shape.stability().growth_rate > 0.02]
+    assert shapes
+    rng = np.random.default_rng(1)
+    for shape in (shapes[0], shapes[-1]):
+        rate = shape.stability().growth_rate * shape.angular_speed
+        model, data = started(rc.to_mjcf(shape))
+        free = hinges(model)
+        start = data.qpos[free].copy()
+        data.qpos[free] += 1e-10 * rng.normal(size=len(free))
+        stride = max(1, round(0.05 * shape.period / model.opt.timestep))
+        apart = []
+        while not apart or np.abs(apart[-1]).max() < 1e-5:
+            mujoco.mj_step(model, data, stride)
+            apart.append(np.concatenate([data.qpos[free] - start, data.qvel[free] / shape.angular_speed]))
+            assert data.time < 25 / rate
+        # x(t + 2) = a x(t + 1) + b x(t): the roots of z^2 = a z + b are the growth in one stride
+        last = np.array(apart[-60:])
+        a, b = np.linalg.lstsq(np.stack([last[1:-1].ravel(), last[:-2].ravel()], 1), last[2:].ravel(), rcond=None)[0]
+        growth = np.log(np.abs(np.roots([1, -a, -b])).max()) / (stride * model.opt.timestep)
+        assert growth == pytest.approx(rate, rel=0.02)
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+def test_positions_velocities_and_reactions(system):
+    for shape in shapes_of(system):
+        model, data = started(rc.to_mjcf(shape))
+        mujoco.mj_rnePostConstraint(model, data)
+        size = shape.reaction.shape[0]
+        assert shape.position.shape == shape.velocity.shape == (size + 1, 3)
+        links = links_of(model)
+        np.testing.assert_allclose(pins(model, data), shape.position, rtol=0, atol=1e-13)
+        velocity = np.empty(6)
+        for k, body in enumerate(links):
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, velocity, 0)
+            np.testing.assert_allclose(velocity[3:], shape.velocity[k + 1], rtol=0, atol=1e-11)
+        force = data.cfrc_int[links][:, 3:]
+        np.testing.assert_allclose(force, shape.reaction, rtol=0, atol=1e-11 * np.abs(shape.reaction).max())
+        np.testing.assert_allclose(np.linalg.norm(shape.reaction, axis=1), shape.tension, rtol=1e-15)
+        rows = json.loads(json.dumps(shape.to_dict()))["links"]
+        for name in ("joint_angle", "reaction"):
+            assert [row[name] for row in rows] == getattr(shape, name).tolist()
+        for name in ("position", "velocity"):
+            assert [row[name] for row in rows] == getattr(shape, name)[:-1].tolist()
+        assert np.cumsum(shape.joint_angle[::-1])[::-1] == pytest.approx(shape.inclination, abs=1e-14)
+        assert shape.to_xarray()["reaction"].shape == (size, 3)
+
+
+def test_positions_of_other_shapes():
+    cord = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0]
+    held = rc.steady_shapes(rc.Held(RODS, span=0.5), angular_speed=15.0)[0]
+    for shape in (cord, held):
+        np.testing.assert_array_equal(shape.position[:, [0, 2]], np.stack([shape.offset, shape.height], 1))
+        np.testing.assert_array_equal(shape.velocity[:, 1], shape.angular_speed * shape.offset)
+        assert not shape.position[:, 1].any() and not shape.velocity[:, [0, 2]].any()
+
+
+def test_a_list_of_shapes_is_a_list_of_keyframes(tmp_path):
+    shapes = rc.steady_shapes(RODS, conical_height=0.03)
+    text = rc.to_mjcf(shapes, tmp_path / "shapes.xml")
+    assert (tmp_path / "shapes.xml").read_text(encoding="utf-8") == text
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "shapes.xml"))
+    assert model.nkey == len(shapes) == 3 and model.key(2).name == "shape 3"
+    for k, shape in enumerate(shapes):
+        np.testing.assert_array_equal(model.key_qpos[k][1::2], shape.joint_angle[::-1])
+    assert model.opt.gravity.tolist() == [0, 0, -9.80665]
+
+
+def test_systems_are_at_rest():
+    standing = rc.Rig(RODS, inverted=[True, False, False], support=rc.Support(radius=0.3))
+    model, data = started(rc.to_mjcf(standing, gravity=1.62, timestep=0.01))
+    assert np.abs(data.qacc).max() < 1e-12 and not data.qvel.any()
+    assert data.site("free_end").xpos == pytest.approx([0.3, 0.0, -1 / 3])
+    assert model.opt.timestep == 0.01 and model.opt.gravity[2] == -1.62
+    spinning, data = started(rc.to_mjcf(rc.Rig(RODS, flywheels=WHEELS)))
+    wheel = spinning.body("link_0_wheel").id
+    momentum = spinning.body_inertia[wheel][2] * data.joint("link_0_spin").qvel[0]
+    assert momentum == pytest.approx(0.3 * 0.1**2 * 100.0)
+
+
+def test_weights_are_masses_times_gravity():
+    text = rc.to_mjcf(rc.Chain(weight=[9.0, 18.0], length=1.0), gravity=9.0)
+    assert started(text)[0].body_mass[-2:].tolist() == [2.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("given", "kind", "message"),
+    [
+        (rc.Cord(1.0), ValueError, r"cut a cord into links first: cord.chain\(100\); got Cord"),
+        (rc.Held(RODS, span=0.5), ValueError, "only a Chain or a Rig is a serial chain of links"),
+        (rc.Rig(RODS, displaced=rc.Displaced(mass=0.1)), ValueError, "a fluid has no counterpart"),
+        (rc.Chain(mass=[1.0, 0.0, 0.0], length=1.0), ValueError, r"a pin without mass stay in line.*chain.clamped\(k\)"),
+        (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] is in a point"),
+        (rc.steady_shapes(RODS, conical_height=5.0), ValueError, "the list of shapes is empty; give the system"),
+        ([RODS], TypeError, r"system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got \[Chain"),
+    ],
+)  # fmt: skip
+def test_what_has_no_model(given, kind, message):
+    with pytest.raises(kind, match=message):
+        rc.to_mjcf(given)
+
+
+def test_wrong_arguments(tmp_path):
+    with pytest.raises(ValueError, match=r"to_mjcf: a shape has its gravity, 9.80665; leave gravity out, got 1.0"):
+        rc.to_mjcf(shapes_of(RODS)[0], gravity=1.0)
+    with pytest.raises(ValueError, match="to_mjcf: timestep must be positive and finite, got 0"):
+        rc.to_mjcf(RODS, timestep=0.0)
+    with pytest.raises(OSError, match="No such file or directory"):
+        rc.to_mjcf(RODS, tmp_path / "nowhere" / "model.xml")
