@@ -21,7 +21,8 @@ Closed forms
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
-    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError
+    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
+    from_urdf
 
 Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Arrays are counted
 from 0, modes from 1. A *conical height* is ``gravity / speed**2``, the height of the conical pendulum that turns as
@@ -107,6 +108,9 @@ if _TYPE_CHECKING:
     from .closed_forms.statics import funicular_polygon as funicular_polygon
     from .closed_forms.statics import transverse_modes as transverse_modes
     from .exchange.mjcf import to_mjcf as to_mjcf
+    from .exchange.read import from_mjcf as from_mjcf
+    from .exchange.read import from_urdf as from_urdf
+    from .exchange.urdf import to_urdf as to_urdf
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
@@ -132,6 +136,9 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "transverse_modes": "closed_forms.statics",
     "load": "results.storage",
     "to_mjcf": "exchange.mjcf",
+    "to_urdf": "exchange.urdf",
+    "from_mjcf": "exchange.read",
+    "from_urdf": "exchange.read",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
 _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}

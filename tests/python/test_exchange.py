@@ -228,3 +228,208 @@ def test_wrong_arguments(tmp_path):
         rc.to_mjcf(RODS, timestep=0.0)
     with pytest.raises(OSError, match="No such file or directory"):
         rc.to_mjcf(RODS, tmp_path / "nowhere" / "model.xml")
+
+
+# ---- reading
+
+
+COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
+
+
+def same_numbers(one, other):
+    return one.size == other.size and all(np.array_equal(getattr(one, name), getattr(other, name)) for name in COLUMNS)
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+@pytest.mark.parametrize("of_shape", [False, True], ids=["system", "shape"])
+@pytest.mark.parametrize("form", ["mjcf", "urdf"])
+def test_back_to_the_last_digit(system, of_shape, form, tmp_path):
+    write, read = getattr(rc, f"to_{form}"), getattr(rc, f"from_{form}")
+    given = shapes_of(system)[0] if of_shape else system
+    if getattr(system, "flywheels", None) is not None:
+        with pytest.raises(ValueError, match="both hang from body 'link_1'|both hang from body 'link_2'|flywheels"):
+            read(write(given))
+        return
+    if form == "urdf" and isinstance(system, rc.Rig) and np.isfinite(system.support.stiffness):
+        with pytest.raises(ValueError, match="URDF has no springs; use to_mjcf, got a support of stiffness 300"):
+            write(given)
+        return
+    text = write(given, tmp_path / "model.xml")
+    for found in (read(text), read(tmp_path / "model.xml"), read(str(tmp_path / "model.xml"))):
+        assert type(found) is type(system)
+        assert same_numbers(getattr(found, "chain", found), getattr(system, "chain", system))
+        if isinstance(system, rc.Rig):
+            assert found.support == system.support and found.flywheels is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_back_from_any_numbers(seed):
+    rng = np.random.default_rng(seed)
+    size = int(rng.integers(1, 9))
+    mass, length, centroid, radius = np.exp(rng.normal(0, 2, (4, size)))
+    bodies = rc.Chain(mass=mass, length=length, centroid=centroid, radius_of_gyration=radius)
+    points = rc.Chain(mass=mass, length=length, names=[f"part {k}" for k in range(size)])
+    for chain in (bodies, points):
+        assert rc.from_mjcf(rc.to_mjcf(chain)) == rc.from_urdf(rc.to_urdf(chain)) == chain
+    pendulums = rc.Chain(mass=mass, length=length, centroid=centroid, pendulum_length=centroid + radius)
+    assert same_numbers(rc.from_mjcf(rc.to_mjcf(pendulums)), pendulums)
+
+
+def test_shapes_in_urdf():
+    """With all joints at 0 the links are where the shape has them, and a turning support keeps them there."""
+    shape = shapes_of(RIGS["arm"])[1]
+    model = mujoco.MjModel.from_xml_string(rc.to_urdf(shape))
+    model.opt.gravity[2] = -shape.gravity
+    data = mujoco.MjData(model)
+    data.qvel[0] = shape.angular_speed
+    mujoco.mj_forward(model, data)
+    np.testing.assert_allclose(data.xpos[links_of(model)], shape.position[1:], rtol=0, atol=1e-14)
+    data.qacc[:] = 0
+    mujoco.mj_inverse(model, data)
+    assert np.abs(data.qfrc_inverse).max() <= 1e-12 * scale(RIGS["arm"])
+    assert rc.to_urdf(shape).count('type="continuous"') == 7
+
+
+def test_urdf_has_one_configuration():
+    with pytest.raises(TypeError, match=r"one configuration; give one shape, such as shapes\[0\]"):
+        rc.to_urdf(shapes_of(RODS.clamped(0)) and rc.steady_shapes(RODS, angular_speed=9.0))
+    with pytest.raises(ValueError, match="URDF has no velocities, which wheels need"):
+        rc.to_urdf(RIGS["flywheels"])
+    assert rc.from_urdf(rc.to_urdf(rc.Chain(weight=[4.0, 9.0], length=1.0), gravity=2.0)).mass.tolist() == [2.0, 4.5]
+
+
+BALLS = """<mujoco><worldbody>
+  <body name="upper" pos="0.3 0 2"><joint name="a" type="ball"/>
+    <geom type="capsule" fromto="0 0 0  0.6 0 0" size="0.02" mass="2"/>
+    <body name="lower" pos="0.7 0.1 0" quat="0.6 0 0.8 0"><joint name="b" type="ball" pos="-0.1 0 0.05"/>
+      <inertial pos="-0.1 0.2 0.05" mass="3" diaginertia="0.2 0.02 0.2"/>
+    </body></body>
+</worldbody></mujoco>"""
+PLANE = """<mujoco><worldbody>
+  <body name="upper" pos="0 0 2"><joint name="a" type="hinge" axis="0 1 0"/>
+    <inertial pos="0 0 -0.2" mass="2" diaginertia="0.3 0.4 0.35"/>
+    <body name="lower" pos="0 0 -0.5"><joint name="b" type="hinge" axis="0 1 0"/>
+      <inertial pos="0 0 -0.3" mass="3" diaginertia="0.1 0.16 0.1"/><site name="tip" pos="0 0 -0.8"/>
+    </body></body>
+</worldbody></mujoco>"""
+
+
+def test_models_of_others():
+    """Links along any axis of their frames, pins off its origin, inertia of geoms, free ends by site or geom."""
+    plane = rc.from_mjcf(PLANE)
+    assert same_numbers(
+        plane,
+        rc.Chain(mass=[3.0, 2.0], length=[0.8, 0.5], centroid=[0.3, 0.2], radius_of_gyration=np.sqrt([0.16 / 3, 0.4 / 2])),
+    )
+    assert plane.names == ("lower", "upper")
+    with pytest.raises(ValueError, match="free end of body 'lower' is not marked; put a site there"):
+        rc.from_mjcf(PLANE.replace('<site name="tip" pos="0 0 -0.8"/>', ""))
+    ended = BALLS.replace("</body></body>", '<geom type="cylinder" fromto="-0.1 0 0.05  -0.1 0.4 0.05" size="0.01"/></body></body>')
+    with pytest.raises(ValueError, match="centre of gravity of body 'upper' is not on the line between its pins"):
+        rc.from_mjcf(ended)
+    # the pin of the lower link, in the frame of the upper: (0.7, 0.1, 0) turned to lie on the x axis
+    straight = ended.replace('pos="0.7 0.1 0" quat="0.6 0 0.8 0"', 'pos="0.8 0 -0.05"')
+    balls = rc.from_mjcf(straight)
+    assert balls.length == pytest.approx([0.4, 0.7], rel=1e-12) and balls.centroid == pytest.approx([0.2, 0.3], rel=1e-12)
+    assert balls.mass.tolist() == [3.0, 2.0] and balls.radius_of_gyration[0] == pytest.approx(np.sqrt(0.2 / 3))
+    turned = straight.replace('pos="0.8 0 -0.05"', 'pos="0.73 0.05 0" quat="0.7071067811865476 0 0.7071067811865476 0"')
+    turned = turned.replace('pos="0.73', 'pos="0.65').replace("0.65 0.05 0", "0.65 0 -0.1")
+    assert rc.from_mjcf(turned).length == pytest.approx([0.4, 0.7], rel=1e-12)
+
+
+def test_swing_of_a_model_of_others():
+    """MuJoCo's own linearised motion has the natural frequencies of the chain that was read."""
+    model = mujoco.MjModel.from_xml_string(PLANE.replace("<worldbody>", '<option timestep="1e-4" integrator="RK4"/><worldbody>'))
+    data = mujoco.MjData(model)
+    stiffness = np.empty((2, 2))
+    for k in range(2):
+        forces = []
+        for step in (1e-6, -1e-6):
+            data.qpos[:], data.qvel[:], data.qacc[:] = 0, 0, 0
+            data.qpos[k] = step
+            mujoco.mj_inverse(model, data)
+            forces.append(data.qfrc_inverse.copy())
+        stiffness[:, k] = (forces[0] - forces[1]) / 2e-6
+    inertia = np.empty((2, 2))
+    data.qpos[:] = 0
+    mujoco.mj_forward(model, data)
+    mujoco.mj_fullM(model, data, inertia)
+    speeds = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real))
+    assert rc.modes(rc.from_mjcf(PLANE), gravity=9.81).angular_speed == pytest.approx(speeds, rel=1e-7)
+
+
+def test_a_turning_support_keeps_axial_moments():
+    """Links on hinges below a turntable turn with it, about their own axes too."""
+    text = rc.to_mjcf(RIGS["arm"]).replace("1e-15\"", "0.001\"")
+    rig = rc.from_mjcf(text)
+    assert rig.support == RIGS["arm"].support
+    assert rig.flywheels == rc.Flywheel(axial_moment=0.001)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("</worldbody>", '</worldbody><actuator><motor joint="b"/></actuator>', "the model has actuators, which a chain has not"),
+        ("</worldbody>", '</worldbody><equality><connect body1="lower" anchor="0 0 0"/></equality>', "has equality constraints"),
+        ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid .* set them to 0"),
+        ("</body></body>", '</body><body><joint/><geom size="1"/></body></body>', "body 'lower' and body number 3 both hang from body 'upper'"),
+        ("</body></body>", '<body name="bob"><geom size="1"/></body></body></body>', "body 'bob' is fixed to body 'lower'; make them one"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" damping="0.5"', "joint 'b' has damping 0.5; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3"', "joint 'b' has a spring of stiffness 3; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" armature="0.1"', "joint 'b' has armature 0.1; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" frictionloss="1"', "joint 'b' has frictionloss 1; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" range="-1 1"', "joint 'b' has a range; take it away"),
+        ('name="b" type="hinge"', 'name="b" type="slide"', "joint 'b' is neither a hinge nor a ball joint"),
+        ('name="b" type="hinge" axis="0 1 0"', 'name="b" type="hinge" axis="1 0 0"', "not level and parallel"),
+        ('name="b" type="hinge" axis="0 1 0"', 'name="b" type="hinge" axis="0 0 1"', "hinges of body 'lower' are not across the link"),
+        ('pos="0 0 -0.5"', 'pos="0 0 0"', "body 'upper' has mass but no length"),
+        ('pos="0 0 -0.2"', 'pos="0.1 0 -0.2"', "centre of gravity of body 'upper' is not on the line"),
+        ('<joint name="b" type="hinge" axis="0 1 0"/>', "", "body 'lower' is fixed to body 'upper'; make them one body"),
+        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<freejoint name="a"/>', "joint 'a' is neither a hinge nor a ball joint"),
+        ('<joint name="a" type="hinge" axis="0 1 0"/>', '<joint type="slide" axis="1 0 0"/>', "body 'upper' slides, but not on two equal springs"),
+    ],
+)  # fmt: skip
+def test_what_is_no_chain(old, new, message):
+    assert old in PLANE
+    with pytest.raises(ValueError, match=rf"^revchain.from_mjcf: .*{message}"):
+        rc.from_mjcf(PLANE.replace(old, new))
+
+
+def test_links_in_space():
+    ball = PLANE.replace('name="b" type="hinge" axis="0 1 0"', 'name="b" type="ball"')
+    with pytest.raises(ValueError, match="body 'lower' is not alike all round its axis"):
+        rc.from_mjcf(ball)
+    with pytest.raises(ValueError, match="some links have one hinge and some have more"):
+        rc.from_mjcf(ball.replace("0.1 0.16 0.1", "0.16 0.16 0.1"))
+    with pytest.raises(ValueError, match="the joints of body 'upper' are at different places"):
+        rc.from_mjcf(PLANE.replace('<joint name="a"', '<joint pos="0 0 0.1" axis="1 0 0"/><joint name="a"'))
+    with pytest.raises(ValueError, match="no link hangs from the support"):
+        rc.from_mjcf(rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).replace('axis="0.0 -1.0 0.0"', 'axis="1.0 0.0 0.0"').partition("<body name=\"link")[0] + "</body></worldbody></mujoco>")
+
+
+def test_what_is_no_model(tmp_path):
+    with pytest.raises(ValueError, match=r"from_mjcf: source must begin with <mujoco>, got <robot>, a URDF file: use from_urdf"):
+        rc.from_mjcf(rc.to_urdf(RODS))
+    with pytest.raises(ValueError, match=r"from_urdf: source must begin with <robot>, got <a>, neither MJCF nor URDF"):
+        rc.from_urdf("<a/>")
+    with pytest.raises(ValueError, match=r"from_mjcf: no element found|not well-formed"):
+        rc.from_mjcf("<mujoco>")
+    with pytest.raises(ValueError, match=r"from_mjcf: .*unrecognized"):
+        rc.from_mjcf("<mujoco><chain/></mujoco>")
+    with pytest.raises(ValueError, match=r"from_mjcf: the model has no joints"):
+        rc.from_mjcf("<mujoco/>")
+    with pytest.raises(FileNotFoundError):
+        rc.from_mjcf(tmp_path / "nothing.xml")
+    with pytest.raises(TypeError, match="from_urdf: source must be a path"):
+        rc.from_urdf(3)
+
+
+def test_mujoco_is_an_extra(python, without):
+    program = without("mujoco") + (
+        "import revchain as rc\n"
+        "text = rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)); rc.to_urdf(rc.Chain(mass=1.0, length=1.0))\n"
+        "try: rc.from_mjcf(text)\n"
+        "except ImportError as error: print(error)\n"
+    )
+    done = python("-c", program)
+    assert done.stdout == 'revchain.from_mjcf needs mujoco: pip install "revchain[exchange]"\n', done.stderr

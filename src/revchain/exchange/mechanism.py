@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from ..systems.system import System
 HELD = 1e12
 """Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
 PARTS = ("world", "turntable", "carriage")
+_DIGITS = Context(prec=40)
 _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
 
 
@@ -153,16 +155,23 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
 
 
 def moments(mass: Floats, radius: Floats) -> Floats:
-    """Moments of inertia whose radii of gyration, ``sqrt(moment / mass)``, are those given to the last digit."""
+    """Moments of inertia whose radii of gyration are those given, to the last digit."""
+    return np.array([_moment(float(m), float(k)) for m, k in zip(mass, radius, strict=True)])
+
+
+def _moment(mass: float, radius: float) -> float:
     found = mass * radius * radius
-    with np.errstate(invalid="ignore", divide="ignore"):
-        for step in (np.inf, -np.inf):
-            near = found
-            for _ in range(4):
-                near = np.nextafter(near, step)
-                better = (np.sqrt(found / mass) != radius) & (np.sqrt(near / mass) == radius)
-                found = np.where(better, near, found)
-    return found
+    up, down = [found], [found]
+    for _ in range(3):
+        up.append(math.nextafter(up[-1], math.inf))
+        down.append(math.nextafter(down[-1], 0.0))
+    exact = (near for pair in zip(up, down, strict=True) for near in pair if radius_of_gyration(near, mass) == radius)
+    return next(exact, found)
+
+
+def radius_of_gyration(moment: float, mass: float) -> float:
+    """The root of their ratio, rounded once; 0 without mass."""
+    return float(_DIGITS.sqrt(_DIGITS.divide(Decimal(moment), Decimal(mass)))) if mass > 0 else 0.0
 
 
 def _names(chain: Chain) -> tuple[str, ...]:
