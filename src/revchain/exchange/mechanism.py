@@ -39,6 +39,8 @@ class Mechanism:
         Of the links, all different.
     mass, length, centroid, moment : array, shape (N,)
         The moment of inertia is that across the link, about its centre of gravity.
+    ratio : array, shape (2, N)
+        (radius of gyration / length) squared in two words, as the chain holds it.
     wheeled : array of bool, shape (N,)
         Whether a link has a wheel that carries an angular momentum along it.
     radius, stiffness, carriage : float
@@ -53,6 +55,7 @@ class Mechanism:
     length: Floats
     centroid: Floats
     moment: Floats
+    ratio: Floats
     wheeled: Any
     radius: float
     stiffness: float
@@ -144,6 +147,7 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
         length=chain.length,
         centroid=chain.centroid,
         moment=moment,
+        ratio=np.stack([np.broadcast_to(word, size) for word in chain._compiled.__getstate__()[4:6]]),
         wheeled=wheeled,
         radius=support.radius,
         stiffness=support.stiffness,

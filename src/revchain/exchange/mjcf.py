@@ -19,6 +19,8 @@ from .mechanism import Mechanism, State, mechanism
 
 LEAST = 1e-15
 """The least mass and moment of inertia that MuJoCo takes for a moving body (mjMINVAL)."""
+RATIO = "gyration_ratio"
+"""Name of the numbers that hold more digits of the radii of gyration than MuJoCo's moments of inertia have."""
 _STEPS = 1000  # of time in a turn
 _STEPS_OF_LINK = 50  # in an oscillation of the lightest link under the greatest tension
 
@@ -99,7 +101,7 @@ def written(place: str, model: Xml.Element, path: str | os.PathLike[str] | None)
 
 def numbers(*values: Any) -> str:
     """With all digits, no negative zeros."""
-    return " ".join(repr(float(value) + 0.0) for value in values)
+    return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)
 
 
 def _step(made: Mechanism, state: State) -> float:
@@ -114,6 +116,7 @@ def _model(made: Mechanism, step: float) -> Xml.Element:
     Xml.SubElement(root, "compiler", angle="radian", inertiafromgeom="false")
     option = {"timestep": numbers(step), "gravity": numbers(0, 0, -made.gravity), "integrator": "RK4"}
     Xml.SubElement(Xml.SubElement(root, "option", option), "flag", contact="disable")
+    Xml.SubElement(Xml.SubElement(root, "custom"), "numeric", name=RATIO, data=numbers(*made.ratio.flat))
     Xml.SubElement(root, "statistic", center=numbers(0, 0, -size / 2), extent=numbers(size))
     Xml.SubElement(Xml.SubElement(root, "default"), "geom", contype="0", conaffinity="0", rgba="0.3 0.4 0.5 1")
     world = Xml.SubElement(root, "worldbody")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -12,6 +13,7 @@ from ..systems.chain import Chain
 from ..systems.numbers import Floats
 from ..systems.rig import Flywheel, Rig, Support
 from .mechanism import radius_of_gyration
+from .mjcf import RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
 _MORE = {"neq": "equality constraints", "ntendon": "tendons", "nu": "actuators", "nflex": "flexes", "nplugin": "plugins"}
@@ -61,10 +63,16 @@ class Serial:
             arm = self.at.xanchor[self._joints(bodies[0], turn)[0]] - self.at.xanchor[turn]
             given["radius"] = float(np.linalg.norm(arm - (arm @ self.up) * self.up))
         axial = np.array([link.axial for link in reversed(links)])
-        chain = _chain(links[::-1])
+        chain = _chain(links[::-1], self._numeric(RATIO))
         if not any(given.values()) and not axial.any():
             return chain
         return Rig(chain, support=Support(**given), flywheels=Flywheel(axial_moment=axial) if axial.any() else None)
+
+    def _numeric(self, name: str) -> Floats:
+        """Custom numbers of the file; none where it has none of the name."""
+        model = self.model
+        known = [model.numeric(k).name for k in range(model.nnumeric)]
+        return np.array(model.numeric(name).data if name in known else [])
 
     def _refuse(self, why: str) -> NoReturn:
         raise ValueError(f"{self.place}: {why}")
@@ -250,12 +258,18 @@ class Serial:
         return float(about[0, 0]), float(about[2, 2])
 
 
-def _chain(links: list[_Link]) -> Chain:
-    """From the free end up; without names where these are the numbers."""
+def _chain(links: list[_Link], ratio: Floats) -> Chain:
+    """From the free end up; without names where these are the numbers; `ratio` holds more digits, if the file has them."""
     names = [link.name for link in links]
     numbered = not all(names) or names == [f"link_{k}" for k in range(len(names))]
     columns = {name: [getattr(link, name) for link in links] for name in _COLUMNS}
-    return Chain(names=None if numbered else names, **columns)  # type: ignore[arg-type]
+    chain = Chain(names=None if numbered else names, **columns)  # type: ignore[arg-type]
+    if ratio.size == 2 * len(links):
+        more = dict(zip(("gyration_ratio", "gyration_ratio_low"), ratio.reshape(2, -1).tolist(), strict=True))
+        with suppress(ValueError):  # numbers of another chain
+            exact = Chain.from_dict(chain.to_dict() | more)
+            return exact if np.array_equal(exact.radius_of_gyration, chain.radius_of_gyration) else chain
+    return chain
 
 
 _COLUMNS = ("mass", "length", "centroid", "radius_of_gyration")
