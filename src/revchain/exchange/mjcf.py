@@ -75,7 +75,7 @@ def to_mjcf(
     >>> shape = rc.steady_shape(rc.Chain(mass=[1.0, 3.0], length=1.0), mode=1, angular_speed=3.0)
     >>> text = rc.to_mjcf(shape)
     >>> print(text.split("<keyframe>")[0].count("<joint"), shape.joint_angle.round(4))
-    5 [0.087  0.7337]
+    5 [0.2773 0.6179]
     """
     place = "revchain.to_mjcf"
     made, states = mechanism(place, system, gravity)
@@ -117,10 +117,7 @@ def _model(made: Mechanism, step: float) -> Xml.Element:
     option = {"timestep": numbers(step), "gravity": numbers(0, 0, -made.gravity), "integrator": "RK4"}
     Xml.SubElement(Xml.SubElement(root, "option", option), "flag", contact="disable")
     Xml.SubElement(Xml.SubElement(root, "custom"), "numeric", name=RATIO, data=numbers(*made.ratio.flat))
-    Xml.SubElement(root, "statistic", center=numbers(0, 0, -size / 2), extent=numbers(size))
-    Xml.SubElement(Xml.SubElement(root, "default"), "geom", contype="0", conaffinity="0", rgba="0.3 0.4 0.5 1")
-    world = Xml.SubElement(root, "worldbody")
-    Xml.SubElement(world, "light", directional="true", pos=numbers(0, 0, size), dir="0 0 -1")
+    world = _scenery(root, size)
     at = _body(world, "turntable", (0, 0, 0), LEAST, (0, 0, 0), (made.turning,) * 3)
     _joint(at, "turn", "hinge", (0, 0, 1))
     pin = (made.radius, 0, 0)
@@ -132,8 +129,20 @@ def _model(made: Mechanism, step: float) -> Xml.Element:
             _joint(at, name, "slide", axis).set("stiffness", numbers(made.stiffness))
     for k in reversed(range(made.size)):
         at, pin = _link(at, made, k, pin, size), (0, 0, -made.length[k])
-    Xml.SubElement(at, "site", name="free_end", pos=numbers(*pin), size=numbers(size / 300))
+    Xml.SubElement(at, "site", name="free_end", pos=numbers(*pin), size=numbers(size / 150))
     return root
+
+
+def _scenery(root: Xml.Element, size: float) -> Xml.Element:
+    """Camera, light and background for a figure that turns about the axis; the world."""
+    Xml.SubElement(root, "statistic", center=numbers(0, 0, -size / 3), extent=numbers(1.4 * size))
+    Xml.SubElement(Xml.SubElement(root, "visual"), "global", azimuth="90", elevation="-12")
+    sky = {"type": "skybox", "builtin": "flat", "rgb1": "1 1 1", "width": "8", "height": "8"}
+    Xml.SubElement(Xml.SubElement(root, "asset"), "texture", sky)
+    Xml.SubElement(Xml.SubElement(root, "default"), "geom", contype="0", conaffinity="0", rgba="0.12 0.47 0.71 1")
+    world = Xml.SubElement(root, "worldbody")
+    Xml.SubElement(world, "light", directional="true", pos=numbers(0, 0, size), dir="0.3 0.5 -1")
+    return world
 
 
 def _link(parent: Xml.Element, made: Mechanism, k: int, pin: Any, size: float) -> Xml.Element:
@@ -165,7 +174,7 @@ def _joint(body: Xml.Element, name: str, kind: str, axis: tuple[int, int, int]) 
 
 
 def _rod(body: Xml.Element, end: Any, size: float) -> None:
-    Xml.SubElement(body, "geom", type="capsule", fromto=numbers(0, 0, 0, *end), size=numbers(size / 300), mass="0")
+    Xml.SubElement(body, "geom", type="capsule", fromto=numbers(0, 0, 0, *end), size=numbers(size / 150), mass="0")
 
 
 def _keyframe(made: Mechanism, state: State) -> tuple[list[float], list[float]]:
