@@ -213,6 +213,7 @@ def test_weights_are_masses_times_gravity():
         (rc.Rig(RODS, displaced=rc.Displaced(mass=0.1)), ValueError, "a fluid has no counterpart"),
         (rc.Chain(mass=[1.0, 0.0, 0.0], length=1.0), ValueError, r"a pin without mass stay in line.*chain.clamped\(k\)"),
         (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] is in a point"),
+        (rc.Chain.uniform_rods(491, mass=1.0), ValueError, "at most 490 links, one below another, got 491"),
         (rc.steady_shapes(RODS, conical_height=5.0), ValueError, "the list of shapes is empty; give the system"),
         ([RODS], TypeError, r"system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got \[Chain"),
     ],
@@ -276,6 +277,12 @@ def test_back_from_any_numbers(seed):
     pendulums = rc.Chain(mass=mass, length=length, centroid=centroid, pendulum_length=centroid + radius)
     assert rc.from_mjcf(rc.to_mjcf(pendulums)) == pendulums
     assert same_numbers(rc.from_urdf(rc.to_urdf(pendulums)), pendulums)
+
+
+def test_the_longest_chain():
+    """As many bodies as MuJoCo nests, and a carriage."""
+    rig = rc.Rig(rc.Chain.uniform_rods(490, mass=1.0), support=rc.Support(radius=0.1, stiffness=9.0))
+    assert mujoco.MjModel.from_xml_string(rc.to_mjcf(rig)).nv == 983
 
 
 def test_an_edited_file_is_read_as_it_is():

@@ -24,6 +24,8 @@ from ..systems.system import System
 
 HELD = 1e12
 """Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
+MOST = 490
+"""Links: MuJoCo nests bodies no deeper than some 500."""
 PARTS = ("world", "turntable", "carriage")
 _DIGITS = Context(prec=40)
 _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
@@ -126,6 +128,8 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
             f"{place}: links that meet at a pin without mass stay in line, and no engine can move them one by one; "
             f"make them one: chain.clamped(k) with the lower of the two, got {chain.describe()}"
         )
+    if chain.size > MOST:
+        raise ValueError(f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones")
     per = 1.0 if chain.by_mass else gravity
     mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
     momentum, axial = np.zeros(size), np.zeros(size)

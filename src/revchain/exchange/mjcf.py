@@ -54,8 +54,8 @@ def to_mjcf(
     Raises
     ------
     ValueError
-        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a point mass or links that meet at
-        a pin without mass; if `gravity` is given with a shape; or if the file cannot be written.
+        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a point mass, links that meet at a
+        pin without mass, or more than 490 links; if `gravity` is given with a shape; or if the file cannot be written.
     TypeError
         If `system` is none of these.
 

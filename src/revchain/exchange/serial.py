@@ -41,6 +41,12 @@ class Serial:
         self.at = mujoco.MjData(model)
         mujoco.mj_kinematics(model, self.at)
         size = float(np.linalg.norm(model.opt.gravity))
+        self.children: list[list[int]] = [[] for _ in range(model.nbody)]
+        self.moves = [bool(count) for count in model.body_jntnum]  # or something that hangs from it does
+        for body in range(model.nbody - 1, 0, -1):
+            above = int(model.body_parentid[body])
+            self.children[above].insert(0, body)
+            self.moves[above] |= self.moves[body]
         self.up = -model.opt.gravity / size if size else np.array([0.0, 0.0, 1.0])
 
     def system(self) -> Chain | Rig:
@@ -86,23 +92,16 @@ class Serial:
         first = int(self.model.body_jntadr[body])
         return [j for j in range(first, first + int(self.model.body_jntnum[body])) if j != but]
 
-    def _children(self, body: int) -> list[int]:
-        return [b for b in range(1, self.model.nbody) if self.model.body_parentid[b] == body]
-
-    def _moves(self, body: int) -> bool:
-        """Whether it, or a body that hangs from it, has a joint."""
-        return bool(self._joints(body)) or any(map(self._moves, self._children(body)))
-
     def _path(self) -> list[int]:
         """Bodies with joints, from the support down."""
         bodies: list[int] = []
         here = 0
         while True:
-            below = [b for b in self._children(here) if self._moves(b)]
+            below = [b for b in self.children[here] if self.moves[b]]
             if len(below) > 1:
                 one, other = (self._name("body", b) for b in below[:2])
                 self._refuse(f"{one} and {other} both hang from {self._name('body', here)}; only a serial chain can be read")
-            fixed = [b for b in self._children(here) if b not in below and self.model.body_subtreemass[b] > self.least]
+            fixed = [b for b in self.children[here] if b not in below and self.model.body_subtreemass[b] > self.least]
             if bodies and fixed:
                 self._refuse(f"{self._name('body', fixed[0])} is fixed to {self._name('body', here)}; make them one body")
             if not below:
@@ -194,7 +193,7 @@ class Serial:
 
     def _free_end(self, body: int, pin: Floats) -> Floats:
         """Marked by a body without mass or by the only site; else the end of the geoms, seen along the centre of gravity."""
-        model, marks = self.model, self._children(body)
+        model, marks = self.model, self.children[body]
         sites = np.flatnonzero(model.site_bodyid == body)
         if len(marks) == 1:
             return np.array(model.body_pos[marks[0]])
