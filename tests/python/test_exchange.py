@@ -387,13 +387,14 @@ def test_a_turning_support_keeps_axial_moments():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("</worldbody>", '</worldbody><actuator><motor joint="b"/></actuator>', "the model has actuators, which a chain has not"),
+        ("</worldbody>", '</worldbody><actuator><motor joint="b"/></actuator>', "the model has actuators, which a chain does not have; take them away"),
         ("</worldbody>", '</worldbody><equality><connect body1="lower" anchor="0 0 0"/></equality>', "has equality constraints"),
+        ('name="lower"', 'name="lower" gravcomp="1"', "gravity does not act on all bodies"),
         ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid .* set them to 0"),
         ("</body></body>", '</body><body><joint/><geom size="1"/></body></body>', "body 'lower' and body number 3 both hang from body 'upper'"),
         ("</body></body>", '<body name="bob"><geom size="1"/></body></body></body>', "body 'bob' is fixed to body 'lower'; make them one"),
         ('name="b" type="hinge"', 'name="b" type="hinge" damping="0.5"', "joint 'b' has damping 0.5; set it to 0"),
-        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3"', "joint 'b' has a spring of stiffness 3; set it to 0"),
+        ('name="b" type="hinge"', 'name="b" type="hinge" stiffness="3"', "joint 'b' has stiffness 3; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" armature="0.1"', "joint 'b' has armature 0.1; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" frictionloss="1"', "joint 'b' has frictionloss 1; set it to 0"),
         ('name="b" type="hinge"', 'name="b" type="hinge" range="-1 1"', "joint 'b' has a range; take it away"),
@@ -411,6 +412,19 @@ def test_what_is_no_chain(old, new, message):
     assert old in PLANE
     with pytest.raises(ValueError, match=rf"^revchain.from_mjcf: .*{message}"):
         rc.from_mjcf(PLANE.replace(old, new))
+
+
+def test_what_is_no_carriage():
+    text = rc.to_mjcf(RIGS["spring"])
+    for old, new, message in (
+        ('stiffness="300"', 'stiffness="300" damping="2"', "joint 'carriage_x' has damping 2; set it to 0"),
+        ('stiffness="300"', 'stiffness="300" springref="0.1"', r"joint 'carriage_x' has a spring that is not at rest \(springref\)"),
+        ('axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="200"', "body 'carriage' slides, but not on two equal springs"),
+        ('axis="0 1 0" stiffness="300"', 'axis="0 1 1" stiffness="300"', "body 'carriage' slides, but not on two equal springs"),
+    ):
+        assert old in text
+        with pytest.raises(ValueError, match=message):
+            rc.from_mjcf(text.replace(old, new))
 
 
 def test_links_in_space():

@@ -10,7 +10,7 @@ import pytest
 import revchain as rc
 
 OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
-OPTIONAL += ["pyarrow", "dask", "distributed"]
+OPTIONAL += ["pyarrow", "dask", "distributed", "mujoco"]
 
 
 def test_import_needs_numpy_only(python):

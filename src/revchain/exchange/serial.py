@@ -16,6 +16,7 @@ from .mechanism import radius_of_gyration
 from .mjcf import RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
+_FORCES = ("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "dof_frictionloss", "dof_armature")
 _MORE = {"neq": "equality constraints", "ntendon": "tendons", "nu": "actuators", "nflex": "flexes", "nplugin": "plugins"}
 
 
@@ -53,7 +54,9 @@ class Serial:
         """The chain, and the support if it is not a firm point on the axis."""
         for name, what in _MORE.items():
             if getattr(self.model, name):
-                self._refuse(f"the model has {what}, which a chain has not")
+                self._refuse(f"the model has {what}, which a chain does not have; take them away")
+        if self.model.body_gravcomp.any():
+            self._refuse("gravity does not act on all bodies (gravcomp); set gravcomp to 0")
         if self.model.opt.density or self.model.opt.viscosity:
             self._refuse("the model is in a fluid (option density or viscosity), whose forces revchain does not have; set them to 0")
         bodies = self._path()
@@ -131,18 +134,21 @@ class Serial:
         if not level or stiffness[0] != stiffness[1] or not stiffness[0] > 0:
             self._refuse(f"{self._name('body', body)} slides, but not on two equal springs at right angles and level")
         for j in joints:
-            self._refuse_friction(j)
+            self._refuse_forces(j, but="stiffness")
             if model.qpos_spring[model.jnt_qposadr[j]] != model.qpos0[model.jnt_qposadr[j]]:
                 self._refuse(f"{self._name('joint', j)} has a spring that is not at rest (springref); set springref to 0")
         mass = float(model.body_mass[body])
         return {"stiffness": float(stiffness[0]), "mass": mass if mass > self.least else 0.0}
 
-    def _refuse_friction(self, joint: int) -> None:
-        model, dofs = self.model, self.model.jnt_dofadr[joint]
-        found = {"damping": model.dof_damping, "frictionloss": model.dof_frictionloss, "armature": model.dof_armature}
-        for name, values in found.items():
-            if np.any(values[dofs]):
-                self._refuse(f"{self._name('joint', joint)} has {name} {np.max(values[dofs]):g}; set it to 0")
+    def _refuse_forces(self, joint: int, but: str = "") -> None:
+        """Springs, friction and limits of a joint."""
+        model, dof = self.model, self.model.jnt_dofadr[joint]
+        for field in _FORCES:
+            name = field.partition("_")[2]
+            values = getattr(model, field, None)  # some are not in all versions
+            here = 0.0 if values is None else np.max(np.abs(values[joint if field.startswith("jnt") else dof]))
+            if here and name != but:
+                self._refuse(f"{self._name('joint', joint)} has {name} {here:g}; set it to 0")
         if model.jnt_limited[joint]:
             self._refuse(f"{self._name('joint', joint)} has a range; take it away")
 
@@ -174,9 +180,7 @@ class Serial:
         for j in joints:
             if self.model.jnt_type[j] not in (self.hinge, self.ball):
                 self._refuse(f"{self._name('joint', j)} is neither a hinge nor a ball joint")
-            if np.any(self.model.jnt_stiffness[j]):
-                self._refuse(f"{self._name('joint', j)} has a spring of stiffness {np.max(self.model.jnt_stiffness[j]):g}; set it to 0")
-            self._refuse_friction(j)
+            self._refuse_forces(j)
             if np.any(self.model.jnt_pos[j] != self.model.jnt_pos[joints[0]]):
                 self._refuse(f"the joints of {self._name('body', body)} are at different places; a link has one upper pin")
         return np.array(self.model.jnt_pos[joints[0]])
