@@ -27,8 +27,10 @@ ROD = {"centroid": [0.2, 0.0, 0.2, 0.7], "radius_of_gyration": [0.1, 0.0, 0.1, 0
 SYSTEMS["threads"] = rc.Chain(mass=[1.0, 0.0, 3.0, 0.5], length=[0.4, 0.3, 0.4, 0.7], **ROD)
 
 
-def shapes_of(system, speed=10.0):
-    return rc.steady_shapes(system, angular_speed=speed)[:4]
+def shapes_of(system, speed=10.0, **how):
+    shapes = rc.steady_shapes(system, angular_speed=speed, **how)[:4]
+    assert shapes
+    return shapes
 
 
 def started(text):
@@ -87,6 +89,19 @@ def test_it_stays_for_ten_turns(size, integrator):
     still = hinges(model)
     assert np.abs(data.qpos[still] - start[still]).max() < 1e-10  # rad; measured 3e-13
     assert data.qpos[0] == pytest.approx(shape.angular_speed * data.time, rel=1e-9)
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+@pytest.mark.parametrize("rig", RIGS.values(), ids=RIGS)
+def test_rigs_stay(rig, direction):
+    shape = shapes_of(rig, direction=direction)[0]
+    model, data = started(rc.to_mjcf(shape))
+    start, still = data.qpos.copy(), hinges(model)
+    assert data.qvel[0] == direction * shape.angular_speed
+    turns = 1 if shape.stability().growth_rate > 0 else 10
+    mujoco.mj_step(model, data, round(turns * shape.period / model.opt.timestep))
+    assert np.abs(data.qpos[still] - start[still]).max() < 1e-10  # rad and m
+    assert data.qpos[0] == pytest.approx(direction * shape.angular_speed * data.time, rel=1e-9)
 
 
 def without_turning(model, data, shape):
