@@ -101,8 +101,8 @@ FORBIDDEN = {
 COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
 COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
 # Folders of src/revchain, each of which may import from itself and those before it. Pictures and films are imported when
-# something is drawn, by the class that is drawn; they solve nothing and import only what is said here.
-PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "scenes", "studies", "cli")
+# something is drawn, by the class that is drawn; they compute nothing and import only what is said here.
+PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "exchange", "scenes", "studies", "cli")
 PICTURES = {"plots": {"systems", "results"}, "motion": {"systems", "results", "plots"}}
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}

@@ -22,7 +22,8 @@ Closed forms
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
-    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError
+    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
+    from_urdf
 
 Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Links and pins are
 counted from 0, modes from 1. The *conical height* of a speed is ``gravity / speed**2``, the height of the conical
@@ -107,6 +108,10 @@ if _TYPE_CHECKING:
     from .closed_forms.statics import TransverseModes as TransverseModes
     from .closed_forms.statics import funicular_polygon as funicular_polygon
     from .closed_forms.statics import transverse_modes as transverse_modes
+    from .exchange.mjcf import to_mjcf as to_mjcf
+    from .exchange.read import from_mjcf as from_mjcf
+    from .exchange.read import from_urdf as from_urdf
+    from .exchange.urdf import to_urdf as to_urdf
     from .closed_forms.bell import Strike as Strike
     from .results.bent import Place as Place
     from .results.branches import StabilityWindow as StabilityWindow
@@ -145,6 +150,10 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "funicular_polygon": "closed_forms.statics",
     "transverse_modes": "closed_forms.statics",
     "load": "results.storage",
+    "to_mjcf": "exchange.mjcf",
+    "to_urdf": "exchange.urdf",
+    "from_mjcf": "exchange.read",
+    "from_urdf": "exchange.read",
 }
 _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",

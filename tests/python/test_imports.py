@@ -10,7 +10,7 @@ import pytest
 import revchain as rc
 
 OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
-OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "pygltflib", "meshio"]
+OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "mujoco"]
 
 
 def test_import_needs_numpy_only(python):

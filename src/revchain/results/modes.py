@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.chain import Chain
-from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive, refuse_beyond_memory, refuse_where
 from ..systems.rig import Rig

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.chain import Chain
@@ -127,6 +127,11 @@ def forced(name: str) -> Any:
     return compute
 
 
+def in_space(x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0) -> Floats:
+    """Vectors from their components."""
+    return np.stack(np.broadcast_arrays(*(np.asarray(each, np.float64) for each in (x, y, z))), axis=-1)
+
+
 class Shape(Result, Moving):
     """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
 
@@ -139,6 +144,15 @@ class Shape(Result, Moving):
     period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
+    position: Field[Floats] = Field(
+        "Coordinates x, y, z of each pin or place, m, shape (n, 3), while the shape is in the plane y = 0: x is the offset, "
+        "z the height.",
+        lambda s: in_space(x=s.offset, z=s.height),
+    )
+    velocity: Field[Floats] = Field(
+        "Velocity of each pin or place at that moment, m/s, shape (n, 3): it is along y.",
+        lambda s: in_space(y=getattr(s, "direction", 1) * s.angular_speed * s.offset),
+    )
 
     @property
     def _per(self) -> float:
@@ -213,6 +227,15 @@ class SteadyShape(Shape):
     )
     reaction_inclination: Field[Floats] = Field(
         "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,).", part=True
+    )
+    joint_angle: Field[Floats] = Field(
+        "Inclination of each link less that of the link above it, rad, shape (N,); of the top link its inclination.",
+        lambda s: s.inclination - np.append(s.inclination[1:], 0.0),
+    )
+    reaction: Field[Floats] = Field(
+        "Force on each link at its upper pin, x, y, z in the axes of `position`, shape (N, 3), N or in the unit of the "
+        "weights.",
+        lambda s: in_space(x=-s.tension * np.sin(s.reaction_inclination), z=s.tension * np.cos(s.reaction_inclination)),
     )
     residual: Field[float] = Field(
         "Largest moment about a pin of the chain below it, divided by total weight times total length.", part=True
@@ -388,6 +411,10 @@ class SteadyShape(Shape):
             Column("height", self.height[:-1], "above support (m)"),
             Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
             Column("reaction_inclination", self.reaction_inclination),
+            Column("joint_angle", self.joint_angle),
+            Column("position", self.position[:-1], axes=("component",)),
+            Column("velocity", self.velocity[:-1], axes=("component",)),
+            Column("reaction", self.reaction, axes=("component",)),
         ]
         names: tuple[str, ...] = ("angular_speed", "conical_height", "half_waves", "error_bound", "residual", "condition")
         names += ("gravity", "direction", "moment_of_inertia", "effective_energy", "angular_momentum")

@@ -17,7 +17,6 @@ from ..questions.modes import find_modes
 from ..questions.response import response, swing
 from ..questions.shapes import steady_shapes
 from ..systems.chain import Chain
-from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.rig import Rig
 from ..systems.system import System

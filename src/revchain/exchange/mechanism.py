@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A chain or rig as a multibody engine builds it, and its states of steady motion, in kg, m, s and rad.
+
+The support turns about the vertical; each link has two hinges at its upper pin, one that inclines it in the turning plane and
+one that moves it out of it. A link of revchain has no moment of inertia about its own axis, so that its direction is all
+that counts and a support on the axis neither drives the chain nor is driven by it. In steady motion all joints but that of
+the support are at rest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from typing import Any
+
+import numpy as np
+
+from ..results.shapes import SteadyShape, SteadyShapes
+from ..systems.chain import Chain
+from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, shown
+from ..systems.rig import Rig
+from ..systems.system import System
+
+HELD = 1e12
+"""Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
+MOST = 490
+"""Links: MuJoCo nests bodies no deeper than some 500."""
+PARTS = ("world", "turntable", "carriage")
+_DIGITS = Context(prec=40)
+_BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
+
+
+@dataclass(frozen=True, slots=True)
+class Mechanism:
+    """Bodies, links from the free end up.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the links, all different.
+    mass, length, centroid, moment : array, shape (N,)
+        The moment of inertia is that across the link, about its centre of gravity.
+    ratio : array, shape (2, N)
+        (radius of gyration / length) squared in two words, as the chain holds it.
+    wheeled : array of bool, shape (N,)
+        Whether a link has a wheel that carries an angular momentum along it.
+    radius, stiffness, carriage : float
+        Of the support; the stiffness is infinite where it is firm.
+    turning : float
+        Moment of inertia of the support about the axis.
+    gravity : float
+    """
+
+    names: tuple[str, ...]
+    mass: Floats
+    length: Floats
+    centroid: Floats
+    moment: Floats
+    ratio: Floats
+    wheeled: Any
+    radius: float
+    stiffness: float
+    carriage: float
+    turning: float
+    gravity: float
+
+    @property
+    def size(self) -> int:
+        """Number of links."""
+        return len(self.names)
+
+    @property
+    def yields(self) -> bool:
+        """Whether the support is held by a spring."""
+        return math.isfinite(self.stiffness)
+
+    @property
+    def reach(self) -> float:
+        """Greatest distance from the axis."""
+        return float(self.length.sum()) + self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A steady motion: speed, joint angles, how far the spring gives way, rates of wheels relative to links, tensions."""
+
+    name: str
+    speed: float
+    joint_angle: Floats
+    give: float
+    wheel_rate: Floats
+    tension: Floats
+
+
+def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
+    """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
+    shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
+    system = given if shapes is None else given.system
+    if not isinstance(system, Chain | Rig):
+        _refuse(place, given, system)
+    if shapes is not None and gravity is not None:
+        raise ValueError(f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}")
+    if shapes == []:
+        raise ValueError(f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}")
+    g = given.gravity if shapes is not None else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+    rig = system if isinstance(system, Rig) else Rig(system)
+    if rig.displaced is not None:
+        raise ValueError(f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}")
+    made, momentum, axial = _bodies(place, rig, g)
+    if shapes is None:
+        return made, [_at_rest(rig, made, momentum)]
+    names = ["steady shape"] if len(shapes) == 1 else [f"shape {k}" for k in range(1, len(shapes) + 1)]
+    return made, [_steady(name, shape, made, momentum, axial) for name, shape in zip(names, shapes, strict=True)]
+
+
+def _refuse(place: str, given: Any, system: Any) -> None:
+    if isinstance(system, System):
+        raise ValueError(f"{place}: {_BENT}; got {shown(system)}")
+    raise TypeError(f"{place}: system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got {shown(given)}")
+
+
+def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Floats]:
+    """The bodies; angular momentum that links keep, and their axial moments of inertia."""
+    chain = rig.chain
+    if chain.mode_count < chain.size:
+        raise ValueError(
+            f"{place}: links that meet at a pin without mass stay in line, and no engine can move them one by one; "
+            f"make them one: chain.clamped(k) with the lower of the two, got {chain.describe()}"
+        )
+    if chain.size > MOST:
+        raise ValueError(f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones")
+    per = 1.0 if chain.by_mass else gravity
+    mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
+    momentum, axial = np.zeros(size), np.zeros(size)
+    if rig.flywheels is not None:
+        kept, turning = rig._turning(gravity)
+        momentum, axial = momentum + kept * rig._force(gravity), axial + turning / per
+    moment = moments(mass, chain.radius_of_gyration)
+    wheeled = (momentum != 0) | (axial != 0)
+    if (wrong := np.flatnonzero(wheeled & ~(moment > 0))).size:
+        raise ValueError(
+            f"{place}: flywheels[{wrong[0]}] is in a point mass; a wheel needs a link with a moment of inertia across its "
+            f"axis: give its radius_of_gyration, got {shown(float(chain.radius_of_gyration[wrong[0]]))}"
+        )
+    support = rig.support
+    stretched = float(mass.sum()) * (chain.total_length + support.radius) ** 2
+    made = Mechanism(
+        names=_names(chain),
+        mass=mass,
+        length=chain.length,
+        centroid=chain.centroid,
+        moment=moment,
+        ratio=np.stack([np.broadcast_to(word, size) for word in chain._compiled.__getstate__()[4:6]]),
+        wheeled=wheeled,
+        radius=support.radius,
+        stiffness=support.stiffness,
+        carriage=support.carriage / per,
+        turning=stretched * (HELD if support.radius else 1.0),
+        gravity=gravity,
+    )
+    return made, momentum, axial
+
+
+def moments(mass: Floats, radius: Floats) -> Floats:
+    """Moments of inertia whose radii of gyration are those given, to the last digit."""
+    return np.array([_moment(float(m), float(k)) for m, k in zip(mass, radius, strict=True)])
+
+
+def _moment(mass: float, radius: float) -> float:
+    found = mass * radius * radius
+    up, down = [found], [found]
+    for _ in range(3):
+        up.append(math.nextafter(up[-1], math.inf))
+        down.append(math.nextafter(down[-1], 0.0))
+    exact = (near for pair in zip(up, down, strict=True) for near in pair if radius_of_gyration(near, mass) == radius)
+    return next(exact, found)
+
+
+def radius_of_gyration(moment: float, mass: float) -> float:
+    """The root of their ratio, rounded once; 0 without mass."""
+    return float(_DIGITS.sqrt(_DIGITS.divide(Decimal(moment), Decimal(mass)))) if mass > 0 else 0.0
+
+
+def _names(chain: Chain) -> tuple[str, ...]:
+    """All different, and none that of a part of the support."""
+    taken = set(PARTS)
+    names: list[str] = []
+    for k, given in enumerate(chain.names or [f"link_{k}" for k in range(chain.size)]):
+        names.append(given if given and given not in taken else f"{given or 'link'}_{k}")
+        taken.add(names[-1])
+    return tuple(names)
+
+
+def _at_rest(rig: Rig, made: Mechanism, momentum: Floats) -> State:
+    inclination = np.where(rig.inverted, math.pi, 0.0)
+    angle = inclination - np.append(inclination[1:], 0.0)
+    hung = np.cumsum(made.mass) * made.gravity
+    return State("rest", 0.0, angle, 0.0, _rates(made, momentum, 0.0, inclination), hung)
+
+
+def _steady(name: str, shape: SteadyShape, made: Mechanism, momentum: Floats, axial: Floats) -> State:
+    speed, along = shape.direction * shape.angular_speed, np.cos(shape.inclination)
+    kept = momentum + axial * speed * along
+    give = float(shape.offset[-1]) - made.radius
+    rates = _rates(made, kept, speed, shape.inclination)
+    return State(name, speed, shape.joint_angle, give, rates, shape.tension)
+
+
+def _rates(made: Mechanism, momentum: Floats, speed: float, inclination: Floats) -> Floats:
+    """Of wheels whose moment is that of their links, relative to the links, which turn with the figure."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(made.wheeled, momentum / made.moment - speed * np.cos(inclination), 0.0)
