@@ -256,7 +256,7 @@ void Chain<T>::check() {
                                            detail::in_digits(largest_length_));
     if (largest_ratio / span > span || least_ratio < T(1) / span / span)
         detail::throw_invalid("Chain",
-                              "the radius of gyration of a link is too far from its length for this scalar; "
+                              "a radius of gyration is too far from its link's length for this scalar; "
                               "(radius of gyration / length)^2",
                               largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
