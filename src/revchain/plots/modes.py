@@ -81,6 +81,7 @@ class Straight:
         longest = [max(map(len, name.split("\n"))) + 2 for name in self.names()]
         return max((far + n * LETTER * SPACING / COLUMN for n, far in zip(longest, self.beside(), strict=False)), default=0.0)
 
+    @property
     def height(self) -> Floats:
         """Of each pin or place, above the support, or the lower end of what is held at both ends."""
         return self.level if self.upwards else -self.level
