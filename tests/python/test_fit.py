@@ -302,7 +302,7 @@ def test_where_to_start():
         ({1: 0.58, 2: 3.9}, ["links[0].mass", "links[0].mass"], "which change the same number; leave one of them out"),
         ({1: 0.58, 2: 3.9}, {"length": 30.0, "links[0].mass": -3.0}, r"the start of links\[0\].mass must be finite and more than 0, got -3"),
         ({1: 0.58}, {"length": "30 kg"}, r'length \(start of length\) must be a length'),
-        ({1: 0.58}, "links[0].radius_of_gyration", r"links\[0\].radius_of_gyration is 0: say where to start, as in vary=\{"),
+        ({1: 0.58}, "links[0].radius_of_gyration", r"links\[0\].radius_of_gyration is 0: give a start value, as in vary=\{"),
     ],
 )  # fmt: skip
 def test_questions_that_are_none(measured, vary, message):
@@ -315,8 +315,8 @@ def test_questions_that_are_none(measured, vary, message):
     [
         (SPRING, {3: 2.0}, "support.mass", "mode must be from 1 to 2"),
         (SPRING, {-1: 2.0}, "support.mass", "only a rig with flywheels"),
-        (SPRING, {1: 2.0}, "support.radius", "moves no speed of small oscillations"),
-        (rc.Rig(CRANE), {1: 2.0}, "support.stiffness", r'support.stiffness is inf: say where to start, as in vary=\{"support.stiffness": '),
+        (SPRING, {1: 2.0}, "support.radius", "has no effect on the speeds of small oscillations"),
+        (rc.Rig(CRANE), {1: 2.0}, "support.stiffness", r'support.stiffness is inf: give a start value, as in vary=\{"support.stiffness": '),
         (WHOLE, {1: 2.0, 2: 3.0}, ["flywheels[0].momentum", "flywheels[1].spin"], "which change the same number"),
         (WHOLE, {1: 2.0, 2: 3.0}, ["mass", "links[1].mass"], "which change the same number"),
         (WHOLE, {4: 2.0, -9: 3.0}, "mass", "mode must be from 1 to|there is no mode"),

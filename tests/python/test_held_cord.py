@@ -69,7 +69,7 @@ def test_without_gravity_it_is_a_string():
         expected = np.arange(1, 6) * math.pi * math.sqrt(10.0 / (0.2 * 2.0))
         np.testing.assert_allclose(m.angular_speed, expected, rtol=1e-15)
         np.testing.assert_allclose(m.shape[2], np.sin(1.5 * np.pi * m.arc_length), atol=1e-14)
-    with pytest.raises(ValueError, match="what a tension in newtons holds has other modes"):
+    with pytest.raises(ValueError, match="a system held by a tension in newtons has other modes"):
         m.at(gravity=3.0)
     assert rc.count_modes(STRING, angular_speed=[16.0, 32.0, 10.0]).tolist() == [1, 2, 0]
     by_weight = rc.Held(rc.Cord(2.0, weight=0.2), tension=10.0, weightless=True)  # 0.2 stands for a mass
@@ -236,10 +236,10 @@ def test_uncertainty():
     assert held.largest == (("tension", 0),) * 2 and "tension" in repr(held)
     assert (rc.modes(TAUT, 2).uncertainty().relative == 0).all()
     for system, given, message in (
-        (TAUT, {"tip_mass": 0.1}, "tip_mass is of a cord that hangs"),
-        (TAUT, {"exponent": 0.1}, "exponent is of a cord that hangs"),
+        (TAUT, {"tip_mass": 0.1}, "tip_mass is for a hanging cord"),
+        (TAUT, {"exponent": 0.1}, "exponent is for a hanging cord"),
         (TAUT, {"weight": 0.1}, "give mass, not weight"),
-        (ROPE, {"tension": 0.1}, "tension is of a cord that is held"),
+        (ROPE, {"tension": 0.1}, "tension is for a cord held"),
         (ROPE, {"mass": -0.1}, "mass must be finite and not negative"),
     ):
         with pytest.raises(ValueError, match=message):

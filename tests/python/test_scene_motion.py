@@ -108,7 +108,7 @@ def test_both_ends_held():
         ({"links": LINKS}, "response", "ask.response: give angular_speed or conical_height"),
         ({"links": LINKS}, "swing", "ask.swing.offset: is missing"),
         ({"links": LINKS}, "branches", "ask.branches: give max_angular_speed or min_conical_height"),
-        (BLADE, "modes", "whose ends are a span apart is bent"),
+        (BLADE, "modes", "held at a span is bent"),
         ({**BLADE, "held": {"tension": 5.0}}, "steady_shapes", "ask.shapes: give angular_speed"),
     ],
 )

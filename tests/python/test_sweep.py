@@ -769,7 +769,7 @@ BAD = {
     "shapes at no speed": ({"scene": ONE, "vary": GOOD, "find": ["shapes"]}, "find[0]: the scene does not say at which speed"),
     "window": ({"scene": {**ONE, "ask": {"modes": {"conical_height": [0, 1]}}}, "vary": GOOD}, "scene.ask.modes.conical_height: gives each point another number of modes"),
     "swing": ({"scene": {**ONE, "ask": {"swing": {"offset": [0.1]}}}, "vary": GOOD}, "scene.ask.swing: is not for studies"),
-    "slack": ({"scene": {"links": [{"mass": 1, "length": 1}] * 3, "held": {"span": 2}}, "vary": GOOD}, "scene.held.span: leaves the chain slack"),
+    "slack": ({"scene": {"links": [{"mass": 1, "length": 1}] * 3, "held": {"span": 2}}, "vary": GOOD}, "scene.held.span: makes the chain bent"),
     "too many": ({"scene": ONE, "vary": {"gravity": {"from": 1, "to": 2, "steps": 10**7}, "links[0].mass": {"from": 1, "to": 2, "steps": 10**6}}}, "vary: makes 10,000,000,000,000 points"),
     "another version": ({"scene": ONE, "vary": GOOD, "schema_version": 2}, "schema_version: must be 1, got 2"),
 }  # fmt: skip

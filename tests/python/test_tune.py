@@ -159,7 +159,7 @@ def test_where_to_look_and_what_was_seen():
 @pytest.mark.parametrize(
     ("system", "given", "message"),
     [
-        (rig(), {"vary": "support.radius"}, "support.radius moves no speed of small oscillations"),
+        (rig(), {"vary": "support.radius"}, "support.radius has no effect on the speeds of small oscillations"),
         (rig(), {"vary": "links[0].weight"}, 'given by mass: vary "links\\[0\\].mass"'),
         (PAIR, {"vary": "mass"}, 'ratios alone; vary "links\\[k\\].mass"'),
         (rig(), {"vary": "flywheels[0].spin"}, 'vary must be one of .*"flywheels\\[k\\].momentum" of a Rig, got'),
@@ -170,12 +170,12 @@ def test_where_to_look_and_what_was_seen():
         (rc.Held(PAIR, span=1.0), {"vary": "tension"}, "is bent.*give top_tension"),
         (rc.Held(PAIR, span=1.0), {"vary": "tension", "top_tension": 40.0}, 'vary must be one of .*"span" of a Held'),
         (rc.Held(PAIR, span=1.0), {"vary": "span", "top_tension": -1.0}, "top_tension must be positive"),
-        (PAIR, {"vary": "length", "top_tension": 40.0}, "top_tension is for what is held at a span, got 40"),
+        (PAIR, {"vary": "length", "top_tension": 40.0}, "top_tension is for a system held at a span; leave it out, got 40"),
         (rc.Cord(1.0), {"vary": "density"}, '"tip_mass" of a Cord'),
         (rig(**SPRING), {"vary": "support.mass", "between": 3}, "between must be a pair"),
         (rig(**SPRING), {"vary": "support.mass", "between": ("1 m", 2)}, "mass \\(each end of between\\) must be a mass"),
         (rig(**SPRING), {"vary": "support.mass", "between": (3.0, 2.0)}, "high end must exceed the low one, got 3 and 2"),
-        (rig(), {"vary": "support.stiffness", "between": (1.0, 2.0)}, "between is for what is searched for; support.stiffness has one value"),
+        (rig(), {"vary": "support.stiffness", "between": (1.0, 2.0)}, "between is for a search, and support.stiffness has one value"),
         (rig(flywheels=rc.Flywheel(mass=0.0, radius_of_gyration=1.0, spin=0.0)), {"vary": "flywheels[0].spin"}, "has no moment of inertia"),
     ],
 )  # fmt: skip

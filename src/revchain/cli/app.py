@@ -94,7 +94,7 @@ def new(
         sys.stdout.write(text)
         return
     if file.exists() and not force:
-        raise Stop(f"{file}: is there already; --force overwrites it", ExitCode.OUTPUT_FAILED)
+        raise Stop(f"{file}: exists already; --force overwrites it", ExitCode.OUTPUT_FAILED)
     with written_aside(file) as [aside]:
         aside.write_text(text, encoding="utf-8")
     print(f"wrote {file}; now: revchain {command} {file}")

@@ -103,8 +103,8 @@ def fit(
     g = one_positive(_PLACE, "gravity", gravity)
     if isinstance(system, Held) and system.span is not None:
         raise ValueError(
-            f"{_PLACE}: what is held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
-            "a speed and the tension at that speed"
+            f"{_PLACE}: a system held at a span is bent and has no critical speeds; tune with top_tension finds one datum for "
+            "a speed and a tension"
         )
     if isinstance(system, Held):
         straight(_PLACE, system, g)
@@ -304,7 +304,7 @@ def _start(datum: Datum, given: Any) -> float:
         return math.log(value - datum.floor)
     if given is None:
         raise ValueError(
-            f"{_PLACE}: {datum.path} is {value:g}: say where to start, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
+            f"{_PLACE}: {datum.path} is {value:g}: give a start value, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
         )
     limit = "finite" if datum.floor is None else f"finite and more than {datum.floor:.6g}"
     raise ValueError(f"{_PLACE}: the start of {datum.path} must be {limit}, got {value:g}")

@@ -39,17 +39,17 @@ def held_shape(
     span = _span(place, held)
     if name not in ("conical_height", "angular_speed", "top_tension"):
         raise ValueError(
-            f"{place}: what is held has no free end; give conical_height, angular_speed or top_tension, got {name}"
+            f"{place}: a held system has no free end; give conical_height, angular_speed or top_tension, got {name}"
         )
     if every:
-        raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of what is held")
+        raise ValueError(f"{place}: all=True is not available for a Held; ask branches for the shapes along a branch")
     most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
     if isinstance(held.system, Chain) and mode > most:
         raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
     if name == "top_tension" and not held.is_firm:
         raise ValueError(
-            f"{place}: the speed of a top_tension is for firm ends; between springs give angular_speed, or read it from "
-            f"the top_tension of a branch, got {value:g}"
+            f"{place}: top_tension is for firm ends; with springs give angular_speed, or read the speed from the top_tension "
+            f"of a branch, got {value:g}"
         )
     asked = value / held._force(gravity) if name == "top_tension" else value
     found = _core.held_shape(held.system._compiled, span, *held._ends(gravity), mode, name, asked, gravity)
@@ -68,7 +68,7 @@ def _span(place: str, held: Held) -> float:
     """The span of a held system; a ValueError if it is under a tension or has no gravity."""
     if held.span is None:
         raise ValueError(
-            f"{place}: is for what is held at a span; under a tension ask steady_shapes at the speeds wanted, or modes"
+            f"{place}: is for a system held at a span; under a tension ask steady_shapes at a speed, or modes"
         )
     if held.weightless:
         why = "a shape is the same at every speed" if held.is_firm else "there are no branches"

@@ -324,8 +324,8 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldC
     """The compiled system of a chain or cord that a tension holds straight; a ValueError if it is not so held."""
     if held.span is not None:
         raise ValueError(
-            f"{place}: a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; ask "
-            f"steady_shapes, and stability of a shape, got span {held.span:g}"
+            f"{place}: a chain or cord held at a span is bent and has no critical speeds; ask steady_shapes, and the stability "
+            f"of a shape, got span {held.span:g}"
         )
     least = 0.0 if held.weightless else held._force(gravity) * held._total
     if held.tension is not None and not held.tension > least:

@@ -305,7 +305,7 @@ def swing(
         kept = CORD_MODES if number is None else number
         return cord_swing(place, system, offset, velocity, times, arc_length, kept, g)
     if arc_length is not None:
-        raise ValueError(f"{place}: arc_length is for a Cord; pins of a Chain are where they are, got {shown(arc_length)}")
+        raise ValueError(f"{place}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
     if isinstance(system, Rig) and system.has_momentum:
         return _whirling(place, system, offset, velocity, times, number, g)
     start = _start(place, "offset", offset, system)
@@ -341,7 +341,7 @@ def _start(place: str, name: str, value: Any, system: Chain | Rig) -> Any:
         array = floats(place, name, value)
     elif not (isinstance(system, Rig) and system.has_momentum):
         raise ValueError(
-            f"{place}: {name} must be real: without momentum of flywheels the two level directions are independent; ask "
+            f"{place}: {name} must be real: without momentum of flywheels the two horizontal directions are independent; ask "
             f"for each, got {shown(value)}"
         )
     if array.shape not in ((size,), (size + 1,)):

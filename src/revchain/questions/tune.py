@@ -146,11 +146,11 @@ def tune(
     bent = isinstance(system, Held) and system.span is not None
     if bent and top_tension is None:
         raise ValueError(
-            f"{_PLACE}: what is held at a span is bent and has no critical speed; give top_tension too, the tension at the "
-            "upper end with which it shall go at the speed"
+            f"{_PLACE}: a system held at a span is bent and has no critical speed; also give top_tension, the wanted tension "
+            "at the upper end"
         )
     if top_tension is not None and not bent:
-        raise ValueError(f"{_PLACE}: top_tension is for what is held at a span, got {shown(top_tension)}")
+        raise ValueError(f"{_PLACE}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")
     if isinstance(system, Held) and not bent:
         straight(_PLACE, system, g)
     datum = read(_PLACE, system, vary, g)
@@ -174,7 +174,7 @@ def tune(
 
         return _searched(datum, speed, g, between, speed_of)
     if between is not None:
-        raise ValueError(f"{_PLACE}: between is for what is searched for; {vary} has one value, got {shown(between)}")
+        raise ValueError(f"{_PLACE}: between is for a search, and {vary} has one value; leave it out, got {shown(between)}")
     return one
 
 
@@ -246,7 +246,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
         assert rig.flywheels is not None
         inertia = np.broadcast_to(rig.flywheels._inertia, rig.size)[link]
         if not inertia:
-            raise ValueError(f"{_PLACE}: flywheels[{link}] has no moment of inertia: its spin moves no speed; vary another's")
+            raise ValueError(f"{_PLACE}: flywheels[{link}] has no moment of inertia, so its spin has no effect; vary another")
         of = lambda: gravity / inertia * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
     else:
         return None
@@ -294,7 +294,7 @@ def _searched(
         seen(value)
     if not off:
         found(datum.present)  # says why
-        raise ValueError(f"{_PLACE}: there is no such mode anywhere between {low:g} and {high:g}")
+        raise ValueError(f"{_PLACE}: the mode does not exist for any value between {low:g} and {high:g}")
     for before, here, after in list(zip(off, [*off][1:], [*off][2:], strict=False)):
         if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # an extreme near the wanted speed
             _turn(lambda x, sign=np.sign(off[here]): sign * seen(x), before, after)  # type: ignore[misc]

@@ -154,7 +154,7 @@ def cord_uncertainty(modes: CordModes, given: dict[str, Any]) -> CordUncertainty
     held = isinstance(system, Held)
     for name in (f"tip_{heavy}", "exponent") if held else ("tension",):
         if given[name] is not None:
-            why = "is of a cord that hangs" if held else "is of a cord that is held at both ends"
+            why = "is for a hanging cord" if held else "is for a cord held at both ends"
             raise ValueError(f"{place}: {name} {why}; leave it out, got {shown(given[name])}")
     if given["exponent"] is not None and np.isnan(values["exponent"]):
         raise ValueError(f"{place}: the density was given as a function and has no exponent, got {shown(given['exponent'])}")

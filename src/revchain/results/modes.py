@@ -213,9 +213,9 @@ class Modes(Result, Moving):
         """
         held = isinstance(self.system, Held) and (self.system.by_mass or self.system.weightless)
         if isinstance(self.system, Rig) or held:
-            what = "what a tension in newtons holds" if held else "a rig"
+            what = "a system held by a tension in newtons" if held else "a rig"
             raise ValueError(
-                f"revchain.{type(self).__name__}.at: {what} has other modes under another gravity; ask revchain.modes again"
+                f"revchain.{type(self).__name__}.at: {what} has other modes at another gravity; ask revchain.modes again"
             )
         speeds = ("angular_speed", "frequency", "rpm", "period")
         kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}

@@ -447,9 +447,9 @@ def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigU
     if given["spin"] is not None and "spin" not in wheels:
         raise ValueError(f"{place}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
     if given["spin"] is not None and given["momentum"] is not None:
-        raise ValueError(f"{place}: give spin or momentum, which holds it, got both")
+        raise ValueError(f"{place}: give either spin or momentum, got both")
     if given["stiffness"] is not None and not np.isfinite(rig.support.stiffness):
-        why = "stiffness is of a support on a spring, and this one is firm; leave it out"
+        why = "stiffness is for a support on a spring, and this one is firm; leave it out"
         raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
     sensitivity: Any = modes.sensitivity
     parts: dict[str, Floats] = {}

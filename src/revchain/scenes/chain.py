@@ -167,7 +167,7 @@ def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -
         numbers.refuse("clamped", "there is no link above")
     for name in ("standing", "flywheel", "displaced"):
         if getattr(link, name) not in (False, UNSET):
-            numbers.refuse(name, "is said by the link above, with which this one is clamped")
+            numbers.refuse(name, "must be given for the link above, to which this one is clamped")
     if max(link.repeat, *(each.repeat for each in above), 1) > 1:
         numbers.refuse("clamped", "needs repeat = 1, here and in the link above")
 
@@ -193,7 +193,7 @@ def _body(link: Link, numbers: Numbers) -> tuple[float, float, float, float]:
     pendulum = numbers.value("pendulum_length", link.pendulum_length, "length", "any")
     squared = centroid * (pendulum - centroid)
     if centroid == 0:
-        numbers.refuse("pendulum_length", "says nothing where centroid is 0; give radius_of_gyration")
+        numbers.refuse("pendulum_length", "does not determine the inertia if centroid is 0; give radius_of_gyration")
     elif not math.isnan(squared) and not 0 <= squared < math.inf:
         product = f"centroid (pendulum_length - centroid) is {squared:g}"
         numbers.refuse("pendulum_length", f"makes the radius of gyration imaginary: {product}")

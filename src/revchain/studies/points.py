@@ -102,7 +102,7 @@ def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) 
     if "response" in asked and (scene.is_held or scene.cord is not UNSET):
         numbers.refuse("scene.ask.response", f"does not go with {'held' if scene.is_held else 'cord'}")
     if "modes" in asked and scene.held is not UNSET and scene.held.span is not UNSET:
-        numbers.refuse("scene.held.span", 'leaves the chain slack, without modes: find = ["shapes"]')
+        numbers.refuse("scene.held.span", 'makes the chain bent, without modes: write find = ["shapes"]')
     return tuple(asked)
 
 

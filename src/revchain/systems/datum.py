@@ -87,8 +87,8 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
             )
         if name == "support.radius":
             raise ValueError(
-                f"{place}: support.radius moves no speed of small oscillations; it has an effect on response and "
-                f"steady_shapes, got {shown(path)}"
+                f"{place}: support.radius has no effect on the speeds of small oscillations, only on response and "
+                f"steady_shapes; vary another datum, got {shown(path)}"
             )
         listed = ", ".join(f'"{one}"' for one in known)
         raise ValueError(f"{place}: vary must be one of {listed} of a {_kind(system)}, got {shown(path)}")
