@@ -300,7 +300,7 @@ def test_python_of_pages(python, tmp_path, page):
         assert [line.rstrip() for line in found.splitlines()] == expected.splitlines(), code
     for name in re.findall(r"savefig\(\"(.*?)\"\)", page.read_text("utf-8")):
         assert (tmp_path / name).stat().st_size > 1000 and (ROOT / "docs/figures" / name).is_file()
-    for name in re.findall(r"animate\(\"(.*?\.gif)\"", page.read_text("utf-8")):
+    for name in re.findall(r"animate\(\"(.*?\.gif)\"", program):
         made, kept = (frames_of(folder / name) for folder in (tmp_path, ROOT / "docs/figures"))
         assert len(made) == len(kept) > 1 and made[0].size == kept[0].size
         differences = [np.abs(np.subtract(*(np.asarray(each.convert("L"), float) for each in pair))) for pair in zip(made, kept, strict=True)]

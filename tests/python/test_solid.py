@@ -266,3 +266,12 @@ def test_xdmf_of_modes(tmp_path):
                 read["velocity"][pins, 0] + 1j * read["velocity"][pins, 1], moved, rtol=1e-12, atol=1e-12
             )
             assert (read["angular_speed"][4 * nth : 4 * nth + 4] == found.angular_speed[row]).all()
+
+
+def test_tensions_of_a_blade_are_at_its_pins(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    shapes = ALL["shapes of a blade"]()
+    shapes.to_vtk(tmp_path / "blade.vtu")
+    read = meshio.read(tmp_path / "blade.vtu")
+    assert np.array_equal(read.point_data["tension"], np.concatenate([shape.tension for shape in shapes]))
+    assert "tension" not in read.cell_data

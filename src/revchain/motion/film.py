@@ -26,7 +26,7 @@ class Figure:
     phase: Floats  # shape (F,), angle by which that frame has turned, rad
     speed: Floats  # shape (1 or F,), angular speed of that frame, rad/s
     captions: tuple[str, ...]  # 1 or F
-    tension: Floats | None = None  # of each link, of shapes of chains
+    tension: Floats | None = None  # of shapes of chains: of each link, held at both ends at each pin
 
     @property
     def is_rigid(self) -> bool:

@@ -89,7 +89,7 @@ def _of_pins(film: Film, frame: int) -> dict[str, Any]:
             [1j * _row(figure.speed, frame) * each for figure, each in zip(film.figures, true, strict=True)]
         )
         found["velocity"] = np.column_stack([moved.real, moved.imag, np.zeros(moved.size)])
-    return found
+    return found | _tension(film, pins)
 
 
 def _of_links(film: Film, frame: int) -> dict[str, Any]:
@@ -100,12 +100,13 @@ def _of_links(film: Film, frame: int) -> dict[str, Any]:
         "figure": np.repeat(np.arange(many), links),
         "angular_speed": np.repeat([_row(figure.speed, frame) for figure in film.figures], links),
     }
-    tensions = [
-        figure.tension for figure in film.figures if figure.tension is not None and figure.tension.size == links
-    ]
-    if len(tensions) == many:
-        found["tension"] = np.concatenate(tensions)
-    return found
+    return found | _tension(film, links)
+
+
+def _tension(film: Film, size: int) -> dict[str, Floats]:
+    """Of every link or pin, whichever has so many; nothing where it is not known."""
+    known = [figure.tension for figure in film.figures if figure.tension is not None and figure.tension.size == size]
+    return {"tension": np.concatenate(known)} if len(known) == len(film.figures) else {}
 
 
 def _row(values: Floats, frame: int) -> float:

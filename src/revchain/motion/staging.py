@@ -181,7 +181,7 @@ def _(branch: Any, asked: Asked) -> Film:
 @staged.register(HeldBranches)
 def _(branches: Any, asked: Asked) -> Film:
     places = asked.among(len(branches), "branch")
-    return _of_branches([branches[k] for k in places], branches, [f"branch {k + 1}" for k in places], asked)
+    return _of_branches([branches[k] for k in places], branches, [f"branch {k}" for k in places], asked)
 
 
 def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:

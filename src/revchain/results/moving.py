@@ -153,7 +153,7 @@ class Moving:
 
         Upwards is z, in metres. Points have ``pin``, ``offset`` (as in the result, not as drawn) and, of what turns at a
         constant speed, ``velocity`` for these offsets; lines have ``link``, ``figure``, ``angular_speed`` and, of
-        shapes of chains, ``tension``.
+        shapes of chains, ``tension``, which points have where both ends are held.
 
         Parameters
         ----------
