@@ -24,6 +24,8 @@ BODIES = rc.Chain(mass=[1.3, 0.4, 2.1], length=[0.7, 0.5, 0.9], centroid=[0.31, 
 BY_SIZE = {n: rc.Chain.uniform_rods(n, length=1.0, mass=2.0) for n in (1, 3, 5, 20)}
 SYSTEMS = {**{f"{n} rods": chain for n, chain in BY_SIZE.items()}, **RIGS, "bodies": BODIES}
 ROD = {"centroid": [0.2, 0.0, 0.2, 0.7], "radius_of_gyration": [0.1, 0.0, 0.1, 0.0]}  # threads and a point mass
+SYSTEMS["watch chain"] = rc.Chain.uniform_rods(30, length=0.36, mass=0.014)  # moments of inertia of 5e-9 kg m^2
+SYSTEMS["dust"] = rc.Chain(mass=[1e-6, 1e-7], length=[0.3, 0.2], centroid=[0.2, 0.1], radius_of_gyration=[0.001, 0.0])
 SYSTEMS["threads"] = rc.Chain(mass=[1.0, 0.0, 3.0, 0.5], length=[0.4, 0.3, 0.4, 0.7], **ROD)
 
 
@@ -155,7 +157,7 @@ def test_unstable_shapes_leave_at_their_growth_rate(system):
         last = np.array(apart[-60:])
         a, b = np.linalg.lstsq(np.stack([last[1:-1].ravel(), last[:-2].ravel()], 1), last[2:].ravel(), rcond=None)[0]
         growth = np.log(np.abs(np.roots([1, -a, -b])).max()) / (stride * model.opt.timestep)
-        assert growth == pytest.approx(rate, rel=0.02)
+        assert growth == pytest.approx(rate, rel=0.005)  # measured 0.0019
 
 
 @pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)

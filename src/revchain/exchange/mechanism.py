@@ -39,7 +39,7 @@ class Mechanism:
     ----------
     names : tuple of str
         Of the links, all different.
-    mass, length, centroid, moment : array, shape (N,)
+    mass, length, centroid, moment, radius_of_gyration : array, shape (N,)
         The moment of inertia is that across the link, about its centre of gravity.
     ratio : array, shape (2, N)
         (radius of gyration / length) squared in two words, as the chain holds it.
@@ -57,6 +57,7 @@ class Mechanism:
     length: Floats
     centroid: Floats
     moment: Floats
+    radius_of_gyration: Floats
     ratio: Floats
     wheeled: Any
     radius: float
@@ -79,6 +80,20 @@ class Mechanism:
     def reach(self) -> float:
         """Greatest distance from the axis."""
         return float(self.length.sum()) + self.radius
+
+    def across(self, k: int, least: float) -> float:
+        """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it to the last digit.
+
+        The forces of steady motion depend on the moment across a link less that along it, which the ball does not change.
+        """
+        up = down = float(self.moment[k]) + least
+        mass, radius = float(self.mass[k]), float(self.radius_of_gyration[k])
+        for _ in range(4):
+            for near in (up, down):
+                if radius_of_gyration(near, mass, least) == radius:
+                    return near
+            up, down = math.nextafter(up, math.inf), math.nextafter(down, 0.0)
+        return float(self.moment[k]) + least
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,12 +151,13 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
     if rig.flywheels is not None:
         kept, turning = rig._turning(gravity)
         momentum, axial = momentum + kept * rig._force(gravity), axial + turning / per
-    moment = moments(mass, chain.radius_of_gyration)
+    radius = chain.radius_of_gyration
+    moment = mass * radius * radius
     wheeled = (momentum != 0) | (axial != 0)
     if (wrong := np.flatnonzero(wheeled & ~(moment > 0))).size:
         raise ValueError(
             f"{place}: flywheels[{wrong[0]}] is in a point mass; a wheel needs a link with a moment of inertia across its "
-            f"axis: give its radius_of_gyration, got {shown(float(chain.radius_of_gyration[wrong[0]]))}"
+            f"axis: give its radius_of_gyration, got {shown(float(radius[wrong[0]]))}"
         )
     support = rig.support
     stretched = float(mass.sum()) * (chain.total_length + support.radius) ** 2
@@ -151,6 +167,7 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
         length=chain.length,
         centroid=chain.centroid,
         moment=moment,
+        radius_of_gyration=radius,
         ratio=np.stack([np.broadcast_to(word, size) for word in chain._compiled.__getstate__()[4:6]]),
         wheeled=wheeled,
         radius=support.radius,
@@ -162,24 +179,10 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
     return made, momentum, axial
 
 
-def moments(mass: Floats, radius: Floats) -> Floats:
-    """Moments of inertia whose radii of gyration are those given, to the last digit."""
-    return np.array([_moment(float(m), float(k)) for m, k in zip(mass, radius, strict=True)])
-
-
-def _moment(mass: float, radius: float) -> float:
-    found = mass * radius * radius
-    up, down = [found], [found]
-    for _ in range(3):
-        up.append(math.nextafter(up[-1], math.inf))
-        down.append(math.nextafter(down[-1], 0.0))
-    exact = (near for pair in zip(up, down, strict=True) for near in pair if radius_of_gyration(near, mass) == radius)
-    return next(exact, found)
-
-
-def radius_of_gyration(moment: float, mass: float) -> float:
-    """The root of their ratio, rounded once; 0 without mass."""
-    return float(_DIGITS.sqrt(_DIGITS.divide(Decimal(moment), Decimal(mass)))) if mass > 0 else 0.0
+def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
+    """The root of moment less what was added to it, over mass, rounded once; 0 where there is nothing."""
+    own = _DIGITS.subtract(Decimal(moment), Decimal(added))
+    return float(_DIGITS.sqrt(_DIGITS.divide(own, Decimal(mass)))) if own > 0 and mass > 0 else 0.0
 
 
 def _names(chain: Chain) -> tuple[str, ...]:

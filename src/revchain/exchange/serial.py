@@ -227,10 +227,10 @@ class Serial:
             self._refuse(f"the centre of gravity of {name} is not on the line between its pins")
         way, hinge = self._way(joints, self._matrix(self.at.xquat[body]) @ axis, name)
         across, axial = self._moments(body, axis, hinge, name)
-        if not mass > self.least:
-            mass = across = axial = 0.0
-        radius = radius_of_gyration(across, mass) if across > self.least else 0.0
-        counts = turning and way != "ball" and axial > max(1.5 * self.least, _NEAR * across)
+        is_ball = abs(axial - self.least) < _NEAR * self.least  # what to_mjcf and to_urdf add about all axes
+        mass = mass if mass > self.least else 0.0
+        radius = radius_of_gyration(across, mass, self.least if is_ball else 0.0)
+        counts = turning and way != "ball" and mass and not is_ball and axial > max(self.least, _NEAR * across)
         return _Link(model.body(body).name, mass, length, centroid, radius, axial if counts else 0.0, way)
 
     def _way(self, joints: list[int], axis: Floats, name: str) -> tuple[str, Floats | None]:

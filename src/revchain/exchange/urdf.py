@@ -77,7 +77,7 @@ def _robot(made: Mechanism, angle: Any) -> Xml.Element:
     _link(root, "turntable", LEAST, 0.0, (made.turning,) * 3)
     parent, pin = "turntable", (made.radius, 0, 0)
     for k in reversed(range(made.size)):
-        name, across = made.names[k], max(made.moment[k], LEAST)
+        name, across = made.names[k], made.across(k, LEAST)
         _joint(root, f"{name}_inclination", (parent, f"{name}_pin"), pin, -angle[k], "0 -1 0")
         _link(root, f"{name}_pin", LEAST, 0.0, (LEAST,) * 3)
         _joint(root, f"{name}_sideways", (f"{name}_pin", name), (0, 0, 0), 0.0, "1 0 0")
