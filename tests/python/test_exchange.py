@@ -107,7 +107,7 @@ def test_rigs_stay(rig, direction):
 
 
 def without_turning(model, data, shape):
-    """The same motion with the turntable at rest: it must not matter, as a turntable in the axis drives nothing."""
+    """The same motion with the turntable at rest: it must not matter, as a turntable on the axis drives nothing."""
     speed, turn = shape.angular_speed, np.zeros(3)
     data.qvel[:] = 0
     for k in reversed(range(shape.inclination.size)):
@@ -217,6 +217,14 @@ def test_systems_are_at_rest():
     assert momentum == pytest.approx(0.3 * 0.1**2 * 100.0)
 
 
+def test_names():
+    """Links with names of parts of the support, or of each other, get a number; names of files come back."""
+    named = rc.Chain(mass=[1.0, 2.0, 3.0, 4.0], length=1.0, names=["hook", "hook", "turntable", "free_end"])
+    model = started(rc.to_mjcf(named))[0]
+    assert [model.body(k).name for k in range(2, 6)] == ["free_end_3", "turntable_2", "hook_1", "hook"]
+    assert rc.from_urdf(rc.to_urdf(named)).names == ("hook", "hook_1", "turntable_2", "free_end_3")
+
+
 def test_weights_are_masses_times_gravity():
     text = rc.to_mjcf(rc.Chain(weight=[9.0, 18.0], length=1.0), gravity=9.0)
     assert started(text)[0].body_mass[-2:].tolist() == [2.0, 1.0]
@@ -229,7 +237,7 @@ def test_weights_are_masses_times_gravity():
         (rc.Held(RODS, span=0.5), ValueError, "only a Chain or a Rig is a serial chain of links"),
         (rc.Rig(RODS, displaced=rc.Displaced(mass=0.1)), ValueError, "a fluid has no counterpart"),
         (rc.Chain(mass=[1.0, 0.0, 0.0], length=1.0), ValueError, r"a pin without mass stay in line.*chain.clamped\(k\)"),
-        (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] is in a point"),
+        (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] needs a link"),
         (rc.Chain.uniform_rods(491, mass=1.0), ValueError, "at most 490 links, one below another, got 491"),
         (rc.steady_shapes(RODS, conical_height=5.0), ValueError, "the list of shapes is empty; give the system"),
         ([RODS], TypeError, r"system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got \[Chain"),

@@ -26,7 +26,8 @@ HELD = 1e12
 """Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
 MOST = 490
 """Links: MuJoCo nests bodies no deeper than some 500."""
-PARTS = ("world", "turntable", "carriage")
+PARTS = ("world", "turntable", "carriage", "free_end")
+_LEAST_OF_WHEEL = 4e-15  # link and wheel have half of it each, and MuJoCo takes no less than 1e-15
 _DIGITS = Context(prec=40)
 _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
 
@@ -154,10 +155,10 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
     radius = chain.radius_of_gyration
     moment = mass * radius * radius
     wheeled = (momentum != 0) | (axial != 0)
-    if (wrong := np.flatnonzero(wheeled & ~(moment > 0))).size:
+    if (wrong := np.flatnonzero(wheeled & ~(moment > _LEAST_OF_WHEEL))).size:
         raise ValueError(
-            f"{place}: flywheels[{wrong[0]}] is in a point mass; a wheel needs a link with a moment of inertia across its "
-            f"axis: give its radius_of_gyration, got {shown(float(radius[wrong[0]]))}"
+            f"{place}: flywheels[{wrong[0]}] needs a link with a moment of inertia across its axis, above "
+            f"{_LEAST_OF_WHEEL:g} kg m^2; give links[{wrong[0]}] a radius_of_gyration, got {radius[wrong[0]]:g}"
         )
     support = rig.support
     stretched = float(mass.sum()) * (chain.total_length + support.radius) ** 2

@@ -54,15 +54,15 @@ def to_mjcf(
     Raises
     ------
     ValueError
-        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a point mass, links that meet at a
-        pin without mass, or more than 490 links; if `gravity` is given with a shape; or if the file cannot be written.
+        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a link without moment of
+        inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if the file cannot be written.
     TypeError
         If `system` is none of these.
 
     Notes
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
-    the turning plane, and ``sideways``, out of it. In steady motion only the turntable, and wheels, turn. A turntable in the
+    the turning plane, and ``sideways``, out of it. In steady motion only the turntable, and wheels, turn. A turntable on the
     axis exerts no torque on the chain. One that carries the support round has so great a moment of inertia that it keeps its
     speed to 12 digits. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
 
