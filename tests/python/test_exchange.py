@@ -235,6 +235,8 @@ def test_weights_are_masses_times_gravity():
     [
         (rc.Cord(1.0), ValueError, r"cut a cord into links first: cord.chain\(100\); got Cord"),
         (rc.Held(RODS, span=0.5), ValueError, "only a Chain or a Rig is a serial chain of links"),
+        (rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0], ValueError, "only a Chain or a Rig is a serial chain"),
+        (rc.steady_shapes(rc.Held(RODS, span=0.5), angular_speed=15.0), ValueError, "only a Chain or a Rig is a serial chain"),
         (rc.Rig(RODS, displaced=rc.Displaced(mass=0.1)), ValueError, "a fluid has no counterpart"),
         (rc.Chain(mass=[1.0, 0.0, 0.0], length=1.0), ValueError, r"a pin without mass stay in line.*chain.clamped\(k\)"),
         (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] needs a link"),
