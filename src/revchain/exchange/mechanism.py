@@ -111,18 +111,30 @@ class State:
 
 def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
     """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
-    shapes: list[Any] | None = [given] if isinstance(given, Shape) else list(given) if isinstance(given, SteadyShapes) else None
+    shapes: list[Any] | None = (
+        [given] if isinstance(given, Shape) else list(given) if isinstance(given, SteadyShapes) else None
+    )
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):
         _refuse(place, given, system)
     if shapes is not None and gravity is not None:
-        raise ValueError(f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}")
+        raise ValueError(
+            f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}"
+        )
     if shapes == []:
-        raise ValueError(f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}")
-    g = given.gravity if shapes is not None else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+        raise ValueError(
+            f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}"
+        )
+    g = (
+        given.gravity
+        if shapes is not None
+        else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+    )
     rig = system if isinstance(system, Rig) else Rig(system)
     if rig.displaced is not None:
-        raise ValueError(f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}")
+        raise ValueError(
+            f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}"
+        )
     made, momentum, axial = _bodies(place, rig, g)
     if shapes is None:
         return made, [_at_rest(rig, made, momentum)]
@@ -145,7 +157,9 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
             f"make them one: chain.clamped(k) with the lower of the two, got {chain.describe()}"
         )
     if chain.size > MOST:
-        raise ValueError(f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones")
+        raise ValueError(
+            f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones"
+        )
     per = 1.0 if chain.by_mass else gravity
     mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
     momentum, axial = np.zeros(size), np.zeros(size)

@@ -55,7 +55,8 @@ def to_mjcf(
     ------
     ValueError
         If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a link without moment of
-        inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if the file cannot be written.
+        inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if
+        the file cannot be written.
     TypeError
         If `system` is none of these.
 
@@ -79,7 +80,11 @@ def to_mjcf(
     """
     place = "revchain.to_mjcf"
     made, states = mechanism(place, system, gravity)
-    step = one_positive(place, "timestep", timestep) if timestep is not None else min(_step(made, state) for state in states)
+    step = (
+        one_positive(place, "timestep", timestep)
+        if timestep is not None
+        else min(_step(made, state) for state in states)
+    )
     model = _model(made, step)
     frames = Xml.SubElement(model, "keyframe")
     for state in states:

@@ -61,7 +61,9 @@ def to_urdf(
     """
     place = "revchain.to_urdf"
     if isinstance(system, SteadyShapes):
-        raise TypeError(f"{place}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}")
+        raise TypeError(
+            f"{place}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}"
+        )
     made, [state] = mechanism(place, system, gravity)
     if made.yields:
         raise ValueError(f"{place}: URDF has no springs; use to_mjcf, got a support of stiffness {made.stiffness:g}")
