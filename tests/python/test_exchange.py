@@ -20,10 +20,14 @@ RIGS = {
     "flywheels": rc.Rig(RODS, flywheels=WHEELS),
     "momentum": rc.Rig(rc.Chain.uniform_rods(2, weight=20.0), flywheels=rc.Flywheel(momentum=0.2, axial_moment=0.3)),
 }
-BODIES = rc.Chain(mass=[1.3, 0.4, 2.1], length=[0.7, 0.5, 0.9], centroid=[0.31, -0.1, 1.1], radius_of_gyration=[0.2, 0.3, 0.1])
+BODIES = rc.Chain(
+    mass=[1.3, 0.4, 2.1], length=[0.7, 0.5, 0.9], centroid=[0.31, -0.1, 1.1], radius_of_gyration=[0.2, 0.3, 0.1]
+)
 BY_SIZE = {n: rc.Chain.uniform_rods(n, length=1.0, mass=2.0) for n in (1, 3, 5, 20)}
 SYSTEMS = {**{f"{n} rods": chain for n, chain in BY_SIZE.items()}, **RIGS, "bodies": BODIES}
 ROD = {"centroid": [0.2, 0.0, 0.2, 0.7], "radius_of_gyration": [0.1, 0.0, 0.1, 0.0]}  # threads and a point mass
+SYSTEMS["watch chain"] = rc.Chain.uniform_rods(30, length=0.36, mass=0.014)  # moments of inertia of 5e-9 kg m^2
+SYSTEMS["dust"] = rc.Chain(mass=[1e-6, 1e-7], length=[0.3, 0.2], centroid=[0.2, 0.1], radius_of_gyration=[0.001, 0.0])
 SYSTEMS["threads"] = rc.Chain(mass=[1.0, 0.0, 3.0, 0.5], length=[0.4, 0.3, 0.4, 0.7], **ROD)
 
 
@@ -105,7 +109,7 @@ def test_rigs_stay(rig, direction):
 
 
 def without_turning(model, data, shape):
-    """The same motion with the turntable at rest: it must not matter, as a turntable in the axis drives nothing."""
+    """The same motion with the turntable at rest: it must not matter, as a turntable on the axis drives nothing."""
     speed, turn = shape.angular_speed, np.zeros(3)
     data.qvel[:] = 0
     for k in reversed(range(shape.inclination.size)):
@@ -155,7 +159,7 @@ def test_unstable_shapes_leave_at_their_growth_rate(system):
         last = np.array(apart[-60:])
         a, b = np.linalg.lstsq(np.stack([last[1:-1].ravel(), last[:-2].ravel()], 1), last[2:].ravel(), rcond=None)[0]
         growth = np.log(np.abs(np.roots([1, -a, -b])).max()) / (stride * model.opt.timestep)
-        assert growth == pytest.approx(rate, rel=0.02)
+        assert growth == pytest.approx(rate, rel=0.005)  # measured 0.0019
 
 
 @pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -215,6 +219,14 @@ def test_systems_are_at_rest():
     assert momentum == pytest.approx(0.3 * 0.1**2 * 100.0)
 
 
+def test_names():
+    """Links with names of parts of the support, or of each other, get a number; names of files come back."""
+    named = rc.Chain(mass=[1.0, 2.0, 3.0, 4.0], length=1.0, names=["hook", "hook", "turntable", "free_end"])
+    model = started(rc.to_mjcf(named))[0]
+    assert [model.body(k).name for k in range(2, 6)] == ["free_end_3", "turntable_2", "hook_1", "hook"]
+    assert rc.from_urdf(rc.to_urdf(named)).names == ("hook", "hook_1", "turntable_2", "free_end_3")
+
+
 def test_weights_are_masses_times_gravity():
     text = rc.to_mjcf(rc.Chain(weight=[9.0, 18.0], length=1.0), gravity=9.0)
     assert started(text)[0].body_mass[-2:].tolist() == [2.0, 1.0]
@@ -225,9 +237,11 @@ def test_weights_are_masses_times_gravity():
     [
         (rc.Cord(1.0), ValueError, r"cut a cord into links first: cord.chain\(100\); got Cord"),
         (rc.Held(RODS, span=0.5), ValueError, "only a Chain or a Rig is a serial chain of links"),
+        (rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0], ValueError, "only a Chain or a Rig is a serial chain"),
+        (rc.steady_shapes(rc.Held(RODS, span=0.5), angular_speed=15.0), ValueError, "only a Chain or a Rig is a serial chain"),
         (rc.Rig(RODS, displaced=rc.Displaced(mass=0.1)), ValueError, "a fluid has no counterpart"),
         (rc.Chain(mass=[1.0, 0.0, 0.0], length=1.0), ValueError, r"a pin without mass stay in line.*chain.clamped\(k\)"),
-        (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] is in a point"),
+        (rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.0)), ValueError, r"flywheels\[0\] needs a link"),
         (rc.Chain.uniform_rods(491, mass=1.0), ValueError, "at most 490 links, one below another, got 491"),
         (rc.steady_shapes(RODS, conical_height=5.0), ValueError, "the list of shapes is empty; give the system"),
         ([RODS], TypeError, r"system must be a revchain.Chain, Rig, SteadyShape or SteadyShapes, got \[Chain"),
@@ -357,13 +371,17 @@ def test_models_of_others():
     assert plane.names == ("lower", "upper")
     with pytest.raises(ValueError, match="free end of body 'lower' is not marked; put a site there"):
         rc.from_mjcf(PLANE.replace('<site name="tip" pos="0 0 -0.8"/>', ""))
-    ended = BALLS.replace("</body></body>", '<geom type="cylinder" fromto="-0.1 0 0.05  -0.1 0.4 0.05" size="0.01"/></body></body>')
+    ended = BALLS.replace(
+        "</body></body>", '<geom type="cylinder" fromto="-0.1 0 0.05  -0.1 0.4 0.05" size="0.01"/></body></body>'
+    )
     with pytest.raises(ValueError, match="centre of gravity of body 'upper' is not on the line between its pins"):
         rc.from_mjcf(ended)
     # the pin of the lower link, in the frame of the upper: (0.7, 0.1, 0) turned to lie on the x axis
     straight = ended.replace('pos="0.7 0.1 0" quat="0.6 0 0.8 0"', 'pos="0.8 0 -0.05"')
     balls = rc.from_mjcf(straight)
-    assert balls.length == pytest.approx([0.4, 0.7], rel=1e-12) and balls.centroid == pytest.approx([0.2, 0.3], rel=1e-12)
+    assert balls.length == pytest.approx([0.4, 0.7], rel=1e-12) and balls.centroid == pytest.approx(
+        [0.2, 0.3], rel=1e-12
+    )
     assert balls.mass.tolist() == [3.0, 2.0] and balls.radius_of_gyration[0] == pytest.approx(np.sqrt(0.2 / 3))
     turned = straight.replace('pos="0.8 0 -0.05"', 'pos="0.73 0.05 0" quat="0.7071067811865476 0 0.7071067811865476 0"')
     turned = turned.replace('pos="0.73', 'pos="0.65').replace("0.65 0.05 0", "0.65 0 -0.1")
@@ -372,7 +390,9 @@ def test_models_of_others():
 
 def test_swing_of_a_model_of_others():
     """MuJoCo's own linearised motion has the natural frequencies of the chain that was read."""
-    model = mujoco.MjModel.from_xml_string(PLANE.replace("<worldbody>", '<option timestep="1e-4" integrator="RK4"/><worldbody>'))
+    model = mujoco.MjModel.from_xml_string(
+        PLANE.replace("<worldbody>", '<option timestep="1e-4" integrator="RK4"/><worldbody>')
+    )
     data = mujoco.MjData(model)
     stiffness = np.empty((2, 2))
     for k in range(2):
@@ -406,7 +426,7 @@ def test_a_turning_support_keeps_axial_moments():
         ("</worldbody>", '</worldbody><actuator><motor joint="b"/></actuator>', "the model has actuators, which a chain does not have; take them away"),
         ("</worldbody>", '</worldbody><equality><connect body1="lower" anchor="0 0 0"/></equality>', "has equality constraints"),
         ('name="lower"', 'name="lower" gravcomp="1"', "gravity does not act on all bodies"),
-        ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid .* set them to 0"),
+        ("<worldbody>", '<option density="1.2"/><worldbody>', "in a fluid, whose forces are not read; set density"),
         ("</body></body>", '</body><body><joint/><geom size="1"/></body></body>', "body 'lower' and body number 3 both hang from body 'upper'"),
         ("</body></body>", '<body name="bob"><geom size="1"/></body></body></body>', "body 'bob' is fixed to body 'lower'; make them one"),
         ('name="b" type="hinge"', 'name="b" type="hinge" damping="0.5"', "joint 'b' has damping 0.5; set it to 0"),
@@ -434,9 +454,21 @@ def test_what_is_no_carriage():
     text = rc.to_mjcf(RIGS["spring"])
     for old, new, message in (
         ('stiffness="300"', 'stiffness="300" damping="2"', "joint 'carriage_x' has damping 2; set it to 0"),
-        ('stiffness="300"', 'stiffness="300" springref="0.1"', r"joint 'carriage_x' has a spring that is not at rest \(springref\)"),
-        ('axis="0 1 0" stiffness="300"', 'axis="0 1 0" stiffness="200"', "body 'carriage' slides, but not on two equal springs"),
-        ('axis="0 1 0" stiffness="300"', 'axis="0 1 1" stiffness="300"', "body 'carriage' slides, but not on two equal springs"),
+        (
+            'stiffness="300"',
+            'stiffness="300" springref="0.1"',
+            r"joint 'carriage_x' has a spring that is not at rest \(springref\)",
+        ),
+        (
+            'axis="0 1 0" stiffness="300"',
+            'axis="0 1 0" stiffness="200"',
+            "body 'carriage' slides, but not on two equal springs",
+        ),
+        (
+            'axis="0 1 0" stiffness="300"',
+            'axis="0 1 1" stiffness="300"',
+            "body 'carriage' slides, but not on two equal springs",
+        ),
     ):
         assert old in text
         with pytest.raises(ValueError, match=message):
@@ -452,11 +484,15 @@ def test_links_in_space():
     with pytest.raises(ValueError, match="the joints of body 'upper' are at different places"):
         rc.from_mjcf(PLANE.replace('<joint name="a"', '<joint pos="0 0 0.1" axis="1 0 0"/><joint name="a"'))
     with pytest.raises(ValueError, match="no link hangs from the support"):
-        rc.from_mjcf(rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).partition("<body name=\"link")[0] + "</body></worldbody></mujoco>")
+        rc.from_mjcf(
+            rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).partition('<body name="link')[0] + "</body></worldbody></mujoco>"
+        )
 
 
 def test_what_is_no_model(tmp_path):
-    with pytest.raises(ValueError, match=r"from_mjcf: source must begin with <mujoco>, got <robot>, a URDF file: use from_urdf"):
+    with pytest.raises(
+        ValueError, match=r"from_mjcf: source must begin with <mujoco>, got <robot>, a URDF file: use from_urdf"
+    ):
         rc.from_mjcf(rc.to_urdf(RODS))
     with pytest.raises(ValueError, match=r"from_urdf: source must begin with <robot>, got <a>, neither MJCF nor URDF"):
         rc.from_urdf("<a/>")

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..results.shapes import SteadyShape, SteadyShapes
+from ..results.shapes import Shape, SteadyShape, SteadyShapes
 from ..systems.chain import Chain
 from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, shown
 from ..systems.rig import Rig
@@ -26,7 +26,8 @@ HELD = 1e12
 """Moment of inertia of a support whose speed is kept, over that of the chain stretched out."""
 MOST = 490
 """Links: MuJoCo nests bodies no deeper than some 500."""
-PARTS = ("world", "turntable", "carriage")
+PARTS = ("world", "turntable", "carriage", "free_end")
+_LEAST_OF_WHEEL = 4e-15  # link and wheel have half of it each, and MuJoCo takes no less than 1e-15
 _DIGITS = Context(prec=40)
 _BENT = "only a Chain or a Rig is a serial chain of links; cut a cord into links first: cord.chain(100)"
 
@@ -39,7 +40,7 @@ class Mechanism:
     ----------
     names : tuple of str
         Of the links, all different.
-    mass, length, centroid, moment : array, shape (N,)
+    mass, length, centroid, moment, radius_of_gyration : array, shape (N,)
         The moment of inertia is that across the link, about its centre of gravity.
     ratio : array, shape (2, N)
         (radius of gyration / length) squared in two words, as the chain holds it.
@@ -57,6 +58,7 @@ class Mechanism:
     length: Floats
     centroid: Floats
     moment: Floats
+    radius_of_gyration: Floats
     ratio: Floats
     wheeled: Any
     radius: float
@@ -80,6 +82,20 @@ class Mechanism:
         """Greatest distance from the axis."""
         return float(self.length.sum()) + self.radius
 
+    def across(self, k: int, least: float) -> float:
+        """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it to the last digit.
+
+        The forces of steady motion depend on the moment across a link less that along it, which the ball does not change.
+        """
+        up = down = float(self.moment[k]) + least
+        mass, radius = float(self.mass[k]), float(self.radius_of_gyration[k])
+        for _ in range(4):
+            for near in (up, down):
+                if radius_of_gyration(near, mass, least) == radius:
+                    return near
+            up, down = math.nextafter(up, math.inf), math.nextafter(down, 0.0)
+        return float(self.moment[k]) + least
+
 
 @dataclass(frozen=True, slots=True)
 class State:
@@ -95,18 +111,30 @@ class State:
 
 def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism, list[State]]:
     """The bodies of a system, or of the system of shapes, and its states: at rest, or the shapes."""
-    shapes = [given] if isinstance(given, SteadyShape) else list(given) if isinstance(given, SteadyShapes) else None
+    shapes: list[Any] | None = (
+        [given] if isinstance(given, Shape) else list(given) if isinstance(given, SteadyShapes) else None
+    )
     system = given if shapes is None else given.system
     if not isinstance(system, Chain | Rig):
         _refuse(place, given, system)
     if shapes is not None and gravity is not None:
-        raise ValueError(f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}")
+        raise ValueError(
+            f"{place}: a shape has its gravity, {given.gravity:g}; leave gravity out, got {shown(gravity)}"
+        )
     if shapes == []:
-        raise ValueError(f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}")
-    g = given.gravity if shapes is not None else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+        raise ValueError(
+            f"{place}: the list of shapes is empty; give the system instead: shapes.system, got {shown(system)}"
+        )
+    g = (
+        given.gravity
+        if shapes is not None
+        else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
+    )
     rig = system if isinstance(system, Rig) else Rig(system)
     if rig.displaced is not None:
-        raise ValueError(f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}")
+        raise ValueError(
+            f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}"
+        )
     made, momentum, axial = _bodies(place, rig, g)
     if shapes is None:
         return made, [_at_rest(rig, made, momentum)]
@@ -129,19 +157,22 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
             f"make them one: chain.clamped(k) with the lower of the two, got {chain.describe()}"
         )
     if chain.size > MOST:
-        raise ValueError(f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones")
+        raise ValueError(
+            f"{place}: MuJoCo takes at most {MOST} links, one below another, got {chain.size}; use fewer and longer ones"
+        )
     per = 1.0 if chain.by_mass else gravity
     mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
     momentum, axial = np.zeros(size), np.zeros(size)
     if rig.flywheels is not None:
         kept, turning = rig._turning(gravity)
         momentum, axial = momentum + kept * rig._force(gravity), axial + turning / per
-    moment = moments(mass, chain.radius_of_gyration)
+    radius = chain.radius_of_gyration
+    moment = mass * radius * radius
     wheeled = (momentum != 0) | (axial != 0)
-    if (wrong := np.flatnonzero(wheeled & ~(moment > 0))).size:
+    if (wrong := np.flatnonzero(wheeled & ~(moment > _LEAST_OF_WHEEL))).size:
         raise ValueError(
-            f"{place}: flywheels[{wrong[0]}] is in a point mass; a wheel needs a link with a moment of inertia across its "
-            f"axis: give its radius_of_gyration, got {shown(float(chain.radius_of_gyration[wrong[0]]))}"
+            f"{place}: flywheels[{wrong[0]}] needs a link with a moment of inertia across its axis, above "
+            f"{_LEAST_OF_WHEEL:g} kg m^2; give links[{wrong[0]}] a radius_of_gyration, got {radius[wrong[0]]:g}"
         )
     support = rig.support
     stretched = float(mass.sum()) * (chain.total_length + support.radius) ** 2
@@ -151,6 +182,7 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
         length=chain.length,
         centroid=chain.centroid,
         moment=moment,
+        radius_of_gyration=radius,
         ratio=np.stack([np.broadcast_to(word, size) for word in chain._compiled.__getstate__()[4:6]]),
         wheeled=wheeled,
         radius=support.radius,
@@ -162,24 +194,10 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
     return made, momentum, axial
 
 
-def moments(mass: Floats, radius: Floats) -> Floats:
-    """Moments of inertia whose radii of gyration are those given, to the last digit."""
-    return np.array([_moment(float(m), float(k)) for m, k in zip(mass, radius, strict=True)])
-
-
-def _moment(mass: float, radius: float) -> float:
-    found = mass * radius * radius
-    up, down = [found], [found]
-    for _ in range(3):
-        up.append(math.nextafter(up[-1], math.inf))
-        down.append(math.nextafter(down[-1], 0.0))
-    exact = (near for pair in zip(up, down, strict=True) for near in pair if radius_of_gyration(near, mass) == radius)
-    return next(exact, found)
-
-
-def radius_of_gyration(moment: float, mass: float) -> float:
-    """The root of their ratio, rounded once; 0 without mass."""
-    return float(_DIGITS.sqrt(_DIGITS.divide(Decimal(moment), Decimal(mass)))) if mass > 0 else 0.0
+def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
+    """The root of moment less what was added to it, over mass, rounded once; 0 where there is nothing."""
+    own = _DIGITS.subtract(Decimal(moment), Decimal(added))
+    return float(_DIGITS.sqrt(_DIGITS.divide(own, Decimal(mass)))) if own > 0 and mass > 0 else 0.0
 
 
 def _names(chain: Chain) -> tuple[str, ...]:

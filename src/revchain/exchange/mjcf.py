@@ -54,20 +54,21 @@ def to_mjcf(
     Raises
     ------
     ValueError
-        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a point mass, links that meet at a
-        pin without mass, or more than 490 links; if `gravity` is given with a shape; or if the file cannot be written.
+        If the system is a cord or held at both ends, stands in a fluid, has a flywheel in a link without moment of
+        inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if
+        the file cannot be written.
     TypeError
         If `system` is none of these.
 
     Notes
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
-    the turning plane, and ``sideways``, out of it. In steady motion only the turntable, and wheels, turn. A turntable in the
+    the turning plane, and ``sideways``, out of it. In steady motion only the turntable, and wheels, turn. A turntable on the
     axis exerts no torque on the chain. One that carries the support round has so great a moment of inertia that it keeps its
     speed to 12 digits. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
 
-    MuJoCo takes no moment of inertia below 1e-15 kg m^2. Links get this much about their own axes, point masses about all
-    axes; it changes the motion by the ratio to the moment of inertia about the pin.
+    MuJoCo takes no moment of inertia below 1e-15 kg m^2. Each link gets this much more about all axes, as a small ball would
+    have. It does not change steady motion; it changes disturbed motion by the ratio to the moment of inertia about the pin.
 
     Examples
     --------
@@ -79,7 +80,11 @@ def to_mjcf(
     """
     place = "revchain.to_mjcf"
     made, states = mechanism(place, system, gravity)
-    step = one_positive(place, "timestep", timestep) if timestep is not None else min(_step(made, state) for state in states)
+    step = (
+        one_positive(place, "timestep", timestep)
+        if timestep is not None
+        else min(_step(made, state) for state in states)
+    )
     model = _model(made, step)
     frames = Xml.SubElement(model, "keyframe")
     for state in states:
@@ -147,9 +152,9 @@ def _scenery(root: Xml.Element, size: float) -> Xml.Element:
 
 def _link(parent: Xml.Element, made: Mechanism, k: int, pin: Any, size: float) -> Xml.Element:
     name, wheel = made.names[k], bool(made.wheeled[k])
-    share = 0.5 if wheel else 1.0
-    mass, across, at = share * made.mass[k], share * made.moment[k], (0, 0, -made.centroid[k])
-    link = _body(parent, name, pin, max(mass, LEAST), at, (max(across, LEAST), max(across, LEAST), LEAST))
+    mass, half, at = made.mass[k] / (1 + wheel), made.moment[k] / 2, (0, 0, -made.centroid[k])
+    across = half + LEAST if wheel else made.across(k, LEAST)
+    link = _body(parent, name, pin, max(mass, LEAST), at, (across, across, LEAST))
     _joint(link, f"{name}_inclination", "hinge", (0, -1, 0))
     _joint(link, f"{name}_sideways", "hinge", (1, 0, 0))
     _rod(link, (0, 0, -made.length[k]), size)
@@ -157,7 +162,7 @@ def _link(parent: Xml.Element, made: Mechanism, k: int, pin: Any, size: float) -
     if made.mass[k] > 0:
         Xml.SubElement(link, "geom", type="sphere", pos=numbers(*at), size=numbers(ball), mass="0")
     if wheel:
-        disc = _body(link, f"{name}_wheel", at, mass, (0, 0, 0), (across, across, made.moment[k]))
+        disc = _body(link, f"{name}_wheel", at, mass, (0, 0, 0), (half, half, made.moment[k]))
         _joint(disc, f"{name}_spin", "hinge", (0, 0, 1))
         Xml.SubElement(disc, "geom", type="cylinder", size=numbers(2 * ball, ball / 3), mass="0")
     return link

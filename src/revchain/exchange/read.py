@@ -105,7 +105,9 @@ def _system(place: str, source: Any, root: str, least: float) -> Chain | Rig:
     try:
         found = Xml.fromstring(text).tag
         if found != root:
-            raise ValueError(f"source must begin with <{root}>, got <{found}>, {_OTHER.get(found, 'neither MJCF nor URDF')}")
+            raise ValueError(
+                f"source must begin with <{root}>, got <{found}>, {_OTHER.get(found, 'neither MJCF nor URDF')}"
+            )
         spec = mujoco.MjSpec.from_string(text) if is_text else mujoco.MjSpec.from_file(name)
         if root == "robot":
             spec.compiler.fusestatic = False

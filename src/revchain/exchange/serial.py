@@ -17,7 +17,13 @@ from .mjcf import RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
 _FORCES = ("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "dof_frictionloss", "dof_armature")
-_MORE = {"neq": "equality constraints", "ntendon": "tendons", "nu": "actuators", "nflex": "flexes", "nplugin": "plugins"}
+_MORE = {
+    "neq": "equality constraints",
+    "ntendon": "tendons",
+    "nu": "actuators",
+    "nflex": "flexes",
+    "nplugin": "plugins",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +44,9 @@ class Serial:
 
     def __init__(self, mujoco: Any, model: Any, place: str, least: float) -> None:
         self.mujoco, self.model, self.place, self.least = mujoco, model, place, least
-        self.hinge, self.slide, self.ball = (int(getattr(mujoco.mjtJoint, f"mjJNT_{kind}")) for kind in ("HINGE", "SLIDE", "BALL"))
+        self.hinge, self.slide, self.ball = (
+            int(getattr(mujoco.mjtJoint, f"mjJNT_{kind}")) for kind in ("HINGE", "SLIDE", "BALL")
+        )
         self.at = mujoco.MjData(model)
         mujoco.mj_kinematics(model, self.at)
         size = float(np.linalg.norm(model.opt.gravity))
@@ -58,7 +66,7 @@ class Serial:
         if self.model.body_gravcomp.any():
             self._refuse("gravity does not act on all bodies (gravcomp); set gravcomp to 0")
         if self.model.opt.density or self.model.opt.viscosity:
-            self._refuse("the model is in a fluid (option density or viscosity), whose forces revchain does not have; set them to 0")
+            self._refuse("the model is in a fluid, whose forces are not read; set density and viscosity of option to 0")
         bodies = self._path()
         turn = self._turntable(bodies[0])
         if turn is not None and len(self._joints(bodies[0])) == 1:
@@ -103,17 +111,23 @@ class Serial:
             below = [b for b in self.children[here] if self.moves[b]]
             if len(below) > 1:
                 one, other = (self._name("body", b) for b in below[:2])
-                self._refuse(f"{one} and {other} both hang from {self._name('body', here)}; only a serial chain can be read")
+                self._refuse(
+                    f"{one} and {other} both hang from {self._name('body', here)}; only a serial chain can be read"
+                )
             fixed = [b for b in self.children[here] if b not in below and self.model.body_subtreemass[b] > self.least]
             if bodies and fixed:
-                self._refuse(f"{self._name('body', fixed[0])} is fixed to {self._name('body', here)}; make them one body")
+                self._refuse(
+                    f"{self._name('body', fixed[0])} is fixed to {self._name('body', here)}; make them one body"
+                )
             if not below:
                 break
             here = below[0]
             if self._joints(here):
                 bodies.append(here)
             elif bodies:
-                self._refuse(f"{self._name('body', here)} has no joint; make it one body with {self._name('body', bodies[-1])}")
+                self._refuse(
+                    f"{self._name('body', here)} has no joint; make it one body with {self._name('body', bodies[-1])}"
+                )
         if not bodies:
             self._refuse("the model has no joints; a URDF file needs a root link of the name world")
         return bodies
@@ -136,7 +150,9 @@ class Serial:
         for j in joints:
             self._refuse_forces(j, but="stiffness")
             if model.qpos_spring[model.jnt_qposadr[j]] != model.qpos0[model.jnt_qposadr[j]]:
-                self._refuse(f"{self._name('joint', j)} has a spring that is not at rest (springref); set springref to 0")
+                self._refuse(
+                    f"{self._name('joint', j)} has a spring that is not at rest (springref); set springref to 0"
+                )
         mass = float(model.body_mass[body])
         return {"stiffness": float(stiffness[0]), "mass": mass if mass > self.least else 0.0}
 
@@ -182,7 +198,9 @@ class Serial:
                 self._refuse(f"{self._name('joint', j)} is neither a hinge nor a ball joint")
             self._refuse_forces(j)
             if np.any(self.model.jnt_pos[j] != self.model.jnt_pos[joints[0]]):
-                self._refuse(f"the joints of {self._name('body', body)} are at different places; a link has one upper pin")
+                self._refuse(
+                    f"the joints of {self._name('body', body)} are at different places; a link has one upper pin"
+                )
         return np.array(self.model.jnt_pos[joints[0]])
 
     def _in_parent(self, body: int) -> Floats:
@@ -227,10 +245,10 @@ class Serial:
             self._refuse(f"the centre of gravity of {name} is not on the line between its pins")
         way, hinge = self._way(joints, self._matrix(self.at.xquat[body]) @ axis, name)
         across, axial = self._moments(body, axis, hinge, name)
-        if not mass > self.least:
-            mass = across = axial = 0.0
-        radius = radius_of_gyration(across, mass) if across > self.least else 0.0
-        counts = turning and way != "ball" and axial > max(1.5 * self.least, _NEAR * across)
+        is_ball = abs(axial - self.least) < _NEAR * self.least  # what to_mjcf and to_urdf add about all axes
+        mass = mass if mass > self.least else 0.0
+        radius = radius_of_gyration(across, mass, self.least if is_ball else 0.0)
+        counts = turning and way != "ball" and mass and not is_ball and axial > max(self.least, _NEAR * across)
         return _Link(model.body(body).name, mass, length, centroid, radius, axial if counts else 0.0, way)
 
     def _way(self, joints: list[int], axis: Floats, name: str) -> tuple[str, Floats | None]:
@@ -257,7 +275,9 @@ class Serial:
         about = base @ inertia @ base.T
         uneven = np.abs(about - np.diag(about[[0, 0, 2], [0, 0, 2]])).max()
         if hinge is None and uneven > _NEAR * np.abs(about).max() + self.least:
-            self._refuse(f"{name} is not alike all round its axis: its moments of inertia are {model.body_inertia[body]}")
+            self._refuse(
+                f"{name} is not alike all round its axis: its moments of inertia are {model.body_inertia[body]}"
+            )
         return float(about[0, 0]), float(about[2, 2])
 
 

@@ -61,7 +61,9 @@ def to_urdf(
     """
     place = "revchain.to_urdf"
     if isinstance(system, SteadyShapes):
-        raise TypeError(f"{place}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}")
+        raise TypeError(
+            f"{place}: a URDF file has one configuration; give one shape, such as shapes[0], got {shown(system)}"
+        )
     made, [state] = mechanism(place, system, gravity)
     if made.yields:
         raise ValueError(f"{place}: URDF has no springs; use to_mjcf, got a support of stiffness {made.stiffness:g}")
@@ -77,7 +79,7 @@ def _robot(made: Mechanism, angle: Any) -> Xml.Element:
     _link(root, "turntable", LEAST, 0.0, (made.turning,) * 3)
     parent, pin = "turntable", (made.radius, 0, 0)
     for k in reversed(range(made.size)):
-        name, across = made.names[k], max(made.moment[k], LEAST)
+        name, across = made.names[k], made.across(k, LEAST)
         _joint(root, f"{name}_inclination", (parent, f"{name}_pin"), pin, -angle[k], "0 -1 0")
         _link(root, f"{name}_pin", LEAST, 0.0, (LEAST,) * 3)
         _joint(root, f"{name}_sideways", (f"{name}_pin", name), (0, 0, 0), 0.0, "1 0 0")

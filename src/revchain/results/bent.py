@@ -86,6 +86,8 @@ class _Bent(Shape):
             Column("offset", self.offset, "from axis (m)"),
             Column("height", self.height, "height (m)"),
             Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
+            Column("position", self.position, axes=("component",)),
+            Column("velocity", self.velocity, axes=("component",)),
         ]
         names = [name for name in self._fields if name not in ("system", "period", "sensitivity") and not name.startswith("_")]
         facts = {name: getattr(self, name) for name in names}
