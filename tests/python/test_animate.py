@@ -2,6 +2,7 @@
 """Films and pages: every place in them is that of the result, at its time."""
 
 import base64
+import html
 import json
 import re
 import shutil
@@ -438,13 +439,25 @@ def test_what_cannot_be_written_leaves_what_was_there(tmp_path):
         rc.modes(CHAIN).animate(tmp_path / "missing" / "film.gif")
 
 
+def test_the_view_of_a_notebook_is_the_page(tmp_path):
+    shapes = rc.steady_shapes(CHAIN, conical_height=0.1)
+    shapes.animate(tmp_path / "shapes.html", figures=[0], time_scale=0.5)
+    shown = shapes.show(figures=[0], time_scale=0.5, height=500).data
+    page = re.search(r'<iframe srcdoc="([^"]*)" style="width: 100%; height: 500px; border: 0"></iframe>', shown)[1]
+    assert html.unescape(page) == (tmp_path / "shapes.html").read_text(encoding="utf-8")
+    with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: height must be positive and finite, got 0"):
+        shapes.show(height=0)
+
+
 def test_packages_that_are_missing(python, without):
-    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio") + (
+    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "IPython") + (
         "import revchain as rc\n"
         "m = rc.modes(rc.Chain.uniform_rods(12), 2)\n"
         "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'), (m.to_vtk, 'a.vtu')):\n"
         "    try: method(path)\n"
         "    except ImportError as error: print(error)\n"
+        "try: m.show()\n"
+        "except ImportError as error: print(error)\n"
         "m.animate('a.html'); m.to_vtk('a.xdmf', duration=0.2)\n"
     )
     done = python("-c", program)
@@ -454,6 +467,7 @@ def test_packages_that_are_missing(python, without):
         'a .mp4 film needs matplotlib: pip install "revchain[animate]"',
         'a .glb file needs pygltflib: pip install "revchain[exchange]"',
         'a .vtu file needs meshio: pip install "revchain[exchange]"',
+        'the interactive view needs IPython: pip install "revchain[notebook]"',
     ]
 
 

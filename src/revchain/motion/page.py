@@ -23,12 +23,16 @@ LINE = 400  # points of a curve
 
 def write_page(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
     """One file that needs no other."""
+    path.write_text(page_of(film), encoding="utf-8")
+    progress(film.frames, film.frames)
+
+
+def page_of(film: Film) -> str:
+    """The text of the page."""
     film = _light(film)
     text = json.dumps(_data(film), ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     page = files("revchain").joinpath("motion", "page.html").read_text(encoding="utf-8")
-    page = page.replace("@title@", html.escape(film.system)).replace("@data@", text.replace("<", "\\u003c"))
-    path.write_text(page, encoding="utf-8")
-    progress(film.frames, film.frames)
+    return page.replace("@title@", html.escape(film.system)).replace("@data@", text.replace("<", "\\u003c"))
 
 
 def _light(film: Film) -> Film:

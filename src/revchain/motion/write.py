@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import html
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -16,7 +17,7 @@ from ..systems.numbers import file_path, one_positive, shown
 from .film import Film
 from .frames import write_gif, write_mp4
 from .grid import write_grid, write_xdmf
-from .page import write_page
+from .page import page_of, write_page
 from .solid import write_glb
 from .staging import Asked, staged
 
@@ -65,8 +66,6 @@ def write_film(
     if ending not in writers:
         raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
     require_for(ending)
-    given = {"time_scale": time_scale, "duration": duration}
-    numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
     rate = one_positive(place, "frames_per_second", frames_per_second)
     if not RATES[0] <= rate <= RATES[1]:
         raise ValueError(f"{place}: frames_per_second must be from {RATES[0]:g} to {RATES[1]:g}, got {rate:g}")
@@ -74,7 +73,7 @@ def write_film(
         raise TypeError(f"{place}: progress must be a function of two numbers, got {shown(progress)}")
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
-    film = staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+    film = _film(result, place, figures, time_scale, duration, rate)
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
     if ending == ".glb" and turns > MOST_TURNS:
         raise ValueError(
@@ -86,6 +85,25 @@ def write_film(
         )
     with naming(path), written_aside(path) as [aside]:
         writers[ending](film, aside, progress or _silent)
+
+
+def show_film(
+    result: Any, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, height: int
+) -> Any:
+    """See `Moving.show`."""
+    place = f"revchain.{type(result).__name__}.show"
+    display = require("IPython.display", "notebook", "the interactive view")
+    tall = one_positive(place, "height", height)
+    page = html.escape(page_of(_film(result, place, figures, time_scale, duration, 25.0)))
+    return display.HTML(f'<div><iframe srcdoc="{page}" style="width: 100%; height: {tall:g}px; border: 0"></iframe></div>')
+
+
+def _film(
+    result: Any, place: str, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, rate: float
+) -> Film:
+    given = {"time_scale": time_scale, "duration": duration}
+    numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
+    return staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
 
 
 def _silent(done: int, total: int) -> None:

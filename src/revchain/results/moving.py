@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from typing import Any
 
 
 class Moving:
@@ -82,6 +83,49 @@ class Moving:
             frames_per_second=frames_per_second,
             progress=progress,
         )
+
+    def show(
+        self,
+        *,
+        figures: Iterable[int] | None = None,
+        time_scale: float | None = None,
+        duration: float | None = None,
+        height: int = 640,
+    ) -> Any:
+        """Show the motion in a notebook: the page that `animate` writes, in the output of the cell.
+
+        Parameters
+        ----------
+        figures : iterable of int, optional
+            As in `animate`.
+        time_scale : float, optional
+            As in `animate`.
+        duration : float, optional
+            As in `animate`.
+        height : int
+            Height of the view in pixels.
+
+        Returns
+        -------
+        IPython.display.HTML
+            The view. It needs no connection, and still works when the notebook is opened without Python.
+
+        Raises
+        ------
+        ValueError
+            As `animate`.
+        ImportError
+            If IPython is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain.uniform_rods(12, length=1.0), 3).show()
+        <IPython.core.display.HTML object>
+        """
+        from ..motion.write import show_film
+
+        return show_film(self, figures, time_scale, duration, height)
 
     def to_glb(
         self,
