@@ -90,10 +90,10 @@ def branch(
     Branch, CordBranch or HeldBranch
         The points of the branch, from the critical speed of the mode to the given speed. The first point is the
         straight chain. It is the only one if double precision cannot separate the end from it; ``end`` is then
-        ``stuck``. With the support off the axis the branch starts at a tenth of the first critical speed of the rig with
-        its support on the axis, or at a tenth of the given speed if that is lower. The branch of a held system ends where
-        a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13,
-        those of a cord to 1e-9.
+        ``stuck``. With the support off the axis the branch starts at a tenth of a speed: of the given speed, or of
+        the first critical speed of the rig with its support on the axis, whichever is lower. The branch of a held
+        system ends where a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
+        their heights to 1e-13, those of a cord to 1e-9.
 
     Raises
     ------
