@@ -471,7 +471,7 @@ def test_new(run):
 def test_what_the_new_scene_says_in_comments_is_right(run):
     """The other half, commented out, is a scene too."""
     run("new", "a.toml")
-    _, _, rest = Path("a.toml").read_text().partition("# ---- what else")[0].partition("# ---- ...")
+    _, _, rest = Path("a.toml").read_text().partition("# ---- other questions")[0].partition("# ---- ...")
     uncommented = [line.removeprefix("# ") for line in rest.splitlines()[2:] if not line.startswith("# ----")]
     Path("b.toml").write_text("\n".join(line for line in uncommented if line != "#").replace("first = 3", "first = 5"))
     read = rc.load_scene("b.toml")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import revchain as rc
@@ -139,6 +139,7 @@ scenes = st.dictionaries(
 
 @settings(max_examples=500)
 @given(scenes)
+@example({"ask": {"response": {"angular_speed": []}, "modes": 1}})  # an empty list in a scene of version 1
 def test_whatever_a_scene_says_there_is_an_answer_or_a_scene_error(data):
     try:
         made = Scene.from_dict(data)

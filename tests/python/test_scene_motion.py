@@ -260,7 +260,7 @@ def test_the_new_scene_with_everything_said(run, tmp_path):
     """Every commented line of the new scene is a line that can stand there."""
     assert run("new", tmp_path / "new.toml")[0] == 0
     text, mark, held = (tmp_path / "new.toml").read_text().partition("# ---- a chain held at both ends")
-    plain, ask_mark, ask = text.partition("# ---- what else can be asked")
+    plain, ask_mark, ask = text.partition("# ---- other questions")
     assert mark and ask_mark
 
     def uncommented(part):

@@ -390,7 +390,7 @@ def test_uncertainty_of_a_rig_in_all_its_forms():
         ({"stiffness": math.nan}, "stiffness must be finite and not negative, got nan"),
         ({"stiffness": [1.0, 2.0]}, r"stiffness must be a number, one for each of the 1"),
         ({"length": np.triu(np.ones((3, 3)))}, "covariance of length must be finite, symmetric"),
-        ({"spin": 1.0, "momentum": 1.0}, "give spin or momentum"),
+        ({"spin": 1.0, "momentum": 1.0}, "give either spin or momentum"),
         ({"weight": 1.0}, "given by mass: give mass, not weight"),
     ]:
         with pytest.raises(ValueError, match=f"^revchain.RigModes.uncertainty: .*{message}"):

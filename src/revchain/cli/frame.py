@@ -31,7 +31,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
-    help="Whirl speeds and shapes of hanging chains, with proved error bounds.",
+    help="Whirl speeds and shapes of hanging chains, with error bounds.",
     epilog=EXIT_CODES,
 )
 
@@ -112,7 +112,7 @@ def common(
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
     ] = False,
 ) -> None:
-    """Whirl speeds and shapes of hanging chains, with proved error bounds."""
+    """Whirl speeds and shapes of hanging chains, with error bounds."""
 
 
 def save_picture(axes: Any, title: str, path: Path) -> None:

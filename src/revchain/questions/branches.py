@@ -90,10 +90,10 @@ def branch(
     Branch, CordBranch or HeldBranch
         The points of the branch, from the critical speed of the mode to the given speed. The first point is the
         straight chain. It is the only one if double precision cannot separate the end from it; ``end`` is then
-        ``stuck``. With the support off the axis the branch starts at a tenth of the first critical speed of the rig with
-        its support on the axis, or at a tenth of the given speed if that is lower. The branch of a held system ends where
-        a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13,
-        those of a cord to 1e-9.
+        ``stuck``. With the support off the axis the branch starts at a tenth of a speed: of the given speed, or of
+        the first critical speed of the rig with its support on the axis, whichever is lower. The branch of a held
+        system ends where a link becomes slack or a cord folds. Accuracy: numbers to 1e-12; folds to 1e-6 of the arc,
+        their heights to 1e-13, those of a cord to 1e-9.
 
     Raises
     ------
@@ -105,10 +105,10 @@ def branch(
     Notes
     -----
     Method: pseudo-arclength continuation in all inclinations and the height. A step is halved unless Newton's method
-    contracts at once, the direction turns little, the middle of the step lies on the branch too, and, if no link has
-    ``pendulum_length > length``, the half waves are unchanged. This is a check, not a proof. For a cord the curve is that
-    on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill (1908), section
-    8 (4), (12).
+    contracts at once, the direction turns little, and the middle of the step lies on the branch too. If no link has
+    ``pendulum_length > length``, the half waves must not change either. This is a check, not a proof. For a cord the
+    curve is that on which crossing `mode` of the axis lies at the support. Cost: O(N) for each point. Source: Greenhill
+    (1908), section 8 (4), (12).
 
     Examples
     --------

@@ -84,9 +84,9 @@ def steady_shapes(
         mode, in any posture.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
-        critical height above the given height. This holds for a uniform cord with or without a tip, for a density
-        ``s**p`` without a tip, or with a tip and p below 0, and if at most one critical height lies above the given one.
-        Otherwise a shape that exists only between two scanned offsets is missed.
+        critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
+        ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above the
+        given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
         Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among those of equally many, the
         shape that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,

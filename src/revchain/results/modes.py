@@ -769,9 +769,9 @@ class CordModes(Modes):
 
         Notes
         -----
-        A whirling cord of weight `W` and length `L`, without a tip, with a power as its density and with its free end at
-        the offset `b`, has the kinetic energy ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in
-        newtons. Its potential energy is equal.
+        A whirling cord of weight `W` and length `L` whose free end has the offset `b` has the kinetic energy
+        ``W * L * (b * slope(L))**2 / 2`` to second order in `b`, in joules for `W` in newtons. Its potential energy is
+        equal. This holds without a tip and for a density that is a power.
 
         Examples
         --------

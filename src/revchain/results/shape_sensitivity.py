@@ -112,8 +112,8 @@ class ShapeSensitivity(Result):
 
     All other data are constant. At a fold of a branch the derivatives are infinite, because no shape exists beyond it. A
     `Rig` has more derivatives: with respect to stiffness and mass of the support, to momentum, spin and axial moment of
-    flywheels, and to displaced and added mass. For a chain held at both ends, `offset` and `tension` have a row for each of
-    the N + 1 pins, and each part is a `HeldShapeDerivatives`, with derivatives by the data of the ends.
+    flywheels, and to displaced and added mass. For a chain held at both ends each part is a `HeldShapeDerivatives`, with
+    derivatives by the data of the ends; `offset` and `tension` have a row for each of the N + 1 pins.
 
     Notes
     -----

@@ -70,7 +70,7 @@ def upgrade(data: Data) -> None:
         for name in ("angular_speed", "conical_height"):
             if isinstance(ends := response.get(name), list) and len(ends) == 1:
                 _put(response, name, lambda x: x[0], name)
-            elif isinstance(ends, list):
+            elif isinstance(ends, list) and ends:
                 _put(response, name, lambda x, n=200: {"from": x[0], "to": x[-1], "steps": n}, name, "steps")
         response.pop("steps", None)
     if isinstance(swing := ask.get("swing"), MutableMapping) and ("until" in swing or "steps" in swing):

@@ -336,8 +336,8 @@ class Rig(System):
         Motion of the fluid. Still fluid reduces the weight of a link by its buoyancy. Fluid that turns with the chain
         also reduces the mass that whirls.
     inverted : array_like of bool, shape (N,) or scalar
-        Links that stand on their upper pin (counted along the chain) instead of hanging from it, in the straight chain
-        about which small oscillations take place.
+        Links that stand on their upper pin (counted along the chain) instead of hanging from it. Small oscillations take
+        place about the straight chain with these links inverted.
 
     Raises
     ------
