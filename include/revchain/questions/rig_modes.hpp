@@ -75,8 +75,9 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pen
 inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
                            const ModesOptions<double>& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
-    const auto& [roots, there] = all_roots.senses()[forward ? 0 : 1];
-    const Index available = there.count;
+    const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
+    const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
+    const Index available = sense.available.count;
     const ModeRange range = chosen(options, all_roots, forward, available);
     make_room(modes, range, available);
     if (range.count == 0) return true;

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MPL-2.0
+// What the live page asks of the library. Numbers go in and out as arrays of doubles; web/engine.js has their order.
+// An exception reaches web/engine.js, which starts a new instance: the build catches none, which makes it a third smaller.
+// Masses serve as weights, as in the Python package: speeds depend on ratios alone, stiffness and momentum are divided
+// by gravity.
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "revchain/branches.hpp"
+#include "revchain/rig_modes.hpp"
+#include "revchain/stability.hpp"
+#include "revchain/steady_shapes.hpp"
+
+namespace {
+
+using revchain::Index;
+
+std::vector<double> numbers;
+std::optional<revchain::Rig> rig;
+std::vector<revchain::SteadyShape> shapes;
+double gravity = revchain::conical_pendulum::standard_gravity;
+int direction = 1;
+
+void put(double x) { numbers.push_back(x); }
+template <class List>
+void put_all(const List& list) {
+    for (Index i = 0; i < static_cast<Index>(list.size()); ++i) put(static_cast<double>(list[i]));
+}
+
+/// The number of numbers in the answer that `ask` gives.
+template <class Ask>
+int answered(const Ask& ask) {
+    numbers.clear();
+    ask();
+    return static_cast<int>(numbers.size());
+}
+
+/// f(chain) where nothing is rigged, which costs half as much, else f(rig).
+template <class F>
+auto for_system(const F& f) {
+    return rig->rigging() == revchain::Rigging{} ? f(rig->chain()) : f(*rig);
+}
+
+/// A part is so many equal links: count, mass, length, centroid, radius of gyration, whether they stand, momentum and
+/// axial moment of inertia of their flywheels.
+constexpr int part_size = 8;
+
+revchain::Rig rig_of(const std::vector<double>& given, int parts, revchain::Support support) {
+    std::vector<revchain::Link<double>> links;
+    revchain::Rigging rigging{.support = support};
+    bool stand = false, turn = false;
+    for (int p = 0; p < parts; ++p) {
+        const double* part = given.data() + p * part_size;
+        const auto count = static_cast<std::size_t>(part[0]);
+        const auto link = revchain::compound_pendulum<double>(
+            {.weight = part[1], .length = part[2], .centroid = part[3], .radius_of_gyration = part[4]});
+        links.insert(links.end(), count, link);
+        stand = stand || part[5] != 0, turn = turn || part[6] != 0 || part[7] != 0;
+        rigging.posture.insert(rigging.posture.end(), count,
+                               part[5] != 0 ? revchain::Posture::stands : revchain::Posture::hangs);
+        rigging.flywheels.insert(rigging.flywheels.end(), count, {part[6] / gravity, part[7]});
+    }
+    if (!stand) rigging.posture.clear();
+    if (!turn) rigging.flywheels.clear();
+    return {revchain::Chain<double>(links), std::move(rigging)};
+}
+
+void put_modes(const revchain::WhirlModes& modes, double sense) {
+    for (Index j = 0; j < modes.size(); ++j) {
+        put(sense * modes.angular_speed[j]), put(modes.speed_error_bound[j]);
+        put(modes.conical_height[j]), put(modes.error_bound[j]);
+        const auto& nodes = modes.nodes()[static_cast<std::size_t>(j)];
+        put(static_cast<double>(nodes.size())), put_all(nodes);
+        for (Index pin = 0; pin <= rig->size(); ++pin) put(modes.shapes()(j, pin));
+    }
+}
+
+void put_branch(const revchain::Branch& branch) {
+    put(static_cast<double>(branch.mode)), put(static_cast<double>(branch.birth));
+    put(static_cast<double>(branch.end)), put(static_cast<double>(branch.size()));
+    for (std::size_t i = 0; i < branch.size(); ++i) put(branch.angular_speed(i, gravity));
+    put_all(branch.tip_radius), put_all(branch.half_waves);
+}
+
+}  // namespace
+
+extern "C" {
+
+/// Room for `count` numbers that the next call reads.
+double* room(int count) {
+    numbers.assign(static_cast<std::size_t>(count), 0.0);
+    return numbers.data();
+}
+const double* answer() { return numbers.data(); }
+const char* what(const std::exception* thrown) { return thrown->what(); }
+
+/// The system that the next calls are about, from `parts` parts in the room. Answers its number of links.
+int set_rig(int parts, double stiffness, double carriage, double radius, double g) {
+    const std::vector<double> given = numbers;
+    return answered([&] {
+        gravity = g, direction = 1, shapes.clear();
+        rig = rig_of(given, parts, {stiffness / g, carriage, radius});
+        put(static_cast<double>(rig->size()));
+    });
+}
+
+/// Numbers of forward and backward modes available, of other solutions, fastest growth of these, whether that is
+/// proved to be all, modes that follow; each mode of the forward ones, then of the backward ones.
+int find_modes(int count) {
+    return answered([&] {
+        const auto size = static_cast<Index>(count);
+        const revchain::RigModes found = revchain::modes(*rig, {.count = size, .gravity = gravity});
+        double growth = 0;
+        for (const auto& other : found.other) growth = std::max(growth, other.growth_rate);
+        put(static_cast<double>(found.forward.available)), put(static_cast<double>(found.backward.available));
+        put(static_cast<double>(found.other_available)), put(growth), put(found.complete);
+        put(static_cast<double>(found.forward.size() + found.backward.size()));
+        put_modes(found.forward, 1), put_modes(found.backward, -1);
+    });
+}
+
+/// Whether the list is complete, the number of shapes; each shape. Forces are over gravity.
+int find_shapes(double speed, double budget) {
+    return answered([&] {
+        direction = speed < 0 ? -1 : 1;
+        const revchain::SteadyShapesOptions options{
+            .angular_speed = speed, .budget = static_cast<long>(budget), .gravity = gravity};
+        revchain::SteadyShapes found =
+            for_system([&](const auto& system) { return revchain::steady_shapes(system, options); });
+        shapes = std::move(found.shapes);
+        put(found.complete), put(static_cast<double>(shapes.size()));
+        for (const auto& shape : shapes) {
+            put(shape.half_waves), put(shape.error_bound), put(shape.tension[shape.tension.size() - 1]);
+            put_all(shape.inclination), put_all(shape.offset), put_all(shape.height);
+        }
+    });
+}
+
+/// Verdict and growth rate (over the speed) of shapes `first` ... `last` - 1 of those found last.
+int judge_shapes(int first, int last) {
+    return answered([&] {
+        for (int i = first; i < last; ++i) {
+            const auto& shape = shapes.at(static_cast<std::size_t>(i));
+            const revchain::Stability judged =
+                rig->rigging() == revchain::Rigging{}
+                    ? revchain::stability(rig->chain(), shape)
+                    : revchain::stability(*rig, shape, {.direction = direction, .gravity = gravity});
+            put(static_cast<double>(judged.verdict)), put(judged.growth_rate);
+        }
+    });
+}
+
+/// The branch that leaves the vertical at a mode (1: from rest, where the support is carried round), up to a speed.
+int find_branch(int mode, double speed) {
+    return answered([&] {
+        const revchain::BranchOptions options{.mode = mode, .max_angular_speed = speed, .gravity = gravity};
+        put_branch(for_system([&](const auto& system) { return revchain::branch(system, options); }));
+    });
+}
+
+/// Whether the diagram is complete, the number of branches; each branch.
+int find_branches(double speed, int lists, double proof_budget) {
+    return answered([&] {
+        const revchain::BranchesOptions options{.max_angular_speed = speed,
+                                                .lists = lists,
+                                                .proof_budget = static_cast<long>(proof_budget),
+                                                .gravity = gravity};
+        const revchain::Branches found =
+            for_system([&](const auto& system) { return revchain::branches(system, options); });
+        put(found.complete), put(static_cast<double>(found.branches.size()));
+        for (const auto& branch : found.branches) put_branch(branch);
+    });
+}
+}
