@@ -162,10 +162,11 @@ int find_branch(int mode, double speed) {
 }
 
 /// Whether the diagram is complete, the number of branches; each branch.
-int find_branches(double speed, int lists, double proof_budget) {
+int find_branches(double speed, int lists, double budget, double proof_budget) {
     return answered([&] {
         const revchain::BranchesOptions options{.max_angular_speed = speed,
                                                 .lists = lists,
+                                                .budget = static_cast<long>(budget),
                                                 .proof_budget = static_cast<long>(proof_budget),
                                                 .gravity = gravity};
         const revchain::Branches found =
