@@ -74,7 +74,7 @@ function drawSpace(canvas, links, radius, figure, angle, settle) {
     eye.scale = eye.scale === null || settle ? scale : eye.scale + 0.15 * (scale - eye.scale);
     const middle = (top + bottom) / 2 - 0.04 * span;
     eye.middle = settle || eye.middle === null ? middle : eye.middle + 0.15 * (middle - eye.middle);
-    const floor = bottom - 0.08 * span;
+    const floor = bottom - Math.max(0.08 * span, 0.12 * reach);
     const seen = (r, z, a) => {
         const x = r * Math.cos(a - eye.yaw), depth = r * Math.sin(a - eye.yaw);
         return [width / 2 + eye.scale * x, height / 2 - eye.scale * ((z - eye.middle) * cosine - depth * sine), depth];
@@ -102,10 +102,11 @@ function drawSpace(canvas, links, radius, figure, angle, settle) {
 /** A shape from the side, in a card. */
 function drawSide(canvas, figure, style) {
     const {pen, width, height} = paper(canvas);
-    const reach = Math.max(...figure.offset.map(Math.abs)), top = Math.max(...figure.height), bottom = Math.min(...figure.height);
-    const scale = Math.min((width - 12) / (2 * reach || 1), (height - 14) / (top - bottom || 1));
-    const at = (r, z) => [width / 2 + scale * r, 7 + scale * (top - z)];
-    line(pen, [at(0, top), [width / 2, height - 4]], colour.line);
+    const ends = (list) => [Math.min(0, ...list), Math.max(0, ...list)];
+    const [left, right] = ends(figure.offset), [bottom, top] = ends(figure.height);
+    const scale = Math.min((width - 14) / (right - left || 1), (height - 14) / (top - bottom || 1));
+    const at = (r, z) => [width / 2 + scale * (r - (left + right) / 2), 7 + scale * (top - z)];
+    line(pen, [at(0, top), [at(0, 0)[0], height - 4]], colour.line);
     pen.lineJoin = 'round';
     line(pen, Array.from(figure.offset, (r, i) => at(r, figure.height[i])), style, 2);
     dot(pen, at(figure.offset.at(-1), figure.height.at(-1)), 2.5, colour.ink);

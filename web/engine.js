@@ -37,12 +37,14 @@ function findModes(links, count) {
         forward: read.next(), backward: read.next(), other: read.next(), growth: read.next(),
         complete: Boolean(read.next()), modes: [],
     };
-    for (let left = read.next(); left > 0; --left) {
-        const mode = {speed: read.next(), speedBound: read.next(), height: read.next(), bound: read.next()};
+    for (let left = read.next(), number = 1; left > 0; --left, ++number) {
+        const mode = {number, speed: read.next(), speedBound: read.next(), height: read.next(), bound: read.next()};
         mode.nodes = read.list(read.next());
         mode.offset = read.list(links + 1);
+        if (mode.speed < 0 && (found.modes.at(-1)?.speed ?? 1) > 0) mode.number = number = 1;
         found.modes.push(mode);
     }
+    found.modes.sort((one, other) => Math.abs(one.speed) - Math.abs(other.speed));
     return found;
 }
 

@@ -3,6 +3,7 @@
 
 const $ = (id) => document.getElementById(id);
 const MOST_CARDS = 60;
+const VERDICT_WORDS = {minimum: 'stable', 'spectrally stable': 'stable if frictionless', unstable: 'unstable', undecided: 'stability open'};
 /** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
 const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudget: 2e5, proofBudget: 5e5};
 
@@ -82,8 +83,8 @@ function buildSliders() {
                           get: () => state.carriage, set: (x) => { state.carriage = x; changed(); }}).box);
     }
     const open = state.radius > 0 || state.stiffness !== null || $('sliders').querySelector('details')?.open;
-    $('sliders').replaceChildren(speedSlider.box,
-        element('details', {open}, element('summary', {textContent: 'Gravity and support'}), gravity.box, arm.box, ...held));
+    $('speed-slider').replaceChildren(speedSlider.box);
+    $('sliders').replaceChildren(element('details', {open}, element('summary', {textContent: 'Gravity and support'}), gravity.box, arm.box, ...held));
 }
 
 function partBox(part, index) {
@@ -115,7 +116,7 @@ function partBox(part, index) {
     }
     if (part[PART.momentum]) boxes.push(place(PART.momentum, 'Angular momentum of each wheel', 'kg m²/s', linear(-3 * Math.abs(part[PART.momentum]), () => 3 * Math.abs(part[PART.momentum])), -Infinity));
     if (part[PART.stands]) boxes.push(element('p', {textContent: 'These links stand on their upper pins.'}));
-    const name = state.parts.length === 1 ? 'All links' : index === 0 ? 'Lowest links' : `Above: part ${index + 1}`;
+    const name = state.parts.length === 1 ? 'All links' : index === 0 ? 'Lowest' : `Part ${index + 1}`;
     return element('fieldset', {}, element('legend', {}, name, kind, ...(state.parts.length > 1 ? [remove] : [])), ...boxes);
 }
 
@@ -150,11 +151,12 @@ function askDiagram() {
     later.ask({task: 'diagram', ...state, ...REQUEST, top, branches: Math.min(branches, 12)});
 }
 
-/** The speeds that the slider and the diagram run to: past the fourth mode. */
+/** The speeds that the slider and the diagram run to: past the fourth mode, but not so far that the first is lost. */
 function reachOfSpeeds() {
     const forward = modes.modes.filter((mode) => mode.speed > 0).map((mode) => mode.speed);
-    const last = forward[Math.min(forward.length, 4) - 1] ?? 3 * Math.sqrt(state.gravity / totalLength(state));
-    return Math.max(Number((1.5 * last).toPrecision(2)), 1.05 * (state.speed ?? 0));
+    const last = forward[Math.min(forward.length, 4) - 1] ?? 2 * Math.sqrt(state.gravity / totalLength(state));
+    const most = Math.min(1.5 * last, 8 * (forward[0] ?? last));
+    return Math.max(Number(most.toPrecision(2)), 1.05 * (state.speed ?? 0));
 }
 
 function heardModes(part, request) {
@@ -187,9 +189,11 @@ function heard({part, time, request}) {
 
 // What is selected ---------------------------------------------------------------------------------------------------
 
-/** The figure of a mode: small motions are drawn with a sixth of the length. */
+/** The figure of a mode: a small motion is drawn with a sixth of the length, or as far as no link leans by 35 degrees. */
 function figureOf(mode) {
-    const offset = mode.offset.map((y) => y * totalLength(state) / 6);
+    const lean = links.map((link, m) => Math.abs(mode.offset[m] - mode.offset[m + 1]) / link[PART.length]);
+    const size = Math.min(totalLength(state) / 6, 0.57 / Math.max(...lean));
+    const offset = mode.offset.map((y) => y * size);
     return {...mode, offset, height: heightsOf(links, offset), halfWaves: mode.nodes.length + 1, isMode: true};
 }
 
@@ -256,7 +260,7 @@ function showShapes() {
         'There may be others: the search ended at its limit, or the speed is that of a mode.'}${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`;
     showCards($('shape-list'), list.slice(0, MOST_CARDS), (shape) => [
         plural(shape.halfWaves, 'half wave'), `free end ${digits(Math.abs(shape.offset[0]))} m`, `error ≤ ${shortBound(shape.bound)} rad`,
-        shape.verdict ?? '',
+        VERDICT_WORDS[shape.verdict] ?? '',
     ], (shape) => shape === chosen, 's');
 }
 
@@ -266,9 +270,9 @@ function showModes() {
     const sides = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
     const growing = growth > 0 ? ` Straight it is unstable: a disturbance grows e-fold in ${digits(1 / growth, 3)} s.` : '';
     $('modes-said').textContent = `${sides}${other ? `, ${other} other solutions` : ''}.${growing} Bounds are relative${modes.complete ? ' and proved' : ''}.`;
-    showCards($('mode-list'), modes.modes.map(figureOf), (mode, i) => [
+    showCards($('mode-list'), modes.modes.map(figureOf), (mode) => [
         `${digits(Math.abs(mode.speed), 5)} rad/s`, `${digits(Math.abs(mode.speed) * 30 / Math.PI)} rpm${mode.speed < 0 ? ' backward' : ''}`,
-        `error ≤ ${shortBound(mode.speedBound)}`, `mode ${mode.speed < 0 ? i + 1 - Math.min(forward, 12) : i + 1}, ${plural(mode.nodes.length, 'node')}`,
+        `error ≤ ${shortBound(mode.speedBound)}`, `mode ${mode.number}, ${plural(mode.nodes.length, 'node')}`,
     ], (mode, i) => state.select === `m${i + 1}`, 'm');
 }
 
@@ -439,9 +443,9 @@ async function start() {
 }
 
 /** For tests: what is known once nothing is being computed. */
-async function settled() {
+window.settled = async () => {
     while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));
-    return {state, modes, shapes, diagram, problem, times, fast: engine.fast};
-}
+    return {state, modes, shapes, diagram, problem, top, times, fast: engine.fast};
+};
 
 start();

@@ -40,7 +40,9 @@ const partOfLinks = (state) => state.parts.flatMap((part) => Array(part[PART.cou
 
 function toLink(state) {
     const part = (row) => {
-        const kind = kindOf(row), given = kind === 'body' ? [...row] : [...row.slice(0, 3), kind, ...row.slice(5)];
+        const exact = (kind) => KINDS[kind].every((ratio, i) => ratio * row[PART.length] === row[3 + i]);
+        const kind = Object.keys(KINDS).find(exact);
+        const given = kind ? [...row.slice(0, 3), kind, ...row.slice(5)] : [...row];
         while (given.at(-1) === 0) given.pop();
         return given.join('_');
     };
