@@ -94,7 +94,7 @@ function drawSpace(canvas, links, radius, figure, angle, settle) {
     line(pen, pins, style, links.length > 60 ? 2.2 : 3.4);
     if (links.length <= 60) for (const pin of pins) dot(pen, pin, 2.2, style);
     const masses = massesOf(links, figure).map(([r, z, size]) => [seen(r, z, angle), size]);
-    const largest = Math.max(3, Math.min(11, 90 / Math.sqrt(links.length)));
+    const largest = Math.max(3, Math.min(11, width / 55, 90 / Math.sqrt(links.length)));
     for (const [place, size] of masses.sort((a, b) => b[0][2] - a[0][2])) dot(pen, place, Math.max(2.5, largest * size), style);
     dot(pen, support, 4, colour.ink);
 }

@@ -9,34 +9,21 @@
 #include <utility>
 #include <vector>
 
+#include "engine.hpp"
 #include "revchain/branches.hpp"
-#include "revchain/rig_modes.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace {
-
-using revchain::Index;
+namespace web {
 
 std::vector<double> numbers;
 std::optional<revchain::Rig> rig;
-std::vector<revchain::SteadyShape> shapes;
 double gravity = revchain::conical_pendulum::standard_gravity;
+
+namespace {
+
+std::vector<revchain::SteadyShape> shapes;
 int direction = 1;
-
-void put(double x) { numbers.push_back(x); }
-template <class List>
-void put_all(const List& list) {
-    for (Index i = 0; i < static_cast<Index>(list.size()); ++i) put(static_cast<double>(list[i]));
-}
-
-/// The number of numbers in the answer that `ask` gives.
-template <class Ask>
-int answered(const Ask& ask) {
-    numbers.clear();
-    ask();
-    return static_cast<int>(numbers.size());
-}
 
 /// f(chain) where nothing is rigged, which costs half as much, else f(rig).
 template <class F>
@@ -68,16 +55,6 @@ revchain::Rig rig_of(const std::vector<double>& given, int parts, revchain::Supp
     return {revchain::Chain<double>(links), std::move(rigging)};
 }
 
-void put_modes(const revchain::WhirlModes& modes, double sense) {
-    for (Index j = 0; j < modes.size(); ++j) {
-        put(sense * modes.angular_speed[j]), put(modes.speed_error_bound[j]);
-        put(modes.conical_height[j]), put(modes.error_bound[j]);
-        const auto& nodes = modes.nodes()[static_cast<std::size_t>(j)];
-        put(static_cast<double>(nodes.size())), put_all(nodes);
-        for (Index pin = 0; pin <= rig->size(); ++pin) put(modes.shapes()(j, pin));
-    }
-}
-
 void put_branch(const revchain::Branch& branch) {
     put(static_cast<double>(branch.mode)), put(static_cast<double>(branch.birth));
     put(static_cast<double>(branch.end)), put(static_cast<double>(branch.size()));
@@ -86,8 +63,11 @@ void put_branch(const revchain::Branch& branch) {
 }
 
 }  // namespace
+}  // namespace web
 
 extern "C" {
+
+using namespace web;
 
 /// Room for `count` numbers that the next call reads.
 double* room(int count) {
@@ -104,21 +84,6 @@ int set_rig(int parts, double stiffness, double carriage, double radius, double 
         gravity = g, direction = 1, shapes.clear();
         rig = rig_of(given, parts, {stiffness / g, carriage, radius});
         put(static_cast<double>(rig->size()));
-    });
-}
-
-/// Numbers of forward and backward modes available, of other solutions, fastest growth of these, whether that is
-/// proved to be all, modes that follow; each mode of the forward ones, then of the backward ones.
-int find_modes(int count) {
-    return answered([&] {
-        const auto size = static_cast<Index>(count);
-        const revchain::RigModes found = revchain::modes(*rig, {.count = size, .gravity = gravity});
-        double growth = 0;
-        for (const auto& other : found.other) growth = std::max(growth, other.growth_rate);
-        put(static_cast<double>(found.forward.available)), put(static_cast<double>(found.backward.available));
-        put(static_cast<double>(found.other_available)), put(growth), put(found.complete);
-        put(static_cast<double>(found.forward.size() + found.backward.size()));
-        put_modes(found.forward, 1), put_modes(found.backward, -1);
     });
 }
 

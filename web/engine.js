@@ -89,7 +89,7 @@ const tasks = {
         const share = Math.max(1, Math.floor(400 / links));
         for (let i = 0; links <= 50 && i < shapes.shapes.length && i < 200; i += share)
             judgeShapes(shapes, i, Math.min(i + share, shapes.shapes.length));
-        reply({shapes});
+        reply({shapes, judged: true});
     },
     /** The branches of the modes one by one, then the whole diagram with its proof. */
     diagram(request, reply) {

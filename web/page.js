@@ -175,7 +175,7 @@ function heardModes(part, request) {
 }
 
 function heard({part, time, request}) {
-    for (const name of Object.keys(part)) times[name] = time;
+    for (const name of Object.keys(part)) if (name !== 'shapes' || !part.judged) times[name] = time;
     if (part.modes) heardModes(part.modes, request);
     if ('shapes' in part) shapes = part.shapes;
     if (part.diagram) diagram = part.diagram;

@@ -57,7 +57,7 @@ function toLink(state) {
 /** The state in a link; null where there is none. Throws an Error that says what is wrong with it. */
 function fromLink(text) {
     const fields = Object.fromEntries(new URLSearchParams(text));
-    if (!fields.p) return fields.x ? presetState(fields.x) : null;
+    if (!fields.p && !fields.x) return null;
     const number = (given, what, least = -Infinity) => {
         const value = Number(given);
         if (given === '' || !Number.isFinite(value) || value < least)
@@ -74,6 +74,7 @@ function fromLink(text) {
         if (known) setKind(whole, kind);
         return whole;
     };
+    if (!fields.p) return {...presetState(fields.x), speed: optional('n', 'the speed', null), select: fields.s ?? null};
     const state = {
         name: fields.x ?? null, title: presets.find((each) => each.name === fields.x)?.title ?? 'Your chain',
         parts: fields.p.split('~').map(part), gravity: optional('g', 'gravity', STANDARD_GRAVITY),
