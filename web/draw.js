@@ -9,9 +9,16 @@ function readColours() {
 }
 const waveColour = (halfWaves) => colour[`w${(halfWaves - 1) % 6 + 1}`];
 
+/** Sizes of canvases, read once: reading one makes the browser lay out the page. Emptied when the window changes. */
+const sizes = new Map();
+function sizeOf(canvas) {
+    if (!sizes.has(canvas)) sizes.set(canvas, [canvas.clientWidth, canvas.clientHeight]);
+    return sizes.get(canvas);
+}
+
 /** A canvas cleared, at the resolution of the screen, with lengths in CSS pixels. */
 function paper(canvas) {
-    const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
+    const [width, height] = sizeOf(canvas), ratio = window.devicePixelRatio || 1;
     const wide = Math.round(width * ratio), high = Math.round(height * ratio);
     if (canvas.width !== wide || canvas.height !== high) [canvas.width, canvas.height] = [wide, high];
     const pen = canvas.getContext('2d');
@@ -63,8 +70,9 @@ function massesOf(links, {offset, height}) {
 
 const eye = {yaw: 0.5, pitch: 0.22, scale: null, middle: 0};
 
-/** The chain `figure` {offset, height, halfWaves} turned by `angle`, with its support, its circle and its shadow. */
-function drawSpace(canvas, links, radius, figure, angle, settle) {
+/** The chain `figure` {links, offset, height, halfWaves} turned by `angle`, with its support, its circle and its shadow. */
+function drawSpace(canvas, radius, figure, angle, settle) {
+    const {links} = figure;
     const {pen, width, height} = paper(canvas);
     const reach = Math.max(radius, ...figure.offset.map(Math.abs), 1e-3 * links.length * links[0][PART.length]);
     const top = Math.max(0, ...figure.height), bottom = Math.min(0, ...figure.height), span = top - bottom;
@@ -99,8 +107,11 @@ function drawSpace(canvas, links, radius, figure, angle, settle) {
     dot(pen, support, 4, colour.ink);
 }
 
+const CARD = [124, 92];  // CSS pixels, as in page.css
+
 /** A shape from the side, in a card. */
 function drawSide(canvas, figure, style) {
+    sizes.set(canvas, CARD);
     const {pen, width, height} = paper(canvas);
     const ends = (list) => [Math.min(0, ...list), Math.max(0, ...list)];
     const [left, right] = ends(figure.offset), [bottom, top] = ends(figure.height);

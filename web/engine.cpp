@@ -25,11 +25,7 @@ namespace {
 std::vector<revchain::SteadyShape> shapes;
 int direction = 1;
 
-/// f(chain) where nothing is rigged, which costs half as much, else f(rig).
-template <class F>
-auto for_system(const F& f) {
-    return rig->rigging() == revchain::Rigging{} ? f(rig->chain()) : f(*rig);
-}
+// A rig without rigging costs what its chain costs: one way for both keeps the page small.
 
 /// A part is so many equal links: count, mass, length, centroid, radius of gyration, whether they stand, momentum and
 /// axial moment of inertia of their flywheels.
@@ -93,8 +89,7 @@ int find_shapes(double speed, double budget) {
         direction = speed < 0 ? -1 : 1;
         const revchain::SteadyShapesOptions options{
             .angular_speed = speed, .budget = static_cast<long>(budget), .gravity = gravity};
-        revchain::SteadyShapes found =
-            for_system([&](const auto& system) { return revchain::steady_shapes(system, options); });
+        revchain::SteadyShapes found = revchain::steady_shapes(*rig, options);
         shapes = std::move(found.shapes);
         put(found.complete), put(static_cast<double>(shapes.size()));
         for (const auto& shape : shapes) {
@@ -110,9 +105,7 @@ int judge_shapes(int first, int last) {
         for (int i = first; i < last; ++i) {
             const auto& shape = shapes.at(static_cast<std::size_t>(i));
             const revchain::Stability judged =
-                rig->rigging() == revchain::Rigging{}
-                    ? revchain::stability(rig->chain(), shape)
-                    : revchain::stability(*rig, shape, {.direction = direction, .gravity = gravity});
+                revchain::stability(*rig, shape, {.direction = direction, .gravity = gravity});
             put(static_cast<double>(judged.verdict)), put(judged.growth_rate);
         }
     });
@@ -122,7 +115,7 @@ int judge_shapes(int first, int last) {
 int find_branch(int mode, double speed) {
     return answered([&] {
         const revchain::BranchOptions options{.mode = mode, .max_angular_speed = speed, .gravity = gravity};
-        put_branch(for_system([&](const auto& system) { return revchain::branch(system, options); }));
+        put_branch(revchain::branch(*rig, options));
     });
 }
 
@@ -134,8 +127,7 @@ int find_branches(double speed, int lists, double budget, double proof_budget) {
                                                 .budget = static_cast<long>(budget),
                                                 .proof_budget = static_cast<long>(proof_budget),
                                                 .gravity = gravity};
-        const revchain::Branches found =
-            for_system([&](const auto& system) { return revchain::branches(system, options); });
+        const revchain::Branches found = revchain::branches(*rig, options);
         put(found.complete), put(static_cast<double>(found.branches.size()));
         for (const auto& branch : found.branches) put_branch(branch);
     });

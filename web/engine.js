@@ -49,8 +49,8 @@ function findModes(links, count) {
 }
 
 function findShapes(links, speed, budget) {
-    const read = ask('find_shapes', speed, budget);
-    const found = {complete: Boolean(read.next()), shapes: []};
+    const from = performance.now(), read = ask('find_shapes', speed, budget);
+    const found = {complete: Boolean(read.next()), time: performance.now() - from, shapes: []};
     for (let left = read.next(); left > 0; --left)
         found.shapes.push({
             halfWaves: read.next(), bound: read.next(), tension: read.next(), verdict: null,
@@ -81,8 +81,7 @@ const tasks = {
     /** Modes, then all shapes at the speed, then what becomes of them when disturbed. */
     now(request, reply) {
         const links = setRig(request);
-        const modes = findModes(links, request.modes);
-        reply({modes});
+        if (request.modes) reply({modes: findModes(links, request.modes)});
         if (!request.speed || links > request.mostLinks) return reply({shapes: null});
         const shapes = findShapes(links, request.speed, request.budget);
         reply({shapes});

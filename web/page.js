@@ -9,6 +9,8 @@ const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudg
 
 let state, links, modes = null, shapes = null, diagram = null, problem = '';
 let chosen = null;  // the mode or the shape that turns: a figure with offset and height
+let modesStale = true;  // asked for again with the next request
+let modesShown = false;
 let angle = 0, playing = true, dirty = true, top = 10, now = null, later = null, engine = null;
 const times = {};
 
@@ -60,7 +62,7 @@ let speedSlider = null;
 function buildSliders() {
     speedSlider = slider({
         label: 'Speed', unit: 'rad/s', main: true, id: 'speed', least: 0, scale: linear(0, () => top),
-        get: () => state.speed ?? 0, set: (x) => { state.speed = x; if (x > top) top = 1.1 * x; changed({speed: true}); },
+        get: () => state.speed ?? 0, set: (x) => { state.speed = x; if (x > top) { top = 1.1 * x; askDiagram(); } changed({speed: true}); },
     });
     const gravity = slider({label: 'Gravity', unit: 'm/s²', id: 'gravity', least: 1e-6, scale: {to: (x) => 40 * x, from: (t) => Math.max(0.1, t / 40)},
                             get: () => state.gravity, set: (x) => { state.gravity = x; changed(); }});
@@ -132,12 +134,9 @@ function buildParts() {
 /** Something in the state has changed. */
 function changed({speed = false} = {}) {
     links = partOfLinks(state);
-    if (!speed) { state.title = presetTitle(); diagram = null; }
+    if (!speed) { state.title = presetTitle(); modesStale = true; }
     const count = links.length;
-    if (now) {
-        now.ask({task: 'now', ...state, ...REQUEST, modes: Math.min(count, 12)});
-        if (!speed) askDiagram();
-    }
+    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count, 12) : 0});
     dirty = true;
     saveLink();
 }
@@ -148,7 +147,7 @@ function askDiagram() {
     if (!modes || !later) return;
     const below = modes.modes.filter((mode) => mode.speed > 0 && mode.speed < top).length;
     const branches = state.radius > 0 ? 1 : below;
-    later.ask({task: 'diagram', ...state, ...REQUEST, top, branches: Math.min(branches, 12)});
+    later.ask({task: 'diagram', ...structuredClone(state), ...REQUEST, top, branches: Math.min(branches, 12)});
 }
 
 /** The speeds that the slider and the diagram run to: past the fourth mode, but not so far that the first is lost. */
@@ -160,24 +159,28 @@ function reachOfSpeeds() {
 }
 
 function heardModes(part, request) {
-    modes = part;
-    problem = '';
-    const before = top;
+    modes = {...part, links: partOfLinks(request)};
+    modesStale = modesShown = false;
     top = reachOfSpeeds();
     if (state.speed === null) {
         const first = modes.modes.find((mode) => mode.speed > 0);
         state.speed = Number((1.15 * (first?.speed ?? top / 4)).toPrecision(3));
-        now.ask({...request, speed: state.speed});
+        now.ask({...request, modes: 0, speed: state.speed});
         saveLink();
     }
-    if (top !== before || !diagram) askDiagram();
+    askDiagram();
     speedSlider.show();
 }
 
 function heard({part, time, request}) {
-    for (const name of Object.keys(part)) if (name !== 'shapes' || !part.judged) times[name] = time;
+    for (const name of Object.keys(part)) times[name] = time;
     if (part.modes) heardModes(part.modes, request);
-    if ('shapes' in part) shapes = part.shapes;
+    if ('shapes' in part) {
+        const links = partOfLinks(request);
+        shapes = part.shapes;
+        for (const shape of shapes?.shapes ?? []) shape.links = links;
+        problem = '';
+    }
     if (part.diagram) diagram = part.diagram;
     if (part.problem) {
         problem = part.problem;
@@ -191,15 +194,16 @@ function heard({part, time, request}) {
 
 /** The figure of a mode: a small motion is drawn with a sixth of the length, or as far as no link leans by 35 degrees. */
 function figureOf(mode) {
+    const {links} = modes, length = links.reduce((sum, link) => sum + link[PART.length], 0);
     const lean = links.map((link, m) => Math.abs(mode.offset[m] - mode.offset[m + 1]) / link[PART.length]);
-    const size = Math.min(totalLength(state) / 6, 0.57 / Math.max(...lean));
+    const size = Math.min(length / 6, 0.57 / Math.max(...lean));
     const offset = mode.offset.map((y) => y * size);
-    return {...mode, offset, height: heightsOf(links, offset), halfWaves: mode.nodes.length + 1, isMode: true};
+    return {...mode, links, offset, height: heightsOf(links, offset), halfWaves: mode.nodes.length + 1, isMode: true};
 }
 
 const straight = () => {
     const offset = new Float64Array(links.length + 1).fill(state.radius);
-    return {offset, height: heightsOf(links, offset), halfWaves: 1, isStraight: true};
+    return {links, offset, height: heightsOf(links, offset), halfWaves: 1, isStraight: true};
 };
 
 /** A shape of the new list that is nearest to the one selected before: with as many half waves, if there is one. */
@@ -229,23 +233,30 @@ function select(what) {
     chosen = null;
     choose();
     dirty = true;
+    modesShown = false;
     saveLink();
 }
 
 // Showing ------------------------------------------------------------------------------------------------------------
 
+/** Text that has not changed is left alone: the browser then lays out nothing. */
+function write(where, text) {
+    if (where.textContent !== text) where.textContent = text;
+}
+
 function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
-        const card = element('button', {type: 'button', className: 'card'}, element('canvas'), element('span'));
+        const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
+        const card = element('button', {type: 'button', className: 'card'}, element('canvas'), ...lines);
         const index = list.children.length + 1;
         card.onclick = () => select(`${key}${index}`);
         list.append(card);
     }
     figures.forEach((figure, i) => {
-        const card = list.children[i], [title, ...rest] = describe(figure, i);
+        const card = list.children[i];
         card.ariaPressed = String(isChosen(figure, i));
-        card.lastChild.replaceChildren(element('b', {textContent: title}), ...rest.map((textContent) => element('small', {textContent})));
+        describe(figure, i).forEach((text, line) => write(card.children[line + 1], text));
         drawSide(card.firstChild, figure, waveColour(figure.halfWaves));
     });
 }
@@ -253,11 +264,11 @@ function showCards(list, figures, describe, isChosen, key) {
 function showShapes() {
     const list = shapes?.shapes ?? [];
     const said = $('shapes-said');
-    if (problem) said.textContent = 'No shapes: see the message above.';
-    else if (!shapes) said.textContent = 'Computing …';
-    else if (!list.length && shapes.complete) said.textContent = 'At this speed the chain hangs straight: proved, it has no other shape.';
-    else said.textContent = `${plural(list.length, 'shape')} at ${digits(state.speed)} rad/s. ${shapes.complete ? 'Proved: there are no others.' :
-        'There may be others: the search ended at its limit, or the speed is that of a mode.'}${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`;
+    if (problem) write(said, 'No shapes: see the message above.');
+    else if (!shapes) write(said, 'Computing …');
+    else if (!list.length && shapes.complete) write(said, 'At this speed the chain hangs straight: proved, it has no other shape.');
+    else write(said, `${plural(list.length, 'shape')} at ${digits(state.speed)} rad/s. ${shapes.complete ? 'Proved: there are no others.' :
+        'There may be others: the search ended at its limit, or the speed is that of a mode.'}${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`);
     showCards($('shape-list'), list.slice(0, MOST_CARDS), (shape) => [
         plural(shape.halfWaves, 'half wave'), `free end ${digits(Math.abs(shape.offset[0]))} m`, `error ≤ ${shortBound(shape.bound)} rad`,
         VERDICT_WORDS[shape.verdict] ?? '',
@@ -285,9 +296,9 @@ function reachOfTip() {
 
 function showDiagram() {
     const said = $('branches-said');
-    if (!diagram) said.textContent = 'Computing …';
-    else said.textContent = `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${diagram.complete ?
-        'Proved: no other branch exists.' : 'Branches of the modes; whether there are others is not proved.'} ● stable ○ not.`;
+    if (!diagram) write(said, 'Computing …');
+    else write(said, `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${diagram.complete ?
+        'Proved: no other branch exists.' : 'Branches of the modes; whether there are others is not proved.'} ● stable ○ not.`);
     drawDiagram($('diagram'), {branches: diagram?.branches ?? [], shapes: shapes?.shapes ?? [], selected: chosen, speed: state.speed ?? 0, top, reach: reachOfTip()});
 }
 
@@ -308,10 +319,11 @@ function show() {
     $('problem').hidden = !problem;
     $('problem').textContent = problem;
     showShapes();
-    showModes();
+    if (!modesShown) showModes();
+    modesShown = true;
     showDiagram();
     showCaption();
-    $('timing').textContent = engine ? `Shapes took ${digits(times.shapes ?? 0, 2)} ms, branches ${digits(times.diagram ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.` : '';
+    $('timing').textContent = engine ? `Shapes took ${digits(shapes?.time ?? 0, 2)} ms, branches ${digits(times.diagram ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.` : '';
 }
 
 /** How many times slower than true the picture turns. */
@@ -330,9 +342,14 @@ function frame(time) {
         show();
         $('scale').textContent = `${digits(speed)} rad/s = ${digits(speed * 30 / Math.PI)} rpm${slow > 1 ? `, ${slow} times slower` : ''}`;
     }
-    drawSpace($('view'), links, state.radius, chosen ?? straight(), angle, settle);
+    drawSpace($('view'), state.radius, chosen ?? straight(), angle, settle);
     settle = false;
+    mark('picture');
+    if (modes && !dirty) mark('modes');
 }
+
+/** The first time of something, for measurements (tests/web/measure.py). */
+const mark = (name) => performance.getEntriesByName(name).length || performance.mark(name);
 
 // Start --------------------------------------------------------------------------------------------------------------
 
@@ -345,6 +362,7 @@ function saveLink() {
 function open(given) {
     state = given;
     modes = shapes = diagram = chosen = null;
+    modesStale = true;
     problem = '';
     links = partOfLinks(state);
     $('preset').value = state.name ?? '';
@@ -421,8 +439,8 @@ function listen() {
         if (step) setSpeed(Math.max(0, state.speed + step * top / 200));
     };
     window.onhashchange = openLink;
-    window.onresize = () => { dirty = true; };
-    matchMedia('(prefers-color-scheme: dark)').onchange = () => { readColours(); dirty = true; };
+    window.onresize = () => { sizes.clear(); dirty = true; modesShown = false; };
+    matchMedia('(prefers-color-scheme: dark)').onchange = () => { readColours(); dirty = true; modesShown = false; };
 }
 
 async function start() {
