@@ -23,11 +23,28 @@ ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 SCRIPTS = ("state.js", "client.js", "draw.js", "page.js")
 # Scenes that the page shows, in its order. It has no fluids, no held ends and no 10,000 links.
-PRESETS = (
-    "two_weights crane_hook_block bernoulli_chain watch_chain ball_on_chain plucked_chain rods_on_threads stick_on_string "
-    "swing_carousel chair_o_plane bell_and_clapper bell_on_soft_frame clamped_bell jointed_rod carriage_on_springs "
-    "broomstick acrobat bicycle_wheels two_gyrostats weight_ratio"
-).split()
+PRESETS = [
+    "two_weights",
+    "crane_hook_block",
+    "bernoulli_chain",
+    "watch_chain",
+    "ball_on_chain",
+    "plucked_chain",
+    "rods_on_threads",
+    "stick_on_string",
+    "swing_carousel",
+    "chair_o_plane",
+    "bell_and_clapper",
+    "bell_on_soft_frame",
+    "clamped_bell",
+    "jointed_rod",
+    "carriage_on_springs",
+    "broomstick",
+    "acrobat",
+    "bicycle_wheels",
+    "two_gyrostats",
+    "weight_ratio",
+]
 
 
 def preset(name: str) -> dict:

@@ -36,7 +36,10 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         contexts.append(made)
         page = made.new_page()
         page.on("pageerror", lambda error: wrong.append(f"error: {error}"))
-        page.on("request", lambda sent: sent.url.startswith(("file:", "data:", "blob:")) or wrong.append(f"request: {sent.url}"))
+        page.on(
+            "request",
+            lambda sent: sent.url.startswith(("file:", "data:", "blob:")) or wrong.append(f"request: {sent.url}"),
+        )
         page.goto(f"{PAGE.as_uri()}{query}#{link}")
         return page
 

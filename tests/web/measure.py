@@ -41,20 +41,28 @@ def frames(page: Page, link: str, ids: list[str]) -> str:
 
 def main() -> None:
     text = (OUT / "index.html").read_bytes()
-    print(f"size                          {len(text) / 1000:.0f} KB, {len(gzip.compress(text, 9)) / 1000:.0f} KB with gzip")
+    print(
+        f"size                          {len(text) / 1000:.0f} KB, {len(gzip.compress(text, 9)) / 1000:.0f} KB with gzip"
+    )
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox"])
         for attempt in range(3):
             page = browser.new_page()
             page.goto((OUT / "index.html").as_uri())
             page.evaluate("settled()")
-            picture, modes = page.evaluate("['picture', 'modes'].map((name) => performance.getEntriesByName(name)[0].startTime)")
-            print(f"load {attempt + 1}                        picture {picture:.0f} ms, modes {modes:.0f} ms after the start")
+            picture, modes = page.evaluate(
+                "['picture', 'modes'].map((name) => performance.getEntriesByName(name)[0].startTime)"
+            )
+            print(
+                f"load {attempt + 1}                        picture {picture:.0f} ms, modes {modes:.0f} ms after the start"
+            )
             page.close()
         page = browser.new_page()
         print(f"50 links, speed moves         {frames(page, 'p=50_0.1_0.02_point', ['speed'])}")
         page = browser.new_page()
-        print(f"50 links, speed and mass move {frames(page, 'p=50_0.1_0.02_point', ['speed', 'part0-mass', 'part0-length'])}")
+        print(
+            f"50 links, speed and mass move {frames(page, 'p=50_0.1_0.02_point', ['speed', 'part0-mass', 'part0-length'])}"
+        )
         for speed in (20, 40, 50):
             page = browser.new_page()
             page.goto(f"{(OUT / 'index.html').as_uri()}#p=8_1_0.125_point&n={speed}")

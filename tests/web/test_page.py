@@ -88,10 +88,14 @@ def test_every_branch_is_that_of_the_library(open_page):
 def test_a_link_holds_the_whole_state(open_page):
     page = open_page("x=chair_o_plane&n=1.5")
     before = settled(page)
-    page.evaluate("for (const id of ['arm', 'part0-mass']) { const s = document.getElementById(id); s.value = 300; s.oninput(); }")
+    page.evaluate(
+        "for (const id of ['arm', 'part0-mass']) { const s = document.getElementById(id); s.value = 300; s.oninput(); }"
+    )
     changed = settled(page)
     assert changed["state"]["radius"] != before["state"]["radius"]
-    page.wait_for_function("decodeURIComponent(location.hash).includes('r=' + document.querySelector('#arm').parentNode.querySelector('.number').value)")
+    page.wait_for_function(
+        "decodeURIComponent(location.hash).includes('r=' + document.querySelector('#arm').parentNode.querySelector('.number').value)"
+    )
     again = settled(open_page(page.url.split("#")[1]))
     assert again["state"] == changed["state"]
     assert again["shapes"]["shapes"] == changed["shapes"]["shapes"]
