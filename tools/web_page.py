@@ -12,6 +12,7 @@ examples/scenes, read by the package.
 import base64
 import gzip
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -75,6 +76,11 @@ def preset(name: str) -> dict:
     }
 
 
+def without_comments(text: str) -> str:
+    """Scripts and style as the page holds them: without the lines that are comments."""
+    return re.sub(r"^\s*(//.*|/\*((?!\*/).)*\*/)\n", "", text, flags=re.M)
+
+
 def packed(path: Path) -> str:
     return base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
 
@@ -82,12 +88,12 @@ def packed(path: Path) -> str:
 def main(engines: Path, out: Path) -> None:
     text = {path.name: path.read_text(encoding="utf-8") for path in WEB.iterdir() if path.suffix != ".cpp"}
     parts = {
-        "STYLE": text["page.css"],
+        "STYLE": without_comments(text["page.css"]),
         "PRESETS": json.dumps([preset(name) for name in PRESETS], separators=(",", ":")),
         "GLUE": (engines / "simd.js").read_text(encoding="utf-8"),
-        "WORKER": text["engine.js"],
+        "WORKER": without_comments(text["engine.js"]),
         "ENGINE": packed(engines / "simd.wasm"),
-        "SCRIPTS": "\n".join(text[name] for name in SCRIPTS),
+        "SCRIPTS": without_comments("\n".join(text[name] for name in SCRIPTS)),
     }
     page = text["page.html"]
     for name, value in parts.items():

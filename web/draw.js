@@ -166,6 +166,10 @@ function drawDiagram(canvas, {branches, shapes, selected, speed, top, reach}) {
     pen.fillText('free end from axis (m)', 0, 0);
     pen.restore();
     pen.lineJoin = 'round';
+    pen.save();
+    pen.beginPath();
+    pen.rect(x(0), y(reach), x(top) - x(0), y(0) - y(reach));
+    pen.clip();
     for (const branch of branches)
         for (let from = 0; from + 1 < branch.speed.length;) {
             let to = from + 1;
@@ -175,6 +179,7 @@ function drawDiagram(canvas, {branches, shapes, selected, speed, top, reach}) {
             line(pen, places, waveColour(branch.halfWaves[to]), 1.8);
             from = to;
         }
+    pen.restore();
     line(pen, [[x(speed), y(0)], [x(speed), y(reach)]], colour.accent, 1.2, [5, 4]);
     for (const shape of shapes) {
         const place = [x(speed), y(Math.abs(shape.offset[0]))];

@@ -5,14 +5,13 @@ const $ = (id) => document.getElementById(id);
 const MOST_CARDS = 60;
 const VERDICT_WORDS = {minimum: 'stable', 'spectrally stable': 'stable if frictionless', unstable: 'unstable', undecided: 'stability open'};
 /** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
-const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudget: 2e5, proofBudget: 5e5};
+const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudget: 1e6, proofBudget: 3e6};
 
 let state, links, modes = null, shapes = null, diagram = null, problem = '';
 let chosen = null;  // the mode or the shape that turns: a figure with offset and height
 let modesStale = true;  // asked for again with the next request
 let modesShown = false;
 let angle = 0, playing = true, dirty = true, top = 10, now = null, later = null, engine = null;
-const times = {};
 
 const digits = (x, n = 4) => Number.isFinite(x) ? String(Number(x.toPrecision(n))) : '–';
 const shortBound = (x) => Number.isFinite(x) ? x.toExponential(1) : 'not proved';
@@ -134,14 +133,20 @@ function buildParts() {
 /** Something in the state has changed. */
 function changed({speed = false} = {}) {
     links = partOfLinks(state);
-    if (!speed) { state.title = presetTitle(); modesStale = true; }
-    const count = links.length;
-    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count, 12) : 0});
+    if (!speed) {
+        state.name = null;
+        $('preset').value = '';
+        modesStale = true;
+    }
+    ask();
     dirty = true;
     saveLink();
 }
 
-const presetTitle = () => presets.find((each) => each.name === state.name)?.title ?? 'Your chain';
+function ask() {
+    const count = links.length;
+    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count, 12) : 0});
+}
 
 function askDiagram() {
     if (!modes || !later) return;
@@ -173,7 +178,6 @@ function heardModes(part, request) {
 }
 
 function heard({part, time, request}) {
-    for (const name of Object.keys(part)) times[name] = time;
     if (part.modes) heardModes(part.modes, request);
     if ('shapes' in part) {
         const links = partOfLinks(request);
@@ -181,7 +185,7 @@ function heard({part, time, request}) {
         for (const shape of shapes?.shapes ?? []) shape.links = links;
         problem = '';
     }
-    if (part.diagram) diagram = part.diagram;
+    if (part.diagram) diagram = {...part.diagram, time};
     if (part.problem) {
         problem = part.problem;
         if (request.task === 'now') shapes = null;
@@ -287,18 +291,19 @@ function showModes() {
     ], (mode, i) => state.select === `m${i + 1}`, 'm');
 }
 
-/** The farthest that any branch or shape takes the free end. */
+/** The farthest that a branch takes the free end, as far as chain and arm reach, or a shape of this speed. */
 function reachOfTip() {
-    const tips = [...(diagram?.branches ?? []).map((branch) => Math.max(0, ...branch.tip.map(Math.abs))),
-                  ...(shapes?.shapes ?? []).map((shape) => Math.abs(shape.offset[0]))];
-    return 1.05 * Math.max(...tips, 0.2 * totalLength(state));
+    const reach = totalLength(state) + state.radius;
+    const branches = (diagram?.branches ?? []).map((branch) => Math.max(0, ...branch.tip.map(Math.abs)));
+    const tips = (shapes?.shapes ?? []).map((shape) => Math.abs(shape.offset[0]));
+    return 1.05 * Math.max(Math.min(Math.max(0, ...branches), reach), ...tips, 0.2 * reach);
 }
 
 function showDiagram() {
     const said = $('branches-said');
     if (!diagram) write(said, 'Computing …');
     else write(said, `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${diagram.complete ?
-        'Proved: no other branch exists.' : 'Branches of the modes; whether there are others is not proved.'} ● stable ○ not.`);
+        'Proved: there are no others.' : 'Whether there are others is not proved.'} ●\u00a0stable, ○\u00a0not.`);
     drawDiagram($('diagram'), {branches: diagram?.branches ?? [], shapes: shapes?.shapes ?? [], selected: chosen, speed: state.speed ?? 0, top, reach: reachOfTip()});
 }
 
@@ -323,7 +328,7 @@ function show() {
     modesShown = true;
     showDiagram();
     showCaption();
-    $('timing').textContent = engine ? `Shapes took ${digits(shapes?.time ?? 0, 2)} ms, branches ${digits(times.diagram ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.` : '';
+    $('timing').textContent = engine ? `Shapes took ${digits(shapes?.time ?? 0, 2)} ms, branches ${digits(diagram?.time ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.` : '';
 }
 
 /** How many times slower than true the picture turns. */
@@ -369,7 +374,9 @@ function open(given) {
     settle = true;
     buildSliders();
     buildParts();
-    changed();
+    ask();
+    saveLink();
+    dirty = true;
 }
 
 function openLink() {
@@ -390,7 +397,8 @@ function dragged(canvas, move) {
 }
 
 function listen() {
-    $('preset').replaceChildren(...presets.map(({name, title}) => element('option', {value: name, textContent: title})));
+    $('preset').replaceChildren(element('option', {value: '', textContent: 'Your own chain', disabled: true}),
+        ...presets.map(({name, title}) => element('option', {value: name, textContent: title})));
     $('preset').onchange = () => open(presetState($('preset').value));
     $('add').onclick = () => { state.parts.unshift([1, ...state.parts[0].slice(1)]); buildParts(); changed(); };
     $('play').onclick = () => {
@@ -457,13 +465,13 @@ async function start() {
     }
     now = new Asker(engine, 400, heard);
     later = new Asker(engine, 100, heard);
-    changed();
+    ask();
 }
 
 /** For tests: what is known once nothing is being computed. */
 window.settled = async () => {
     while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));
-    return {state, modes, shapes, diagram, problem, top, times, fast: engine.fast};
+    return {state, modes, shapes, diagram, problem, top, fast: engine.fast};
 };
 
 start();

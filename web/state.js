@@ -11,7 +11,8 @@ const presets = JSON.parse(document.getElementById('presets').textContent);
 
 function presetState(name) {
     const preset = presets.find((each) => each.name === name) ?? presets[0];
-    return {...structuredClone(preset), speed: null, select: null};
+    const {title, ...state} = structuredClone(preset);
+    return {...state, speed: null, select: null};
 }
 
 /** 'point' or 'rod' if a part is that to rounding, else 'body'. */
@@ -76,7 +77,7 @@ function fromLink(text) {
     };
     if (!fields.p) return {...presetState(fields.x), speed: optional('n', 'the speed', null), select: fields.s ?? null};
     const state = {
-        name: fields.x ?? null, title: presets.find((each) => each.name === fields.x)?.title ?? 'Your chain',
+        name: presets.some((each) => each.name === fields.x) ? fields.x : null,
         parts: fields.p.split('~').map(part), gravity: optional('g', 'gravity', STANDARD_GRAVITY),
         radius: optional('r', 'the arm', 0), stiffness: optional('k', 'the stiffness', null),
         carriage: optional('c', 'the carriage', 0), speed: optional('n', 'the speed', null), select: fields.s ?? null,
