@@ -22,7 +22,7 @@ import revchain as rc
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
-SCRIPTS = ("state.js", "client.js", "draw.js", "page.js")
+SCRIPTS = ("state.js", "client.js", "draw.js", "controls.js", "page.js")
 # Scenes that the page shows, in its order. It has no fluids, no held ends and no 10,000 links.
 PRESETS = [
     "two_weights",

@@ -4,8 +4,9 @@
 const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
 /** A module with one SIMD instruction: it compiles where the browser has SIMD. */
-const SIMD = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15,
-                             253, 98, 11]);
+const SIMD = new Uint8Array([
+    0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
+]);
 
 async function fastEngine() {
     const packed = document.getElementById('engine').textContent;
@@ -19,7 +20,8 @@ function slowEngine() {
         window.plainEngine = async ({wasm, glue}) => done({compiled: await WebAssembly.compile(bytesOf(wasm)), glue});
         const script = document.createElement('script');
         script.src = 'plain.js';
-        script.onerror = () => failed(new Error('this browser has no WebAssembly SIMD, and plain.js is not beside this page'));
+        script.onerror = () =>
+            failed(new Error('this browser has no WebAssembly SIMD, and plain.js is not beside this page'));
         document.head.append(script);
     });
 }
@@ -78,5 +80,7 @@ class Asker {
         if (this.ready && !this.current && this.next) this.send();
     }
 
-    get busy() { return Boolean(this.current || this.next || !this.ready); }
+    get busy() {
+        return Boolean(this.current || this.next || !this.ready);
+    }
 }

@@ -2,7 +2,8 @@
 // Runs in a worker: asks the compiled library and reads its answers. client.js starts it.
 'use strict';
 
-let library = null, compiled = null;
+let library = null,
+    compiled = null;
 
 const started = async () => {
     library = await createEngine({
@@ -20,13 +21,14 @@ function ask(name, ...values) {
     let at = 0;
     return {
         next: () => numbers[at++],
-        list: (size) => numbers.subarray(at, at += size),
+        list: (size) => numbers.subarray(at, (at += size)),
     };
 }
 
 /** Parts: [count, mass, length, centroid, radius of gyration, stands, momentum, axial moment]. Returns the links. */
 function setRig({parts, stiffness, carriage, radius, gravity}) {
-    const flat = parts.flat(), room = library._room(flat.length) / 8;
+    const flat = parts.flat(),
+        room = library._room(flat.length) / 8;
     library.HEAPF64.set(flat, room);
     return ask('set_rig', parts.length, stiffness ?? Infinity, carriage, radius, gravity).next();
 }
@@ -34,8 +36,12 @@ function setRig({parts, stiffness, carriage, radius, gravity}) {
 function findModes(links, count) {
     const read = ask('find_modes', count);
     const found = {
-        forward: read.next(), backward: read.next(), other: read.next(), growth: read.next(),
-        complete: Boolean(read.next()), modes: [],
+        forward: read.next(),
+        backward: read.next(),
+        other: read.next(),
+        growth: read.next(),
+        complete: Boolean(read.next()),
+        modes: [],
     };
     for (let left = read.next(), number = 1; left > 0; --left, ++number) {
         const mode = {number, speed: read.next(), speedBound: read.next(), height: read.next(), bound: read.next()};
@@ -49,12 +55,18 @@ function findModes(links, count) {
 }
 
 function findShapes(links, speed, budget) {
-    const from = performance.now(), read = ask('find_shapes', speed, budget);
+    const from = performance.now(),
+        read = ask('find_shapes', speed, budget);
     const found = {complete: Boolean(read.next()), time: performance.now() - from, shapes: []};
     for (let left = read.next(); left > 0; --left)
         found.shapes.push({
-            halfWaves: read.next(), bound: read.next(), tension: read.next(), verdict: null,
-            inclination: read.list(links), offset: read.list(links + 1), height: read.list(links + 1),
+            halfWaves: read.next(),
+            bound: read.next(),
+            tension: read.next(),
+            verdict: null,
+            inclination: read.list(links),
+            offset: read.list(links + 1),
+            height: read.list(links + 1),
         });
     return found;
 }
@@ -70,7 +82,8 @@ function judgeShapes(found, first, last) {
 }
 
 function readBranch(read) {
-    const branch = {mode: read.next(), birth: read.next(), end: read.next()}, points = read.next();
+    const branch = {mode: read.next(), birth: read.next(), end: read.next()},
+        points = read.next();
     branch.speed = read.list(points);
     branch.tip = read.list(points);
     branch.halfWaves = read.list(points);
@@ -92,8 +105,10 @@ const tasks = {
     },
     /** The branches of the modes one by one, then the whole diagram with its proof. */
     diagram(request, reply) {
-        const links = setRig(request), branches = [];
-        for (let mode = 1; mode <= request.branches; ++mode) branches.push(readBranch(ask('find_branch', mode, request.top)));
+        const links = setRig(request),
+            branches = [];
+        for (let mode = 1; mode <= request.branches; ++mode)
+            branches.push(readBranch(ask('find_branch', mode, request.top)));
         reply({diagram: {branches, complete: false}});
         if (links > request.proofLinks) return;
         const read = ask('find_branches', request.top, request.lists, request.listBudget, request.proofBudget);
@@ -106,7 +121,9 @@ const tasks = {
 /** What an exception of the library says. The instance it left behind is of no more use. */
 function said(thrown) {
     const pointer = typeof thrown === 'number' ? thrown : parseInt(thrown, 10);
-    return Number.isNaN(pointer) ? String(thrown) : library.UTF8ToString(library._what(pointer)).replace('revchain::', '');
+    return Number.isNaN(pointer)
+        ? String(thrown)
+        : library.UTF8ToString(library._what(pointer)).replace('revchain::', '');
 }
 
 onmessage = async ({data}) => {

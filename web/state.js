@@ -48,11 +48,19 @@ function toLink(state) {
         return given.join('_');
     };
     const fields = {
-        x: state.name, p: state.parts.map(part).join('~'), n: state.speed,
+        x: state.name,
+        p: state.parts.map(part).join('~'),
+        n: state.speed,
         g: state.gravity === STANDARD_GRAVITY ? null : state.gravity,
-        r: state.radius || null, k: state.stiffness, c: state.carriage || null, s: state.select,
+        r: state.radius || null,
+        k: state.stiffness,
+        c: state.carriage || null,
+        s: state.select,
     };
-    return Object.entries(fields).filter(([, value]) => value !== null).map(([key, value]) => `${key}=${value}`).join('&');
+    return Object.entries(fields)
+        .filter(([, value]) => value !== null)
+        .map(([key, value]) => `${key}=${value}`)
+        .join('&');
 }
 
 /** The state in a link; null where there is none. Throws an Error that says what is wrong with it. */
@@ -65,9 +73,11 @@ function fromLink(text) {
             throw new Error(`The link gives ${what} as "${given}". Choose an example, or copy the link again.`);
         return value;
     };
-    const optional = (key, what, none) => key in fields ? number(fields[key], what) : none;
+    const optional = (key, what, none) => (key in fields ? number(fields[key], what) : none);
     const part = (row) => {
-        const given = row.split('_'), kind = given[3], known = kind in KINDS;
+        const given = row.split('_'),
+            kind = given[3],
+            known = kind in KINDS;
         const values = known ? [...given.slice(0, 3), 0, 0, ...given.slice(4)] : given;
         const numbers = values.map((value, i) => number(value, Object.keys(PART)[i] ?? 'a further number'));
         const whole = [...numbers, ...Array(8).fill(0)].slice(0, 8);
@@ -78,11 +88,17 @@ function fromLink(text) {
     if (!fields.p) return {...presetState(fields.x), speed: optional('n', 'the speed', null), select: fields.s ?? null};
     const state = {
         name: presets.some((each) => each.name === fields.x) ? fields.x : null,
-        parts: fields.p.split('~').map(part), gravity: optional('g', 'gravity', STANDARD_GRAVITY),
-        radius: optional('r', 'the arm', 0), stiffness: optional('k', 'the stiffness', null),
-        carriage: optional('c', 'the carriage', 0), speed: optional('n', 'the speed', null), select: fields.s ?? null,
+        parts: fields.p.split('~').map(part),
+        gravity: optional('g', 'gravity', STANDARD_GRAVITY),
+        radius: optional('r', 'the arm', 0),
+        stiffness: optional('k', 'the stiffness', null),
+        carriage: optional('c', 'the carriage', 0),
+        speed: optional('n', 'the speed', null),
+        select: fields.s ?? null,
     };
     if (linkCount(state) > MOST_LINKS)
-        throw new Error(`The link has ${linkCount(state)} links. The page shows at most ${MOST_LINKS}; use the Python package.`);
+        throw new Error(
+            `The link has ${linkCount(state)} links. The page shows at most ${MOST_LINKS}; use the Python package.`,
+        );
     return state;
 }
