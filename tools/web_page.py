@@ -15,6 +15,7 @@ import json
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -48,17 +49,18 @@ PRESETS = [
 ]
 
 
-def preset(name: str) -> dict:
+def preset(name: str) -> dict[str, Any]:
     """The scene as the state of the page: parts of equal links, lowest first."""
     scene = rc.load_scene(ROOT / f"examples/scenes/{name}.toml")
     system, gravity = scene.system(), scene.gravity_value()
+    assert isinstance(system, rc.Chain | rc.Rig), f"{name} is neither a chain nor a rig"
     rig = system if isinstance(system, rc.Rig) else rc.Rig(system)
     chain, support = rig.chain, rig.support
     momentum, axial = (0.0, 0.0) if rig.flywheels is None else rig._turning(gravity)
     heavy = chain.mass if chain.by_mass else chain.weight
     columns = (heavy, chain.length, chain.centroid, chain.radius_of_gyration, rig.inverted, momentum * gravity, axial)
     rows = list(zip(*(np.broadcast_to(column, chain.size).tolist() for column in columns), strict=True))
-    parts: list[list] = []
+    parts: list[list[float]] = []
     for row in rows:
         if parts and parts[-1][1:] == [float(x) for x in row]:
             parts[-1][0] += 1
@@ -78,7 +80,7 @@ def preset(name: str) -> dict:
 
 def without_comments(text: str) -> str:
     """Scripts and style as the page holds them: without the lines that are comments."""
-    return re.sub(r"^\s*(//.*|/\*((?!\*/).)*\*/)\n", "", text, flags=re.M)
+    return re.sub(r"^\s*(//.*|/\*((?!\*/).)*\*/)\n", "", text, flags=re.MULTILINE)
 
 
 def packed(path: Path) -> str:

@@ -38,6 +38,9 @@ function changed({speed = false} = {}) {
         state.name = null;
         $('preset').value = '';
         modesStale = true;
+    } else if (state.select?.startsWith('m')) {
+        state.select = null; // a mode has its own speed
+        modesShown = false;
     }
     ask();
     dirty = true;

@@ -130,4 +130,9 @@ def test_keys_and_touch(open_page):
     assert settled(page)["state"]["speed"] > before["speed"]
     page.locator("#mode-list .card").nth(1).tap()
     assert settled(page)["state"]["select"] == "m2"
+    page.focus("#diagram")
+    page.keyboard.press("ArrowLeft")  # a speed shows shapes again
+    found = settled(page)
+    assert found["state"]["select"] == "s1"
+    assert found["state"]["speed"] == pytest.approx(before["speed"], rel=1e-3)  # in four digits
     assert page.evaluate("document.documentElement.scrollWidth") <= 390  # nothing sticks out on a telephone
