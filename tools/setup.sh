@@ -19,6 +19,8 @@ needs_table='
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
    clang     clang                     llvm      clang               clangxx
+   emscripten emscripten               emscripten emscripten         emscripten
+   chromium  chromium                  chromium  chromium            chromium
 '
 
 # package_names COLUMN NEED...
@@ -60,6 +62,8 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     lapack) printf 'extern "C" void dsterf_(); int main() { dsterf_(); }' |
       ${CXX:-c++} -x c++ - -llapack -o /dev/null 2>/dev/null || [ -n "${OPENBLAS_HOME-}" ] ;;
     clang) command -v clang++ || command -v clang++-14 || command -v clang++-19 ;;
+    emscripten) command -v emcc ;;
+    chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }

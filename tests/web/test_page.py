@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers of the live page against the package, and what its sliders, links and keys do."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+ROOT = Path(__file__).resolve().parents[2]
+_spec = importlib.util.spec_from_file_location("web_page", ROOT / "tools" / "web_page.py")
+assert _spec and _spec.loader
+web_page = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(web_page)
+
+TOLERANCE = 1e-12  # relative, the target of the page
+ENGINES = ["", "?plain"] if (ROOT / "out/web/plain.js").is_file() else [""]
+
+
+def settled(page: Any) -> dict[str, Any]:
+    return page.evaluate(
+        "settled().then((found) => JSON.parse(JSON.stringify(found, (key, x) => ArrayBuffer.isView(x) ? Array.from(x) : x)))"
+    )
+
+
+def close(found: Any, expected: Any) -> None:
+    expected = np.asarray(expected)
+    scale = np.max(np.abs(expected), initial=0)
+    np.testing.assert_allclose(np.asarray(found), expected, rtol=TOLERANCE, atol=TOLERANCE * scale)
+
+
+def same_modes(found: dict[str, Any], system: Any, gravity: float) -> None:
+    count = min(system.size, 12)
+    expected = rc.modes(system, count, gravity=gravity)
+    assert len(found["modes"]) == len(expected.angular_speed)
+    for mode, speed, height, shape, nodes in zip(
+        found["modes"], expected.angular_speed, expected.conical_height, expected.shape, expected.nodes, strict=True
+    ):
+        close(mode["speed"], speed)
+        close(mode["height"], height)
+        close(mode["offset"], shape)
+        close(mode["nodes"], nodes)
+        assert mode["speedBound"] <= 1e-14
+
+
+def same_shapes(found: dict[str, Any], system: Any, speed: float, gravity: float) -> None:
+    expected = rc.steady_shapes(system, angular_speed=speed, gravity=gravity)
+    assert len(found["shapes"]) == len(expected)
+    assert found["complete"] == expected.complete
+    for mine, shape in zip(found["shapes"], expected, strict=True):
+        close(mine["inclination"], shape.inclination)
+        close(mine["offset"], shape.offset)
+        close(mine["height"], shape.height)
+        assert mine["halfWaves"] == shape.half_waves
+        if mine["verdict"] is not None:
+            judged = shape.stability()
+            assert mine["verdict"] == judged.verdict
+
+
+@pytest.mark.parametrize("query", ENGINES)
+@pytest.mark.parametrize("name", web_page.PRESETS)
+def test_numbers_of_a_preset_are_those_of_the_library(open_page, name, query):
+    found = settled(open_page(f"x={name}", query))
+    assert found["problem"] == ""
+    assert found["fast"] == (query == "")
+    scene = rc.load_scene(ROOT / f"examples/scenes/{name}.toml")
+    gravity = scene.gravity_value()
+    same_modes(found["modes"], scene.system(), gravity)
+    same_shapes(found["shapes"], scene.system(), found["state"]["speed"], gravity)
+
+
+def test_every_branch_is_that_of_the_library(open_page):
+    found = settled(open_page("p=4_0.1_0.25_point&n=14"))
+    expected = rc.branches(rc.Chain(mass=[0.1] * 4, length=0.25), max_angular_speed=found["top"])
+    assert found["diagram"]["complete"] and expected.complete
+    assert len(found["diagram"]["branches"]) == len(expected) > 4
+    for mine, branch in zip(found["diagram"]["branches"], expected, strict=True):
+        close(mine["speed"], branch.angular_speed)
+        close(mine["tip"], branch.tip_radius)
+        assert mine["halfWaves"] == np.asarray(branch.half_waves).tolist()
+
+
+def test_a_link_holds_the_whole_state(open_page):
+    page = open_page("x=chair_o_plane&n=1.5")
+    before = settled(page)
+    page.evaluate(
+        "for (const id of ['arm', 'part0-mass']) { const s = document.getElementById(id); s.value = 300; s.oninput(); }"
+    )
+    changed = settled(page)
+    assert changed["state"]["radius"] != before["state"]["radius"]
+    page.wait_for_function(
+        "decodeURIComponent(location.hash).includes('r=' + document.querySelector('#arm').parentNode.querySelector('.number').value)"
+    )
+    again = settled(open_page(page.url.split("#")[1]))
+    assert again["state"] == changed["state"]
+    assert again["shapes"]["shapes"] == changed["shapes"]["shapes"]
+
+
+def test_a_link_that_is_wrong_is_refused_in_words(open_page):
+    page = open_page("p=3_x_1_point")
+    assert settled(page)["modes"]["modes"]
+    page = open_page("p=3_1_-2_rod")
+    found = settled(page)
+    assert "must be finite and not negative, got -" in found["problem"]
+    page.wait_for_selector("#problem:not([hidden])")
+    page.select_option("#preset", "two_weights")  # and the page goes on
+    assert settled(page)["problem"] == ""
+
+
+def test_dragging_the_slider_follows_with_every_question(open_page):
+    page = open_page("p=8_0.1_0.125_point")
+    first = settled(page)
+    page.evaluate("speed.value = 900; speed.oninput()")
+    found = settled(page)
+    assert found["state"]["speed"] == pytest.approx(0.9 * found["top"])
+    assert len(found["shapes"]["shapes"]) > len(first["shapes"]["shapes"])
+    same_shapes(found["shapes"], rc.Chain(mass=[0.1] * 8, length=0.125), found["state"]["speed"], 9.80665)
+
+
+def test_keys_and_touch(open_page):
+    page = open_page("p=2_1_1_rod&n=6", has_touch=True, viewport={"width": 390, "height": 844})
+    before = settled(page)["state"]
+    page.focus("#diagram")
+    page.keyboard.press("ArrowRight")
+    assert settled(page)["state"]["speed"] > before["speed"]
+    page.locator("#mode-list .card").nth(1).tap()
+    assert settled(page)["state"]["select"] == "m2"
+    page.focus("#diagram")
+    page.keyboard.press("ArrowLeft")  # a speed shows shapes again
+    found = settled(page)
+    assert found["state"]["select"] == "s1"
+    assert found["state"]["speed"] == pytest.approx(before["speed"], rel=1e-3)  # in four digits
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390  # nothing sticks out on a telephone

@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: MPL-2.0
+// The page itself: sliders, cards, what is selected, and the picture that turns.
+
+const $ = (id) => document.getElementById(id);
+const MOST_CARDS = 60;
+const VERDICT_WORDS = {
+    minimum: 'stable',
+    'spectrally stable': 'stable if frictionless',
+    unstable: 'unstable',
+    undecided: 'stability open',
+};
+/** Where questions take too long for a slider: links of a chain whose shapes are listed and whose diagram is proved. */
+const REQUEST = {mostLinks: 200, budget: 4e5, proofLinks: 10, lists: 8, listBudget: 1e6, proofBudget: 3e6};
+
+let state,
+    links,
+    modes = null,
+    shapes = null,
+    diagram = null,
+    problem = '';
+let chosen = null; // the mode or the shape that turns: a figure with offset and height
+let modesStale = true; // asked for again with the next request
+let modesShown = false;
+let angle = 0,
+    playing = true,
+    dirty = true,
+    top = 10,
+    now = null,
+    later = null,
+    engine = null;
+
+// Asking -------------------------------------------------------------------------------------------------------------
+
+/** Something in the state has changed. */
+function changed({speed = false} = {}) {
+    links = partOfLinks(state);
+    if (!speed) {
+        state.name = null;
+        $('preset').value = '';
+        modesStale = true;
+    } else if (state.select?.startsWith('m')) {
+        state.select = null; // a mode has its own speed
+        modesShown = false;
+    }
+    ask();
+    dirty = true;
+    saveLink();
+}
+
+function ask() {
+    const count = links.length;
+    if (now) now.ask({task: 'now', ...structuredClone(state), ...REQUEST, modes: modesStale ? Math.min(count, 12) : 0});
+}
+
+function askDiagram() {
+    if (!modes || !later) return;
+    const below = modes.modes.filter((mode) => mode.speed > 0 && mode.speed < top).length;
+    const branches = state.radius > 0 ? 1 : below;
+    later.ask({task: 'diagram', ...structuredClone(state), ...REQUEST, top, branches: Math.min(branches, 12)});
+}
+
+/** The speeds that the slider and the diagram run to: past the fourth mode, but not so far that the first is lost. */
+function reachOfSpeeds() {
+    const forward = modes.modes.filter((mode) => mode.speed > 0).map((mode) => mode.speed);
+    const last = forward[Math.min(forward.length, 4) - 1] ?? 2 * Math.sqrt(state.gravity / totalLength(state));
+    const most = Math.min(1.5 * last, 8 * (forward[0] ?? last));
+    return Math.max(Number(most.toPrecision(2)), 1.05 * (state.speed ?? 0));
+}
+
+function heardModes(part, request) {
+    modes = {...part, links: partOfLinks(request)};
+    modesStale = modesShown = false;
+    top = reachOfSpeeds();
+    if (state.speed === null) {
+        const first = modes.modes.find((mode) => mode.speed > 0);
+        state.speed = Number((1.15 * (first?.speed ?? top / 4)).toPrecision(3));
+        now.ask({...request, modes: 0, speed: state.speed});
+        saveLink();
+    }
+    askDiagram();
+    speedSlider.show();
+}
+
+function heard({part, time, request}) {
+    if (part.modes) heardModes(part.modes, request);
+    if ('shapes' in part) {
+        const links = partOfLinks(request);
+        shapes = part.shapes;
+        for (const shape of shapes?.shapes ?? []) shape.links = links;
+        problem = '';
+    }
+    if (part.diagram) diagram = {...part.diagram, time};
+    if (part.problem) {
+        problem = part.problem;
+        if (request.task === 'now') shapes = null;
+    }
+    choose();
+    dirty = true;
+}
+
+// What is selected ---------------------------------------------------------------------------------------------------
+
+/** The figure of a mode: a small motion is drawn with a sixth of the length, or as far as no link leans by 35 degrees. */
+function figureOf(mode) {
+    const {links} = modes,
+        length = links.reduce((sum, link) => sum + link[PART.length], 0);
+    const lean = links.map((link, m) => Math.abs(mode.offset[m] - mode.offset[m + 1]) / link[PART.length]);
+    const size = Math.min(length / 6, 0.57 / Math.max(...lean));
+    const offset = mode.offset.map((y) => y * size);
+    return {...mode, links, offset, height: heightsOf(links, offset), halfWaves: mode.nodes.length + 1, isMode: true};
+}
+
+const straight = () => {
+    const offset = new Float64Array(links.length + 1).fill(state.radius);
+    return {links, offset, height: heightsOf(links, offset), halfWaves: 1, isStraight: true};
+};
+
+/** A shape of the new list that is nearest to the one selected before: with as many half waves, if there is one. */
+function nearest(list) {
+    const before = chosen && !chosen.isMode && !chosen.isStraight ? chosen : null;
+    const index = /^s(\d+)$/.exec(state.select ?? '');
+    if (!before) return list[Math.min(index ? Number(index[1]) - 1 : 0, list.length - 1)];
+    const alike = list.filter((shape) => shape.halfWaves === before.halfWaves);
+    const apart = (shape) => Math.abs(shape.offset[0] - before.offset[0]);
+    return (alike.length ? alike : list).reduce((best, shape) => (apart(shape) < apart(best) ? shape : best));
+}
+
+function choose() {
+    const mode = /^m(\d+)$/.exec(state.select ?? '');
+    if (mode && modes?.modes.length) {
+        chosen = figureOf(modes.modes[Math.min(Number(mode[1]), modes.modes.length) - 1]);
+    } else if (shapes?.shapes.length) {
+        chosen = nearest(shapes.shapes);
+        state.select = `s${shapes.shapes.indexOf(chosen) + 1}`;
+    } else {
+        chosen = straight();
+    }
+}
+
+function select(what) {
+    state.select = what;
+    chosen = null;
+    choose();
+    dirty = true;
+    modesShown = false;
+    saveLink();
+}
+
+// Showing ------------------------------------------------------------------------------------------------------------
+
+/** Text that has not changed is left alone: the browser then lays out nothing. */
+function write(where, text) {
+    if (where.textContent !== text) where.textContent = text;
+}
+
+function showCards(list, figures, describe, isChosen, key) {
+    while (list.children.length > figures.length) list.lastChild.remove();
+    while (list.children.length < figures.length) {
+        const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
+        const card = element('button', {type: 'button', className: 'card'}, element('canvas'), ...lines);
+        const index = list.children.length + 1;
+        card.onclick = () => select(`${key}${index}`);
+        list.append(card);
+    }
+    figures.forEach((figure, i) => {
+        const card = list.children[i];
+        card.ariaPressed = String(isChosen(figure, i));
+        describe(figure, i).forEach((text, line) => write(card.children[line + 1], text));
+        drawSide(card.firstChild, figure, waveColour(figure.halfWaves));
+    });
+}
+
+function showShapes() {
+    const list = shapes?.shapes ?? [];
+    const said = $('shapes-said');
+    if (problem) write(said, 'No shapes: see the message above.');
+    else if (!shapes) write(said, 'Computing …');
+    else if (!list.length && shapes.complete)
+        write(said, 'At this speed the chain hangs straight: proved, it has no other shape.');
+    else
+        write(
+            said,
+            `${plural(list.length, 'shape')} at ${digits(state.speed)} rad/s. ${
+                shapes.complete
+                    ? 'Proved: there are no others.'
+                    : 'There may be others: the search ended at its limit, or the speed is that of a mode.'
+            }${list.length > MOST_CARDS ? ` The first ${MOST_CARDS} are drawn.` : ''}`,
+        );
+    showCards(
+        $('shape-list'),
+        list.slice(0, MOST_CARDS),
+        (shape) => [
+            plural(shape.halfWaves, 'half wave'),
+            `free end ${digits(Math.abs(shape.offset[0]))} m`,
+            `error ≤ ${shortBound(shape.bound)} rad`,
+            VERDICT_WORDS[shape.verdict] ?? '',
+        ],
+        (shape) => shape === chosen,
+        's',
+    );
+}
+
+function showModes() {
+    if (!modes) return;
+    const {forward, backward, other, growth} = modes;
+    const sides = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
+    const growing =
+        growth > 0 ? ` Straight it is unstable: a disturbance grows e-fold in ${digits(1 / growth, 3)} s.` : '';
+    $('modes-said').textContent =
+        `${sides}${other ? `, ${other} other solutions` : ''}.${growing} Bounds are relative${modes.complete ? ' and proved' : ''}.`;
+    showCards(
+        $('mode-list'),
+        modes.modes.map(figureOf),
+        (mode) => [
+            `${digits(Math.abs(mode.speed), 5)} rad/s`,
+            `${digits((Math.abs(mode.speed) * 30) / Math.PI)} rpm${mode.speed < 0 ? ' backward' : ''}`,
+            `error ≤ ${shortBound(mode.speedBound)}`,
+            `mode ${mode.number}, ${plural(mode.nodes.length, 'node')}`,
+        ],
+        (mode, i) => state.select === `m${i + 1}`,
+        'm',
+    );
+}
+
+/** The farthest that a branch takes the free end, as far as chain and arm reach, or a shape of this speed. */
+function reachOfTip() {
+    const reach = totalLength(state) + state.radius;
+    const branches = (diagram?.branches ?? []).map((branch) => Math.max(0, ...branch.tip.map(Math.abs)));
+    const tips = (shapes?.shapes ?? []).map((shape) => Math.abs(shape.offset[0]));
+    return 1.05 * Math.max(Math.min(Math.max(0, ...branches), reach), ...tips, 0.2 * reach);
+}
+
+function showDiagram() {
+    const said = $('branches-said');
+    if (!diagram) write(said, 'Computing …');
+    else
+        write(
+            said,
+            `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${
+                diagram.complete ? 'Proved: there are no others.' : 'Whether there are others is not proved.'
+            } ●\u00a0stable, ○\u00a0not.`,
+        );
+    drawDiagram($('diagram'), {
+        branches: diagram?.branches ?? [],
+        shapes: shapes?.shapes ?? [],
+        selected: chosen,
+        speed: state.speed ?? 0,
+        top,
+        reach: reachOfTip(),
+    });
+}
+
+/** What is known of a shape's stability, as a sentence. */
+function stabilityOf({verdict, growth}) {
+    if (verdict === 'unstable')
+        return `Unstable: a disturbance grows e-fold in ${digits(1 / (growth * Math.abs(state.speed)), 3)} s.`;
+    if (verdict === 'minimum') return 'Stable, also with friction.';
+    if (verdict === 'spectrally stable') return 'Stable, but friction at the pins may destroy it.';
+    return verdict === 'undecided' ? 'Its stability is not decided.' : '';
+}
+
+const boundOf = (what, bound, unit) =>
+    Number.isFinite(bound) ? `${what} at most ${shortBound(bound)}${unit}: proved.` : `${what}: no bound is proved.`;
+
+function captionOf(figure) {
+    if (figure.isMode) {
+        const motion = `Small motion at ${digits(figure.speed, 8)} rad/s, drawn large.`;
+        return `${motion} ${boundOf('Relative error of the speed', figure.speedBound, '')}`;
+    }
+    if (figure.isStraight)
+        return shapes?.complete
+            ? 'The chain hangs straight at this speed.'
+            : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state))} m`;
+    const place = `Free end ${digits(figure.offset[0], 6)} m from the axis`;
+    const pull = `pull at the support ${digits(figure.tension * state.gravity)} N`;
+    return `${place}; ${pull}. ${boundOf('Error of every angle', figure.bound, ' rad')} ${stabilityOf(figure)}`;
+}
+
+function show() {
+    dirty = false;
+    $('problem').hidden = !problem;
+    $('problem').textContent = problem;
+    showShapes();
+    if (!modesShown) showModes();
+    modesShown = true;
+    showDiagram();
+    write($('caption'), captionOf(chosen ?? straight()));
+    $('timing').textContent = engine
+        ? `Shapes took ${digits(shapes?.time ?? 0, 2)} ms, branches ${digits(diagram?.time ?? 0, 2)} ms${engine.fast ? '' : ', without SIMD'}.`
+        : '';
+}
+
+/** How many times slower than true the picture turns. */
+function slowness(speed) {
+    const given = $('slowness').value;
+    return given === 'auto' ? Math.max(1, 2 ** Math.ceil(Math.log2(Math.abs(speed) / 4 || 1))) : Number(given);
+}
+
+let lastFrame = null,
+    settle = true;
+function frame(time) {
+    requestAnimationFrame(frame);
+    const speed = chosen?.isMode ? chosen.speed : (state.speed ?? 0),
+        slow = slowness(speed);
+    if (playing && lastFrame !== null)
+        angle = (angle + (speed / slow) * Math.min(0.1, (time - lastFrame) / 1000)) % (2 * Math.PI);
+    lastFrame = time;
+    if (dirty) {
+        show();
+        $('scale').textContent =
+            `${digits(speed)} rad/s = ${digits((speed * 30) / Math.PI)} rpm${slow > 1 ? `, ${slow} times slower` : ''}`;
+    }
+    drawSpace($('view'), state.radius, chosen ?? straight(), angle, settle);
+    settle = false;
+    mark('picture');
+    if (modes && !dirty) mark('modes');
+}
+
+/** The first time of something, for measurements (tests/web/measure.py). */
+const mark = (name) => performance.getEntriesByName(name).length || performance.mark(name);
+
+// Start --------------------------------------------------------------------------------------------------------------
+
+let saving = 0;
+function saveLink() {
+    clearTimeout(saving);
+    saving = setTimeout(() => history.replaceState(null, '', `#${toLink(state)}`), 250);
+}
+
+function open(given) {
+    state = given;
+    modes = shapes = diagram = chosen = null;
+    modesStale = true;
+    problem = '';
+    links = partOfLinks(state);
+    $('preset').value = state.name ?? '';
+    settle = true;
+    buildSliders();
+    buildParts();
+    ask();
+    saveLink();
+    dirty = true;
+}
+
+function openLink() {
+    try {
+        open(fromLink(location.hash.slice(1)) ?? presetState('swing_carousel'));
+    } catch (wrong) {
+        open(presetState('swing_carousel'));
+        problem = wrong.message;
+    }
+}
+
+function dragged(canvas, move) {
+    canvas.onpointerdown = (event) => {
+        canvas.setPointerCapture(event.pointerId);
+        move(event, true);
+    };
+    canvas.onpointermove = (event) => {
+        if (event.buttons) move(event, false);
+    };
+}
+
+function listen() {
+    $('preset').replaceChildren(
+        element('option', {value: '', textContent: 'Your own chain', disabled: true}),
+        ...presets.map(({name, title}) => element('option', {value: name, textContent: title})),
+    );
+    $('preset').onchange = () => open(presetState($('preset').value));
+    $('add').onclick = () => {
+        state.parts.unshift([1, ...state.parts[0].slice(1)]);
+        buildParts();
+        changed();
+    };
+    $('play').onclick = () => {
+        playing = !playing;
+        $('play').textContent = playing ? 'Pause' : 'Turn';
+        $('play').ariaPressed = String(playing);
+    };
+    $('slowness').onchange = () => {
+        dirty = true;
+    };
+    $('share').onclick = async () => {
+        history.replaceState(null, '', `#${toLink(state)}`);
+        try {
+            await navigator.clipboard.writeText(location.href);
+            $('share').textContent = 'Copied';
+        } catch {
+            $('share').textContent = 'Copy it from the address bar';
+        }
+        setTimeout(() => {
+            $('share').textContent = 'Copy link';
+        }, 2000);
+    };
+    let held = null;
+    dragged($('view'), (event, first) => {
+        if (!first && held) {
+            eye.yaw += (event.clientX - held[0]) / 150;
+            eye.pitch = Math.max(-1.5, Math.min(1.5, eye.pitch + (event.clientY - held[1]) / 200));
+        }
+        held = [event.clientX, event.clientY];
+    });
+    $('view').onkeydown = ({key}) => {
+        eye.yaw += {ArrowLeft: -0.1, ArrowRight: 0.1}[key] ?? 0;
+        eye.pitch = Math.max(-1.5, Math.min(1.5, eye.pitch + ({ArrowUp: 0.1, ArrowDown: -0.1}[key] ?? 0)));
+    };
+    const setSpeed = (speed) => {
+        state.speed = Number(speed.toPrecision(4));
+        speedSlider.show();
+        changed({speed: true});
+    };
+    dragged($('diagram'), (event, first) => {
+        const box = $('diagram').getBoundingClientRect(),
+            reach = reachOfTip(),
+            scale = diagramScale(box, top, reach);
+        const x = event.clientX - box.left,
+            y = event.clientY - box.top;
+        const near = (shapes?.shapes ?? []).findIndex(
+            (shape) => Math.hypot(x - scale.x(state.speed), y - scale.y(Math.abs(shape.offset[0]))) < 14,
+        );
+        if (first && near >= 0) select(`s${near + 1}`);
+        else setSpeed(scale.speed(x));
+    });
+    $('diagram').onkeydown = ({key}) => {
+        const step = {ArrowLeft: -1, ArrowRight: 1}[key];
+        if (step) setSpeed(Math.max(0, state.speed + (step * top) / 200));
+    };
+    window.onhashchange = openLink;
+    window.onresize = () => {
+        sizes.clear();
+        dirty = true;
+        modesShown = false;
+    };
+    matchMedia('(prefers-color-scheme: dark)').onchange = () => {
+        readColours();
+        dirty = true;
+        modesShown = false;
+    };
+}
+
+async function start() {
+    readColours();
+    listen();
+    openLink();
+    requestAnimationFrame(frame);
+    try {
+        engine = await loadEngine(new URLSearchParams(location.search).has('plain'));
+    } catch (wrong) {
+        problem = `The page cannot compute: ${wrong.message}.`;
+        dirty = true;
+        return;
+    }
+    now = new Asker(engine, 400, heard);
+    later = new Asker(engine, 100, heard);
+    ask();
+}
+
+/** For tests: what is known once nothing is being computed. */
+window.settled = async () => {
+    while (!now || now.busy || later.busy) await new Promise((done) => setTimeout(done, 5));
+    return {state, modes, shapes, diagram, problem, top, fast: engine.fast};
+};
+
+start();
