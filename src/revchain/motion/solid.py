@@ -33,6 +33,11 @@ Floats32 = NDArray[np.float32]
 
 
 def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
+    """One file that holds all it needs."""
+    path.write_bytes(glb_of(film, progress))
+
+
+def glb_of(film: Film, progress: Callable[[int, int], None]) -> bytes:
     """One scene, a node for each figure; in it a node that turns, and in that one for each link and body."""
     links = min(film.figures[0].offset.shape[1] - 1, MOST_LINKS)
     keys = max(FEWEST_KEYS, MOST_PLACES // (links * len(film.figures)))
@@ -40,7 +45,7 @@ def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> N
     for nth, (few, figure) in enumerate(zip(solid.film.figures, film.figures, strict=True)):
         solid.add(few, nth, figure.phase, film)
         progress(nth + 1, len(film.figures))
-    path.write_bytes(solid.finished())
+    return solid.finished()
 
 
 class _Solid:
@@ -53,7 +58,9 @@ class _Solid:
         self.tall = max(high - low, film.reach)
         self.across = side_by_side(film.widths())
         asset = gltf.Asset(version="2.0", generator="revchain")
-        self.file = gltf.GLTF2(asset=asset, scene=0, scenes=[gltf.Scene(name=film.system, nodes=[])])
+        extras = {"note": film.note, "clock": film.clock}
+        scene = gltf.Scene(name=film.system, nodes=[], extras=extras)
+        self.file = gltf.GLTF2(asset=asset, scene=0, scenes=[scene])
         self.blob = bytearray()
         self.materials: dict[str, int] = {}
         self.meshes: dict[tuple[str, str], int] = {}
@@ -142,6 +149,10 @@ class _Solid:
         film, thin = self.film, THIN * self.tall
         low, high = film.low_and_high
         extras = {"gravity": film.gravity, "time_scale": film.time_scale, "caption": figure.caption(0)}
+        if figure.is_rigid:
+            extras["angular_speed"] = float(figure.speed[0])
+        if len(figure.captions) > 1:
+            extras["captions"] = figure.captions
         root = self._node(
             figure.label.replace("\n", ", ") or "figure",
             None,

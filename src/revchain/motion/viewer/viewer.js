@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plays the solid of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
+import {
+  AnimationMixer, Box3, CircleGeometry, Color, DirectionalLight, HemisphereLight, Mesh, PerspectiveCamera, PolarGridHelper, Scene,
+  ShadowMaterial, Spherical, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+const $ = (id) => document.getElementById(id), stage = document.querySelector("main"), status = document.body.dataset;
+const night = matchMedia("(prefers-color-scheme: dark)");
+const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys that a dark page would hide
+const TILT = 0.24, FIELD = 22, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
+const LINE = 17, LEAST = 112;  // of captions, pixels
+const MOST_SHADOWS = 1500;  // bars and balls that throw one
+
+function stop(words) {
+  status.state = "failed";
+  status.error = words;
+  $("wrong").textContent = words;
+  $("wrong").hidden = false;
+  document.querySelector("footer").hidden = true;
+}
+
+function rendering() {
+  try {
+    return new WebGLRenderer({ antialias: true, alpha: true });
+  } catch {
+    return null;
+  }
+}
+
+function pace(scale) {
+  if (Math.abs(scale - 1) < 1e-9) return "in real time";
+  return `${Number((scale < 1 ? 1 / scale : scale).toPrecision(3))} times ${scale < 1 ? "slower" : "faster"} than in reality`;
+}
+
+function child(object, name) { return object.children.find((each) => each.userData.name === name); }
+
+function figureOf(root) {
+  const { caption, captions = [caption], angular_speed: speed } = root.userData, label = document.createElement("figcaption");
+  const turning = child(root, "turning"), first = turning.children.find((each) => each.isMesh);
+  label.style.setProperty("--of", first.material.name);
+  stage.append(label);
+  return { root, turning, speed, captions, label, axis: child(root, "axis"), radius: 0, low: Infinity, high: -Infinity };
+}
+
+function measure(figure) {  // how far it reaches at this instant, about its own axis
+  const box = new Box3(), middle = figure.root.position;
+  figure.root.updateMatrixWorld(true);
+  figure.root.traverse((part) => {
+    if (!part.isMesh) return;
+    box.copy(part.geometry.boundingBox).applyMatrix4(part.matrixWorld);
+    const wide = Math.max(Math.abs(box.min.x - middle.x), Math.abs(box.max.x - middle.x));
+    figure.radius = Math.max(figure.radius, Math.hypot(wide, Math.max(-box.min.z, box.max.z)));
+    figure.low = Math.min(figure.low, box.min.y);
+    figure.high = Math.max(figure.high, box.max.y);
+  });
+}
+
+function view(gltf, renderer) {
+  const { scene: solid, animations: [clip] } = gltf, scene = new Scene(), canvas = renderer.domElement;
+  const figures = solid.children.map(figureOf), { clock = [""], note = "" } = solid.userData;
+  const { gravity, time_scale: scale } = figures[0].root.userData, still = figures.every((each) => each.speed !== undefined);
+  const mixer = new AnimationMixer(solid), seconds = clip ? clip.duration : 1;
+  let time = 0, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, before = null, stale = true;
+  if (clip) mixer.clipAction(clip).play();
+
+  function pose() {  // what only turns does not jump where the film begins again
+    mixer.setTime(time % seconds);
+    for (const { turning, speed } of figures) if (speed) turning.rotation.y = speed * scale * time;
+  }
+  const moments = still ? 1 : 25;
+  for (let k = 0; k < moments; k++) {
+    mixer.setTime(seconds * k / moments);
+    figures.forEach(measure);
+  }
+  const radius = Math.max(...figures.map((each) => each.radius)), low = Math.min(...figures.map((each) => each.low));
+  const tall = Math.max(...figures.map((each) => each.high)) - low, gap = 0.04 * tall, span = Math.max(radius, 0.12 * tall);
+
+  // ---- what stands around them
+  scene.add(solid);
+  const sky = new HemisphereLight(0xffffff, 0x8d99a6, 2.1), sun = new DirectionalLight(0xffffff, 2.2);
+  scene.add(sky, sun, sun.target);
+  let meshes = 0;
+  solid.traverse((part) => { meshes += part.isMesh === true; });
+  renderer.shadowMap.enabled = meshes <= MOST_SHADOWS;
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(2048, 2048);
+  sun.shadow.radius = 3;
+  sun.shadow.normalBias = 0.002 * tall;
+  for (const { root, axis } of figures) root.traverse((part) => { part.castShadow = part.receiveShadow = part.isMesh && part !== axis; });
+  const floors = figures.map(({ root }) => {
+    const floor = new Mesh(new CircleGeometry(1.12 * span, 72).rotateX(-Math.PI / 2), new ShadowMaterial({ opacity: 0.22 }));
+    floor.receiveShadow = true;
+    floor.position.y = low - gap;
+    root.add(floor);
+    return floor;
+  });
+  function paint() {
+    const dark = night.matches;
+    solid.traverse(({ material }) => {
+      if (material?.name) material.color.set(dark && AT_NIGHT[material.name] || material.name);
+    });
+    for (const floor of floors) {
+      floor.clear();
+      const lines = new PolarGridHelper(1.12 * span, 12, 4, 72, dark ? 0x46525f : 0xb4bfca, dark ? 0x323d48 : 0xd0d8e0);
+      lines.position.y = -1e-3 * tall;
+      floor.add(lines);
+      floor.material.opacity = dark ? 0.5 : 0.22;
+    }
+    stale = true;
+  }
+
+  // ---- where they are seen from
+  const camera = new PerspectiveCamera(FIELD), controls = new OrbitControls(camera, canvas);
+  controls.addEventListener("change", () => { stale = true; });
+  function arrange() {  // in as many columns as show them largest
+    const [wide, high] = [stage.clientWidth, stage.clientHeight], lines = Math.max(...figures.map((each) => each.captions[0].split("\n").length));
+    const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT), words = LINE * lines + 14;
+    let best = { scale: 0 };
+    for (let columns = 1; columns <= figures.length; columns++) {
+      const rows = Math.ceil(figures.length / columns);
+      if (columns > 1 && wide / columns < LEAST) break;
+      const scale = 0.94 * Math.min(wide / (columns * across), Math.max(high / rows - words, 20) / up);
+      if (scale > best.scale * 1.05) best = { scale, columns, rows };
+    }
+    const { scale, columns, rows } = best, step = Math.min(Math.max(across, LEAST / scale), 0.98 * wide / columns / scale);
+    const down = Math.min(up + words / scale, high / rows / scale) / Math.cos(TILT);
+    figures.forEach(({ root }, n) => {
+      const row = Math.floor(n / columns), inside = Math.min(columns, figures.length - row * columns);
+      root.position.set((n % columns - (inside - 1) / 2) * step, ((rows - 1) / 2 - row) * down, 0);
+    });
+    const centre = new Vector3(0, low - gap + tall / 2 - words / scale / 2.2, 0), far = high / scale / 2 / Math.tan(FIELD * Math.PI / 360);
+    const whole = Math.hypot(columns * step, rows * down) / 2 + span;
+    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    renderer.setSize(wide, high);
+    Object.assign(camera, { aspect: wide / high, near: far / 100, far: far * 8 + 4 * whole });
+    camera.updateProjectionMatrix();
+    controls.target.copy(centre);
+    controls.minDistance = far / 20;
+    controls.maxDistance = far * 6;
+    camera.position.copy(centre).add(new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span));
+    sun.target.position.copy(centre);
+    sun.position.copy(centre).add(new Vector3(0.35, 1, 0.55).normalize().multiplyScalar(2 * whole));
+    Object.assign(sun.shadow.camera, { left: -whole, right: whole, top: whole, bottom: -whole, near: 0.2 * whole, far: 4 * whole });
+    sun.shadow.camera.updateProjectionMatrix();
+    controls.update();
+    stale = true;
+  }
+  function turn(about, tilt, nearer) {
+    const from = new Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+    from.set(from.radius * nearer, Math.min(Math.max(from.phi + tilt, 0.01), Math.PI - 0.01), from.theta + about);
+    camera.position.setFromSpherical(from).add(controls.target);
+    controls.update();
+  }
+
+  // ---- words
+  function row(list) { return list.length === 1 ? list[0] : list[Math.round(time % seconds / seconds * (list.length - 1))]; }
+  function caption() {
+    const pull = gravity ? `gravity ${Number(gravity.toPrecision(6))} m/s²` : "without gravity";
+    $("words").textContent = [pull, pace(scale * 10 ** $("pace").value), note, row(clock)].filter(Boolean).join("; ");
+    if (!still) $("at").value = time % seconds / seconds;
+    const taken = [], place = new Vector3();
+    const placed = figures.map((figure) => {
+      place.set(figure.root.position.x, figure.root.position.y + low - gap, 0);
+      const depth = place.distanceTo(camera.position), wide = 1.12 * span * Math.abs(Math.cos(camera.rotation.y));
+      const tip = place.clone().addScaledVector(new Vector3(camera.position.x - place.x, 0, camera.position.z - place.z).normalize(), 1.12 * span);
+      place.project(camera);
+      tip.project(camera);
+      return { figure, depth, wide, x: (place.x + 1) / 2 * stage.clientWidth, y: (1 - Math.min(tip.y, place.y)) / 2 * stage.clientHeight + 5, seen: place.z < 1 };
+    });
+    for (const { figure: { captions, label }, x, y, seen } of placed.sort((a, b) => a.depth - b.depth)) {
+      const [head, ...rest] = row(captions).split("\n"), name = document.createElement("b");
+      if (label.dataset.words !== row(captions)) {
+        name.textContent = head;
+        label.replaceChildren(name, rest.join("\n"));
+        label.dataset.words = row(captions);
+      }
+      const box = [x - label.offsetWidth / 2, y, x + label.offsetWidth / 2, y + label.offsetHeight];
+      const hidden = !seen || taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]);
+      label.style.visibility = hidden ? "hidden" : "visible";  // the nearest of those that would cover one another
+      if (!hidden) taken.push(box);
+      label.style.transform = `translate(${Math.round(box[0])}px, ${Math.round(y)}px)`;
+    }
+  }
+
+  function tick(now) {
+    if (before !== null && playing) time += Math.min(now - before, 100) / 1000 * 10 ** $("pace").value;
+    before = now;
+    if (playing || stale) {
+      stale = false;
+      pose();
+      renderer.render(scene, camera);
+      caption();
+    }
+    requestAnimationFrame(tick);
+  }
+  function play(on) { playing = on; $("play").textContent = on ? "Pause" : "Play"; }
+
+  $("play").onclick = () => play(!playing);
+  $("reset").onclick = arrange;
+  $("pace").oninput = () => { stale = true; };
+  $("at").oninput = () => { play(false); time = Math.min($("at").value, 0.999999) * seconds; stale = true; };
+  $("place").hidden = still;
+  canvas.tabIndex = 0;
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", document.title);
+  const KEYS = {
+    ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, -0.1, 1], ArrowDown: [0, 0.1, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
+  };
+  addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|BUTTON/.test(event.target.tagName)) return;
+    if (KEYS[event.key]) turn(...KEYS[event.key]);
+    else if (event.key === " ") play(!playing);
+    else if (event.key === "Home") arrange();
+    else return;
+    event.preventDefault();
+  });
+  night.onchange = paint;
+  new ResizeObserver(arrange).observe(stage);
+  stage.prepend(canvas);
+  paint();
+  arrange();
+  const start = new URLSearchParams(location.hash.slice(1)).get("t");  // page.html#t=1.5 stands still at 1.5 s
+  if (start !== null) { playing = false; time = Number(start); }
+  play(playing);
+  requestAnimationFrame(tick);
+  const parts = [];
+  solid.traverse((part) => { if (part.userData.name) parts.push(part); });
+  Object.assign(status, { state: "loaded", figures: figures.length, nodes: parts.length, channels: clip ? clip.tracks.length : 0 });
+}
+
+addEventListener("error", (event) => stop(event.message));
+addEventListener("securitypolicyviolation", (event) => stop(`This page may not load ${event.blockedURI}.`));
+const renderer = rendering();
+if (renderer === null) {
+  stop("This page needs WebGL, which this browser does not have or has switched off.");
+} else {
+  const bytes = Uint8Array.from(atob($("solid").textContent), (c) => c.charCodeAt(0));
+  new GLTFLoader().parse(bytes.buffer, "", (gltf) => view(gltf, renderer), (error) => stop(`The solid cannot be read: ${error.message}`));
+}
