@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays the solid of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
 import {
-  AnimationMixer, Box3, CircleGeometry, Color, DirectionalLight, HemisphereLight, Mesh, PerspectiveCamera, PolarGridHelper, Scene,
-  ShadowMaterial, Spherical, Vector3, WebGLRenderer,
+  AnimationMixer, Box3, DirectionalLight, Group, HemisphereLight, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, PolarGridHelper,
+  Scene, Spherical, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -10,9 +10,7 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 const $ = (id) => document.getElementById(id), stage = document.querySelector("main"), status = document.body.dataset;
 const night = matchMedia("(prefers-color-scheme: dark)");
 const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys that a dark page would hide
-const TILT = 0.24, FIELD = 22, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
-const LINE = 17, LEAST = 112;  // of captions, pixels
-const MOST_SHADOWS = 1500;  // bars and balls that throw one
+const TILT = 0.24, FIELD = 11, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
 
 function stop(words) {
   status.state = "failed";
@@ -45,6 +43,14 @@ function figureOf(root) {
   return { root, turning, speed, captions, label, axis: child(root, "axis"), radius: 0, low: Infinity, high: -Infinity };
 }
 
+function say(label, words) {
+  if (label.dataset.words === words) return;
+  const [head, ...rest] = words.split("\n"), name = document.createElement("b");
+  name.textContent = head;
+  label.replaceChildren(name, rest.join("\n"));
+  label.dataset.words = words;
+}
+
 function measure(figure) {  // how far it reaches at this instant, about its own axis
   const box = new Box3(), middle = figure.root.position;
   figure.root.updateMatrixWorld(true);
@@ -69,6 +75,12 @@ function view(gltf, renderer) {
   function pose() {  // what only turns does not jump where the film begins again
     mixer.setTime(time % seconds);
     for (const { turning, speed } of figures) if (speed) turning.rotation.y = speed * scale * time;
+    solid.updateMatrixWorld(true);
+    const away = new Matrix4();
+    for (const [part, shadow, { root }] of shadows) {
+      shadow.matrix.multiplyMatrices(down, away.copy(root.matrixWorld).invert().multiply(part.matrixWorld));
+      shadow.matrixWorldNeedsUpdate = true;
+    }
   }
   const moments = still ? 1 : 25;
   for (let k = 0; k < moments; k++) {
@@ -80,34 +92,33 @@ function view(gltf, renderer) {
 
   // ---- what stands around them
   scene.add(solid);
-  const sky = new HemisphereLight(0xffffff, 0x8d99a6, 2.1), sun = new DirectionalLight(0xffffff, 2.2);
-  scene.add(sky, sun, sun.target);
-  let meshes = 0;
-  solid.traverse((part) => { meshes += part.isMesh === true; });
-  renderer.shadowMap.enabled = meshes <= MOST_SHADOWS;
-  sun.castShadow = true;
-  sun.shadow.mapSize.set(2048, 2048);
-  sun.shadow.radius = 3;
-  sun.shadow.normalBias = 0.002 * tall;
-  for (const { root, axis } of figures) root.traverse((part) => { part.castShadow = part.receiveShadow = part.isMesh && part !== axis; });
-  const floors = figures.map(({ root }) => {
-    const floor = new Mesh(new CircleGeometry(1.12 * span, 72).rotateX(-Math.PI / 2), new ShadowMaterial({ opacity: 0.22 }));
-    floor.receiveShadow = true;
-    floor.position.y = low - gap;
-    root.add(floor);
-    return floor;
-  });
+  const sky = new HemisphereLight(0xffffff, 0x9aa6b2, 2.5), sun = new DirectionalLight(0xffffff, 2.6);
+  scene.add(sky, sun);
+  sun.position.set(0.35, 1, 0.7);
+  const shade = new MeshBasicMaterial(), down = new Matrix4().makeScale(1, 0, 1), shadows = [];
+  for (const figure of figures) {  // the plan, straight below
+    figure.floor = new Group();
+    figure.floor.position.y = low - gap;
+    figure.root.add(figure.floor);
+    figure.turning.traverse((part) => {
+      if (!part.isMesh) return;
+      const shadow = new Mesh(part.geometry, shade);
+      Object.assign(shadow, { matrixAutoUpdate: false, frustumCulled: false });
+      figure.floor.add(shadow);
+      shadows.push([part, shadow, figure]);
+    });
+  }
   function paint() {
     const dark = night.matches;
     solid.traverse(({ material }) => {
       if (material?.name) material.color.set(dark && AT_NIGHT[material.name] || material.name);
     });
-    for (const floor of floors) {
-      floor.clear();
-      const lines = new PolarGridHelper(1.12 * span, 12, 4, 72, dark ? 0x46525f : 0xb4bfca, dark ? 0x323d48 : 0xd0d8e0);
-      lines.position.y = -1e-3 * tall;
-      floor.add(lines);
-      floor.material.opacity = dark ? 0.5 : 0.22;
+    shade.color.set(dark ? 0x0b0f14 : 0xbcc6d0);
+    for (const figure of figures) {
+      figure.lines?.removeFromParent();
+      figure.lines = new PolarGridHelper(1.12 * span, 12, 4, 72, dark ? 0x4a5764 : 0xaebac6, dark ? 0x35414c : 0xcbd4dd);
+      figure.lines.position.y = low - gap - 1e-3 * tall;
+      figure.root.add(figure.lines);
     }
     stale = true;
   }
@@ -116,35 +127,32 @@ function view(gltf, renderer) {
   const camera = new PerspectiveCamera(FIELD), controls = new OrbitControls(camera, canvas);
   controls.addEventListener("change", () => { stale = true; });
   function arrange() {  // in as many columns as show them largest
-    const [wide, high] = [stage.clientWidth, stage.clientHeight], lines = Math.max(...figures.map((each) => each.captions[0].split("\n").length));
-    const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT), words = LINE * lines + 14;
+    for (const { label, captions } of figures) say(label, row(captions));
+    const [wide, high] = [stage.clientWidth, stage.clientHeight], most = (what) => Math.max(...figures.map(({ label }) => label[what]));
+    const least = most("offsetWidth") + 2, words = most("offsetHeight") + 14;
+    const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT);
     let best = { scale: 0 };
     for (let columns = 1; columns <= figures.length; columns++) {
       const rows = Math.ceil(figures.length / columns);
-      if (columns > 1 && wide / columns < LEAST) break;
+      if (columns > 1 && wide / columns < least) break;
       const scale = 0.94 * Math.min(wide / (columns * across), Math.max(high / rows - words, 20) / up);
       if (scale > best.scale * 1.05) best = { scale, columns, rows };
     }
-    const { scale, columns, rows } = best, step = Math.min(Math.max(across, LEAST / scale), 0.98 * wide / columns / scale);
-    const down = Math.min(up + words / scale, high / rows / scale) / Math.cos(TILT);
+    const { scale, columns, rows } = best, step = Math.min(Math.max(1.3 * across, least / scale), 0.98 * wide / columns / scale);
+    const fall = Math.min(up + words / scale, high / rows / scale) / Math.cos(TILT);
     figures.forEach(({ root }, n) => {
       const row = Math.floor(n / columns), inside = Math.min(columns, figures.length - row * columns);
-      root.position.set((n % columns - (inside - 1) / 2) * step, ((rows - 1) / 2 - row) * down, 0);
+      root.position.set((n % columns - (inside - 1) / 2) * step, ((rows - 1) / 2 - row) * fall, 0);
     });
     const centre = new Vector3(0, low - gap + tall / 2 - words / scale / 2.2, 0), far = high / scale / 2 / Math.tan(FIELD * Math.PI / 360);
-    const whole = Math.hypot(columns * step, rows * down) / 2 + span;
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(wide, high);
-    Object.assign(camera, { aspect: wide / high, near: far / 100, far: far * 8 + 4 * whole });
+    Object.assign(camera, { aspect: wide / high, near: far / 100, far: far * 12 });
     camera.updateProjectionMatrix();
     controls.target.copy(centre);
     controls.minDistance = far / 20;
     controls.maxDistance = far * 6;
     camera.position.copy(centre).add(new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span));
-    sun.target.position.copy(centre);
-    sun.position.copy(centre).add(new Vector3(0.35, 1, 0.55).normalize().multiplyScalar(2 * whole));
-    Object.assign(sun.shadow.camera, { left: -whole, right: whole, top: whole, bottom: -whole, near: 0.2 * whole, far: 4 * whole });
-    sun.shadow.camera.updateProjectionMatrix();
     controls.update();
     stale = true;
   }
@@ -164,19 +172,14 @@ function view(gltf, renderer) {
     const taken = [], place = new Vector3();
     const placed = figures.map((figure) => {
       place.set(figure.root.position.x, figure.root.position.y + low - gap, 0);
-      const depth = place.distanceTo(camera.position), wide = 1.12 * span * Math.abs(Math.cos(camera.rotation.y));
+      const depth = place.distanceTo(camera.position);
       const tip = place.clone().addScaledVector(new Vector3(camera.position.x - place.x, 0, camera.position.z - place.z).normalize(), 1.12 * span);
       place.project(camera);
       tip.project(camera);
-      return { figure, depth, wide, x: (place.x + 1) / 2 * stage.clientWidth, y: (1 - Math.min(tip.y, place.y)) / 2 * stage.clientHeight + 5, seen: place.z < 1 };
+      return { figure, depth, x: (place.x + 1) / 2 * stage.clientWidth, y: (1 - Math.min(tip.y, place.y)) / 2 * stage.clientHeight + 5, seen: place.z < 1 };
     });
     for (const { figure: { captions, label }, x, y, seen } of placed.sort((a, b) => a.depth - b.depth)) {
-      const [head, ...rest] = row(captions).split("\n"), name = document.createElement("b");
-      if (label.dataset.words !== row(captions)) {
-        name.textContent = head;
-        label.replaceChildren(name, rest.join("\n"));
-        label.dataset.words = row(captions);
-      }
+      say(label, row(captions));
       const box = [x - label.offsetWidth / 2, y, x + label.offsetWidth / 2, y + label.offsetHeight];
       const hidden = !seen || taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]);
       label.style.visibility = hidden ? "hidden" : "visible";  // the nearest of those that would cover one another
