@@ -104,7 +104,7 @@ COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/regist
 # something is drawn, by the class that is drawn; they compute nothing and import only what is said here.
 PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "exchange", "scenes", "studies", "cli")
 PICTURES = {"plots": {"systems", "results"}, "motion": {"systems", "results", "plots"}}
-SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
+SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh", ".js"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}
 
 problems: list[str] = []

@@ -222,7 +222,7 @@ class Moving:
 
         Notes
         -----
-        The viewer takes @SIZE@ KB, the solid four thirds of the size of its ``.glb`` file. Offsets are drawn as in
+        The viewer takes 605 KB, the solid four thirds of the size of its ``.glb`` file. Offsets are drawn as in
         `animate`.
 
         Examples

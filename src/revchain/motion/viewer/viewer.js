@@ -36,7 +36,7 @@ function pace(scale) {
 function child(object, name) { return object.children.find((each) => each.userData.name === name); }
 
 function figureOf(root) {
-  const { caption, captions = [caption], angular_speed: speed } = root.userData, label = document.createElement("figcaption");
+  const { caption = "", captions = [caption], angular_speed: speed } = root.userData, label = document.createElement("figcaption");
   const turning = child(root, "turning"), first = turning.children.find((each) => each.isMesh);
   label.style.setProperty("--of", first.material.name);
   stage.append(label);
@@ -69,16 +69,16 @@ function view(gltf, renderer) {
   const figures = solid.children.map(figureOf), { clock = [""], note = "" } = solid.userData;
   const { gravity, time_scale: scale } = figures[0].root.userData, still = figures.every((each) => each.speed !== undefined);
   const mixer = new AnimationMixer(solid), seconds = clip ? clip.duration : 1;
-  let time = 0, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, before = null, stale = true;
+  let time = 0, away = 0, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, before = null, stale = true;
   if (clip) mixer.clipAction(clip).play();
 
   function pose() {  // what only turns does not jump where the film begins again
     mixer.setTime(time % seconds);
     for (const { turning, speed } of figures) if (speed) turning.rotation.y = speed * scale * time;
     solid.updateMatrixWorld(true);
-    const away = new Matrix4();
+    const inverse = new Matrix4();
     for (const [part, shadow, { root }] of shadows) {
-      shadow.matrix.multiplyMatrices(down, away.copy(root.matrixWorld).invert().multiply(part.matrixWorld));
+      shadow.matrix.multiplyMatrices(down, inverse.copy(root.matrixWorld).invert().multiply(part.matrixWorld));
       shadow.matrixWorldNeedsUpdate = true;
     }
   }
@@ -126,7 +126,7 @@ function view(gltf, renderer) {
   // ---- where they are seen from
   const camera = new PerspectiveCamera(FIELD), controls = new OrbitControls(camera, canvas);
   controls.addEventListener("change", () => { stale = true; });
-  function arrange() {  // in as many columns as show them largest
+  function arrange(afresh) {  // in as many columns as show them largest; a view that was turned stays turned
     for (const { label, captions } of figures) say(label, row(captions));
     const [wide, high] = [stage.clientWidth, stage.clientHeight], most = (what) => Math.max(...figures.map(({ label }) => label[what]));
     const least = most("offsetWidth") + 2, words = most("offsetHeight") + 14;
@@ -149,10 +149,13 @@ function view(gltf, renderer) {
     renderer.setSize(wide, high);
     Object.assign(camera, { aspect: wide / high, near: far / 100, far: far * 12 });
     camera.updateProjectionMatrix();
-    controls.target.copy(centre);
     controls.minDistance = far / 20;
     controls.maxDistance = far * 6;
-    camera.position.copy(centre).add(new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span));
+    const from = afresh ? new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span)
+      : camera.position.clone().sub(controls.target).multiplyScalar(far / away);
+    away = far;
+    camera.position.copy(centre).add(from);
+    controls.target.copy(centre);
     controls.update();
     stale = true;
   }
@@ -195,6 +198,7 @@ function view(gltf, renderer) {
       stale = false;
       pose();
       renderer.render(scene, camera);
+      status.triangles ??= renderer.info.render.triangles;
       caption();
     }
     requestAnimationFrame(tick);
@@ -202,7 +206,7 @@ function view(gltf, renderer) {
   function play(on) { playing = on; $("play").textContent = on ? "Pause" : "Play"; }
 
   $("play").onclick = () => play(!playing);
-  $("reset").onclick = arrange;
+  $("reset").onclick = () => arrange(true);
   $("pace").oninput = () => { stale = true; };
   $("at").oninput = () => { play(false); time = Math.min($("at").value, 0.999999) * seconds; stale = true; };
   $("place").hidden = still;
@@ -210,21 +214,21 @@ function view(gltf, renderer) {
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", document.title);
   const KEYS = {
-    ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, -0.1, 1], ArrowDown: [0, 0.1, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
+    ArrowLeft: [0.1, 0, 1], ArrowRight: [-0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
   };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|BUTTON/.test(event.target.tagName)) return;
     if (KEYS[event.key]) turn(...KEYS[event.key]);
     else if (event.key === " ") play(!playing);
-    else if (event.key === "Home") arrange();
+    else if (event.key === "Home") arrange(true);
     else return;
     event.preventDefault();
   });
   night.onchange = paint;
-  new ResizeObserver(arrange).observe(stage);
+  new ResizeObserver(() => arrange(false)).observe(stage);
   stage.prepend(canvas);
   paint();
-  arrange();
+  arrange(true);
   const start = new URLSearchParams(location.hash.slice(1)).get("t");  // page.html#t=1.5 stands still at 1.5 s
   if (start !== null) { playing = false; time = Number(start); }
   play(playing);
