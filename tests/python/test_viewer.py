@@ -113,7 +113,8 @@ def test_a_browser_shows_all_of_it(kind, tmp_path):
         "figures": str(len(shown.figures)),
         "nodes": str(len(file.nodes)),
         "channels": str(len(file.animations[0].channels)),
-        "triangles": str(drawn),  # each part and its shadow: nothing is out of sight
+        "triangles": str(drawn),  # of each part and its shadow
+        "seen": str(sum(node.mesh is not None and node.name != "axis" for node in file.nodes)),
     }
     captions = re.findall(r'<figcaption[^>]*data-words="([^"]*)"', page)
     assert [html.unescape(words) for words in captions] == [figure.caption(31) for figure in shown.figures]

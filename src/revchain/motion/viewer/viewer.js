@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays the solid of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
 import {
-  AnimationMixer, Box3, DirectionalLight, Group, HemisphereLight, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, PolarGridHelper,
-  Scene, Spherical, Vector3, WebGLRenderer,
+  AnimationMixer, Box3, DirectionalLight, HemisphereLight, InstancedMesh, Matrix4, MeshBasicMaterial, PerspectiveCamera,
+  PolarGridHelper, Scene, Spherical, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -10,6 +10,7 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 const $ = (id) => document.getElementById(id), stage = document.querySelector("main"), status = document.body.dataset;
 const night = matchMedia("(prefers-color-scheme: dark)");
 const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys that a dark page would hide
+const DOWN = new Matrix4().makeScale(1, 0, 1);  // to the plan
 const TILT = 0.24, FIELD = 11, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
 
 function stop(words) {
@@ -76,10 +77,14 @@ function view(gltf, renderer) {
     mixer.setTime(time % seconds);
     for (const { turning, speed } of figures) if (speed) turning.rotation.y = speed * scale * time;
     solid.updateMatrixWorld(true);
-    const inverse = new Matrix4();
-    for (const [part, shadow, { root }] of shadows) {
-      shadow.matrix.multiplyMatrices(down, inverse.copy(root.matrixWorld).invert().multiply(part.matrixWorld));
-      shadow.matrixWorldNeedsUpdate = true;
+    const inverse = new Matrix4(), at = new Matrix4();
+    for (const { root, parts, bodies, shadows } of sets.values()) {
+      inverse.copy(root.matrixWorld).invert();
+      parts.forEach((part, k) => {
+        bodies.setMatrixAt(k, at.multiplyMatrices(inverse, part.matrixWorld));
+        shadows.setMatrixAt(k, at.premultiply(DOWN));
+      });
+      bodies.instanceMatrix.needsUpdate = shadows.instanceMatrix.needsUpdate = true;
     }
   }
   const moments = still ? 1 : 25;
@@ -95,18 +100,23 @@ function view(gltf, renderer) {
   const sky = new HemisphereLight(0xffffff, 0x9aa6b2, 2.5), sun = new DirectionalLight(0xffffff, 2.6);
   scene.add(sky, sun);
   sun.position.set(0.35, 1, 0.7);
-  const shade = new MeshBasicMaterial(), down = new Matrix4().makeScale(1, 0, 1), shadows = [];
-  for (const figure of figures) {  // the plan, straight below
-    figure.floor = new Group();
-    figure.floor.position.y = low - gap;
-    figure.root.add(figure.floor);
-    figure.turning.traverse((part) => {
+  const shade = new MeshBasicMaterial(), sets = new Map();  // parts of one figure, form and colour: the browser draws them at once
+  for (const { root, turning } of figures) {
+    turning.traverse((part) => {
       if (!part.isMesh) return;
-      const shadow = new Mesh(part.geometry, shade);
-      Object.assign(shadow, { matrixAutoUpdate: false, frustumCulled: false });
-      figure.floor.add(shadow);
-      shadows.push([part, shadow, figure]);
+      const key = [root.id, part.geometry.id, part.material.id].join();
+      if (!sets.has(key)) sets.set(key, { root, parts: [] });
+      sets.get(key).parts.push(part);
     });
+    turning.visible = false;
+  }
+  for (const set of sets.values()) {
+    const { root, parts } = set, [{ geometry, material }] = parts;
+    set.bodies = new InstancedMesh(geometry, material, parts.length);
+    set.shadows = new InstancedMesh(geometry, shade, parts.length);
+    set.bodies.frustumCulled = set.shadows.frustumCulled = false;
+    set.shadows.position.y = low - gap;
+    root.add(set.bodies, set.shadows);
   }
   function paint() {
     const dark = night.matches;
@@ -191,6 +201,13 @@ function view(gltf, renderer) {
     }
   }
 
+  function partsSeen() {
+    const place = new Vector3(), parts = [...sets.values()].flatMap((set) => set.parts);
+    return parts.filter((part) => {
+      place.setFromMatrixPosition(part.matrixWorld).project(camera);
+      return Math.abs(place.x) < 1 && Math.abs(place.y) < 1;
+    }).length;
+  }
   function tick(now) {
     if (before !== null && playing) time += Math.min(now - before, 100) / 1000 * 10 ** $("pace").value;
     before = now;
@@ -198,8 +215,9 @@ function view(gltf, renderer) {
       stale = false;
       pose();
       renderer.render(scene, camera);
-      status.triangles ??= renderer.info.render.triangles;
       caption();
+      status.triangles ??= renderer.info.render.triangles;
+      status.seen ??= partsSeen();
     }
     requestAnimationFrame(tick);
   }
