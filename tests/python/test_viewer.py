@@ -116,7 +116,7 @@ def test_a_browser_shows_all_of_it(kind, tmp_path):
         "triangles": str(drawn),  # of each part and its shadow
         "seen": str(sum(node.mesh is not None and node.name != "axis" for node in file.nodes)),
     }
-    captions = re.findall(r'<figcaption[^>]*data-words="([^"]*)"', page)
+    captions = re.findall(r'<div class="caption"[^>]*data-words="([^"]*)"', page)
     assert [html.unescape(words) for words in captions] == [figure.caption(31) for figure in shown.figures]
     [words] = re.findall(r'<p id="words">([^<]*)</p>', page)
     assert words == "; ".join(filter(None, [shown.words, shown.clock[31 if len(shown.clock) > 1 else 0]]))

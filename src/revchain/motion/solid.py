@@ -17,7 +17,7 @@ from .film import Complex, Figure, Film, pace, side_by_side
 MOST_LINKS = 400  # of a chain of more, every second pin or fewer
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
 SIDES = 20  # of a cylinder
-THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height of the whole
+THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height or the width of the whole
 BALL_OF_LINK = 0.28  # most, over the mean link
 DISC = 0.6  # radius of a flywheel, over the reach
 COLOURS = ("1f77b4", "ff7f0e", "2ca02c", "d62728", "9467bd", "8c564b", "e377c2", "7f7f7f", "bcbd22", "17becf")
@@ -56,7 +56,7 @@ class _Solid:
         self.gltf = gltf = require("pygltflib", "exchange", "a .glb file")
         self.film = film
         low, high = film.low_and_high
-        self.tall = max(high - low, film.reach)
+        self.tall = max(high - low, 2 * film.reach)
         self.across = side_by_side(film.widths())
         asset = gltf.Asset(version="2.0", generator="revchain")
         extras = {"note": film.note, "clock": film.clock}

@@ -37,8 +37,9 @@ function pace(scale) {
 function child(object, name) { return object.children.find((each) => each.userData.name === name); }
 
 function figureOf(root) {
-  const { caption = "", captions = [caption], angular_speed: speed } = root.userData, label = document.createElement("figcaption");
+  const { caption = "", captions = [caption], angular_speed: speed } = root.userData, label = document.createElement("div");
   const turning = child(root, "turning"), first = turning.children.find((each) => each.isMesh);
+  label.className = "caption";
   label.style.setProperty("--of", first.material.name);
   stage.append(label);
   return { root, turning, speed, captions, label, axis: child(root, "axis"), radius: 0, low: Infinity, high: -Infinity };
@@ -87,7 +88,7 @@ function view(gltf, renderer) {
       bodies.instanceMatrix.needsUpdate = shadows.instanceMatrix.needsUpdate = true;
     }
   }
-  const moments = still ? 1 : 25;
+  const moments = still ? 1 : 120;
   for (let k = 0; k < moments; k++) {
     mixer.setTime(seconds * k / moments);
     figures.forEach(measure);
@@ -137,8 +138,10 @@ function view(gltf, renderer) {
   const camera = new PerspectiveCamera(FIELD), controls = new OrbitControls(camera, canvas);
   controls.addEventListener("change", () => { stale = true; });
   function arrange(afresh) {  // in as many columns as show them largest; a view that was turned stays turned
+    const wide = stage.clientWidth, high = stage.clientHeight;
+    if (!wide || !high) return;  // in a frame that is folded up
     for (const { label, captions } of figures) say(label, row(captions));
-    const [wide, high] = [stage.clientWidth, stage.clientHeight], most = (what) => Math.max(...figures.map(({ label }) => label[what]));
+    const most = (what) => Math.max(...figures.map(({ label }) => label[what]));
     const least = most("offsetWidth") + 2, words = most("offsetHeight") + 14;
     const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT);
     let best = { scale: 0 };
@@ -154,14 +157,15 @@ function view(gltf, renderer) {
       const row = Math.floor(n / columns), inside = Math.min(columns, figures.length - row * columns);
       root.position.set((n % columns - (inside - 1) / 2) * step, ((rows - 1) / 2 - row) * fall, 0);
     });
-    const centre = new Vector3(0, low - gap + tall / 2 - words / scale / 2.2, 0), far = high / scale / 2 / Math.tan(FIELD * Math.PI / 360);
+    const centre = new Vector3(0, low - gap + tall / 2 - words / scale / 2.2, 0);
+    const far = high / scale / 2 / Math.tan(FIELD * Math.PI / 360);
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(wide, high);
     Object.assign(camera, { aspect: wide / high, near: far / 100, far: far * 12 });
     camera.updateProjectionMatrix();
     controls.minDistance = far / 20;
     controls.maxDistance = far * 6;
-    const from = afresh ? new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span)
+    const from = afresh || !away ? new Vector3(0, Math.sin(TILT), Math.cos(TILT)).multiplyScalar(far + 0.3 * span)
       : camera.position.clone().sub(controls.target).multiplyScalar(far / away);
     away = far;
     camera.position.copy(centre).add(from);
@@ -185,16 +189,17 @@ function view(gltf, renderer) {
     const taken = [], place = new Vector3();
     const placed = figures.map((figure) => {
       place.set(figure.root.position.x, figure.root.position.y + low - gap, 0);
-      const depth = place.distanceTo(camera.position);
-      const tip = place.clone().addScaledVector(new Vector3(camera.position.x - place.x, 0, camera.position.z - place.z).normalize(), 1.12 * span);
+      const depth = place.distanceTo(camera.position), front = camera.position.clone().sub(place).setY(0).setLength(1.12 * span);
+      const rim = place.clone().add(front).project(camera);
       place.project(camera);
-      tip.project(camera);
-      return { figure, depth, x: (place.x + 1) / 2 * stage.clientWidth, y: (1 - Math.min(tip.y, place.y)) / 2 * stage.clientHeight + 5, seen: place.z < 1 };
+      const [x, y] = [(1 + place.x) / 2 * stage.clientWidth, (1 - Math.min(rim.y, place.y)) / 2 * stage.clientHeight + 5];
+      return { figure, depth, x, y, seen: place.z < 1 };
     });
     for (const { figure: { captions, label }, x, y, seen } of placed.sort((a, b) => a.depth - b.depth)) {
       say(label, row(captions));
       const box = [x - label.offsetWidth / 2, y, x + label.offsetWidth / 2, y + label.offsetHeight];
-      const hidden = !seen || taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]);
+      const hidden = !seen || taken.some((other) =>
+        box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]);
       label.style.visibility = hidden ? "hidden" : "visible";  // the nearest of those that would cover one another
       if (!hidden) taken.push(box);
       label.style.transform = `translate(${Math.round(box[0])}px, ${Math.round(y)}px)`;
@@ -232,7 +237,8 @@ function view(gltf, renderer) {
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", document.title);
   const KEYS = {
-    ArrowLeft: [0.1, 0, 1], ArrowRight: [-0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1], "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
+    ArrowLeft: [0.1, 0, 1], ArrowRight: [-0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1],
+    "+": [0, 0, 0.9], "=": [0, 0, 0.9], "-": [0, 0, 1 / 0.9],
   };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|BUTTON/.test(event.target.tagName)) return;
@@ -253,7 +259,8 @@ function view(gltf, renderer) {
   requestAnimationFrame(tick);
   const parts = [];
   solid.traverse((part) => { if (part.userData.name) parts.push(part); });
-  Object.assign(status, { state: "loaded", figures: figures.length, nodes: parts.length, channels: clip ? clip.tracks.length : 0 });
+  const channels = clip ? clip.tracks.length : 0;
+  Object.assign(status, { state: "loaded", figures: figures.length, nodes: parts.length, channels });
 }
 
 addEventListener("error", (event) => stop(event.message));
@@ -263,5 +270,6 @@ if (renderer === null) {
   stop("This page needs WebGL, which this browser does not have or has switched off.");
 } else {
   const bytes = Uint8Array.from(atob($("solid").textContent), (c) => c.charCodeAt(0));
-  new GLTFLoader().parse(bytes.buffer, "", (gltf) => view(gltf, renderer), (error) => stop(`The solid cannot be read: ${error.message}`));
+  const refused = (error) => stop(`The solid cannot be read: ${error.message}`);
+  new GLTFLoader().parse(bytes.buffer, "", (gltf) => view(gltf, renderer), refused);
 }
