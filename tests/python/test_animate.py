@@ -453,7 +453,8 @@ def test_packages_that_are_missing(python, without):
     program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "IPython") + (
         "import revchain as rc\n"
         "m = rc.modes(rc.Chain.uniform_rods(12), 2)\n"
-        "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'), (m.to_vtk, 'a.vtu')):\n"
+        "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'),\n"
+        "                     (m.to_html, 'b.html'), (m.to_vtk, 'a.vtu')):\n"
         "    try: method(path)\n"
         "    except ImportError as error: print(error)\n"
         "try: m.show()\n"
@@ -466,6 +467,7 @@ def test_packages_that_are_missing(python, without):
         'a .gif film needs matplotlib: pip install "revchain[animate]"',
         'a .mp4 film needs matplotlib: pip install "revchain[animate]"',
         'a .glb file needs pygltflib: pip install "revchain[exchange]"',
+        'a page with a solid needs pygltflib: pip install "revchain[exchange]"',
         'a .vtu file needs meshio: pip install "revchain[exchange]"',
         'the interactive view needs IPython: pip install "revchain[notebook]"',
     ]

@@ -17,7 +17,8 @@ from .film import Complex, Figure, Film, pace, side_by_side
 MOST_LINKS = 400  # of a chain of more, every second pin or fewer
 FEWEST_KEYS, MOST_PLACES = 120, 60_000  # of links in time, about 30 bytes each
 SIDES = 20  # of a cylinder
-THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height of the whole
+THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height or the width of the whole
+BALL_OF_LINK = 0.28  # most, over the mean link
 DISC = 0.6  # radius of a flywheel, over the reach
 COLOURS = ("1f77b4", "ff7f0e", "2ca02c", "d62728", "9467bd", "8c564b", "e377c2", "7f7f7f", "bcbd22", "17becf")
 GREYS = {
@@ -33,6 +34,11 @@ Floats32 = NDArray[np.float32]
 
 
 def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
+    """One file that holds all it needs."""
+    path.write_bytes(glb_of(film, progress))
+
+
+def glb_of(film: Film, progress: Callable[[int, int], None]) -> bytes:
     """One scene, a node for each figure; in it a node that turns, and in that one for each link and body."""
     links = min(film.figures[0].offset.shape[1] - 1, MOST_LINKS)
     keys = max(FEWEST_KEYS, MOST_PLACES // (links * len(film.figures)))
@@ -40,7 +46,7 @@ def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> N
     for nth, (few, figure) in enumerate(zip(solid.film.figures, film.figures, strict=True)):
         solid.add(few, nth, figure.phase, film)
         progress(nth + 1, len(film.figures))
-    path.write_bytes(solid.finished())
+    return solid.finished()
 
 
 class _Solid:
@@ -50,10 +56,12 @@ class _Solid:
         self.gltf = gltf = require("pygltflib", "exchange", "a .glb file")
         self.film = film
         low, high = film.low_and_high
-        self.tall = max(high - low, film.reach)
+        self.tall = max(high - low, 2 * film.reach)
         self.across = side_by_side(film.widths())
         asset = gltf.Asset(version="2.0", generator="revchain")
-        self.file = gltf.GLTF2(asset=asset, scene=0, scenes=[gltf.Scene(name=film.system, nodes=[])])
+        extras = {"note": film.note, "clock": film.clock}
+        scene = gltf.Scene(name=film.system, nodes=[], extras=extras)
+        self.file = gltf.GLTF2(asset=asset, scene=0, scenes=[scene])
         self.blob = bytearray()
         self.materials: dict[str, int] = {}
         self.meshes: dict[tuple[str, str], int] = {}
@@ -142,6 +150,10 @@ class _Solid:
         film, thin = self.film, THIN * self.tall
         low, high = film.low_and_high
         extras = {"gravity": film.gravity, "time_scale": film.time_scale, "caption": figure.caption(0)}
+        if figure.is_rigid:
+            extras["angular_speed"] = float(figure.speed[0])
+        if len(figure.captions) > 1:
+            extras["captions"] = figure.captions
         root = self._node(
             figure.label.replace("\n", ", ") or "figure",
             None,
@@ -164,7 +176,7 @@ class _Solid:
             self._bar(
                 name, turning, points[:, k + 1], points[:, k], (THICK if film.stout[k] else THIN) * self.tall, colour
             )
-        self._bodies(turning, points)
+        self._bodies(turning, points, colour)
         for end in (0, -1) if film.is_held else (-1,):
             self._ball("support", turning, points[:, end], 0.6 * BALL * self.tall, GREYS["support"])
             on_axis = points[:, end] * [0.0, 1.0, 0.0]
@@ -208,8 +220,9 @@ class _Solid:
         node = self._node(name, parent, mesh=self._mesh("ball", colour))
         self._placed(node, at, None, np.full((1, 3), radius))
 
-    def _bodies(self, parent: int, points: Floats) -> None:
+    def _bodies(self, parent: int, points: Floats, colour: str) -> None:
         bodies, film = self.film.bodies, self.film
+        ball = self.tall * min(BALL, max(BALL_OF_LINK / (points.shape[1] - 1), 1.5 * THIN))
         for link, along, size, rod, wheel, floats in zip(
             bodies.link, bodies.along, bodies.size, bodies.rod, bodies.wheel, bodies.floats, strict=True
         ):
@@ -217,10 +230,10 @@ class _Solid:
             upper, step = points[:, link + 1], points[:, link] - points[:, link + 1]
             middle = upper + along * step
             grey = GREYS["floating" if floats else "body"]
-            self._ball(f"body of {of}", parent, middle, BALL * self.tall * max(size, 0.3), grey)
+            self._ball(f"body of {of}", parent, middle, ball * max(size, 0.3), grey)
             if rod:
                 self._bar(
-                    f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, grey
+                    f"rod of {of}", parent, middle - rod * step, middle + rod * step, 1.6 * THIN * self.tall, colour
                 )
             if wheel:
                 half = 0.6 * THIN * self.tall * step / np.linalg.norm(step, axis=1)[:, None]

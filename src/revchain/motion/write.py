@@ -19,6 +19,7 @@ from .frames import write_gif, write_mp4
 from .grid import write_grid, write_xdmf
 from .page import page_of, write_page
 from .solid import write_glb
+from .solid_page import write_viewer
 from .staging import Asked, staged
 
 RATES = (0.1, 1000.0)  # frames in a second
@@ -27,6 +28,7 @@ Progress = Callable[[int, int], None]
 Writer = Callable[[Film, Path, Progress], None]
 FILMS: dict[str, Writer] = {".gif": write_gif, ".mp4": write_mp4, ".html": write_page}
 SOLIDS: dict[str, Writer] = {".glb": write_glb}
+VIEWERS: dict[str, Writer] = {".html": write_viewer}
 GRIDS: dict[str, Writer] = {".vtu": write_grid, ".vtk": write_grid, ".xdmf": write_xdmf}
 
 METHODS = {
@@ -34,7 +36,7 @@ METHODS = {
 }
 
 
-def require_for(ending: str) -> None:
+def require_for(ending: str, method: str = "") -> None:
     """Refuse an ending whose packages are missing, before anything is computed."""
     if ending in (".gif", ".mp4"):
         require("matplotlib", "animate", f"a {ending} film")
@@ -44,6 +46,8 @@ def require_for(ending: str) -> None:
         require("imageio_ffmpeg", "animate", "a .mp4 film")
     if ending == ".glb":
         require("pygltflib", "exchange", "a .glb file")
+    if method == "to_html":
+        require("pygltflib", "exchange", "a page with a solid")
     if ending in (".vtu", ".vtk"):
         require("meshio", "exchange", f"a {ending} file")
 
@@ -65,7 +69,7 @@ def write_film(
     ending = os.path.splitext(file_path(place, "path", path))[1].lower()
     if ending not in writers:
         raise ValueError(f"{place}: path must end in {', '.join(writers)}, got {os.fspath(path)}")
-    require_for(ending)
+    require_for(ending, method)
     rate = one_positive(place, "frames_per_second", frames_per_second)
     if not RATES[0] <= rate <= RATES[1]:
         raise ValueError(f"{place}: frames_per_second must be from {RATES[0]:g} to {RATES[1]:g}, got {rate:g}")
@@ -75,7 +79,7 @@ def write_film(
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
     film = _film(result, place, figures, time_scale, duration, rate)
     turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
-    if ending == ".glb" and turns > MOST_TURNS:
+    if method in ("to_glb", "to_html") and turns > MOST_TURNS:
         raise ValueError(
             f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns"
         )
