@@ -27,13 +27,21 @@ from .tables import BESIDE, SYSTEMS, Link, fields_of
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than the largest float has
 MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # of a file, and of a line that is put right
+MOST_BYTES = 16 * 2**20  # of a file
+MOST_LEVELS = 32  # of tables and lists inside one another
+TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; a scene needs at most 8, so remove brackets or dots"
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
     """The text of a file."""
     source = file_path("revchain", "the scene or study", path)
     try:
-        return Path(source).read_text(encoding="utf-8-sig")
+        with open(source, "rb") as file:
+            data = file.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            size = f"has more than {MOST_BYTES:,} bytes, the limit for a file"
+            raise SceneError(source, "", f"{size}; write equal links once, with repeat, or make the system in Python")
+        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
@@ -50,8 +58,9 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
+        _check_levels(raw)
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
-        reason = Problem(0, 0, "", f"cannot be read: {error}")
+        reason = Problem(0, 0, "", TOO_DEEP if isinstance(error, RecursionError) else f"cannot be read: {error}")
         raise SceneError(source, problems=sorted(problems) or [reason]) from None
     try:
         yield raw, problems
@@ -67,6 +76,16 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
             return line, column
 
         raise error._placed(in_file) from None
+
+
+def _check_levels(raw: Any) -> None:
+    """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
+    level = [raw]
+    for _ in range(MOST_LEVELS + 1):
+        inside = (each.values() if isinstance(each, dict) else each for each in level if isinstance(each, dict | list))
+        level = [item for items in inside for item in items]
+    if level:
+        raise RecursionError
 
 
 def is_json(source: str) -> bool:
