@@ -23,9 +23,10 @@ from .files import hdf5_file, naming, written_aside
 
 FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
+COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
 WRONG = (  # what the readers raise for a file that somebody else made and sealed
     *(ArithmeticError, AttributeError, BadZipFile, EOFError, LookupError, MemoryError, NotImplementedError),
-    *(OSError, RecursionError, TypeError, ValueError),
+    *(OSError, RuntimeError, TypeError, ValueError),
 )
 SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes before it
 
@@ -95,6 +96,8 @@ def load(path: str | os.PathLike[str]) -> Any:
                 arrays = _arrays(file, size)
                 return _loaded(arrays.get(HEADER), arrays)
             with xarray.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
+                if dataset.nbytes > size:
+                    raise ValueError(COMPRESSED)
                 whole = dataset.load()
                 return _loaded(whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
         except WRONG as error:
@@ -105,7 +108,7 @@ def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
     """The arrays of an .npz file; none that is pickled, and none larger than the file."""
     with ZipFile(file) as entries:
         if any(entry.compress_type != ZIP_STORED or entry.file_size > size for entry in entries.infolist()):
-            raise ValueError("is compressed, as revchain saves no file; compute and save the result again")
+            raise ValueError(COMPRESSED)
     file.seek(0)
     arrays: dict[str, np.ndarray[Any, Any]] = {}
     with np.load(file, allow_pickle=False) as kept:

@@ -7,10 +7,12 @@ import json
 import os
 import re
 import tomllib
+from bisect import bisect, insort
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin
@@ -38,12 +40,15 @@ def text_of(path: str | os.PathLike[str]) -> str:
     try:
         with open(source, "rb") as file:
             data = file.read(MOST_BYTES + 1)
-        if len(data) > MOST_BYTES:
-            size = f"has more than {MOST_BYTES:,} bytes, the limit for a file"
-            raise SceneError(source, "", f"{size}; write equal links once, with repeat, or make the system in Python")
-        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
+    except ValueError:
+        raise SceneError(ascii(source), "", "is no name of a file: it has a lone surrogate") from None
+    if len(data) > MOST_BYTES:
+        size = f"has more than {MOST_BYTES:,} bytes, the limit for a file"
+        raise SceneError(source, "", f"{size}; write equal links once, with repeat, or make the system in Python")
+    try:
+        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
 
@@ -469,13 +474,18 @@ def _annotation_at(kind: type, key: str) -> Any:
 def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
     """Without what is wrong with a table only because a key of it is, or was not understood."""
     kept: list[Problem] = []
+    ordered: list[tuple[str, str]] = []  # keys and reasons of those kept, sorted
+    there: set[str] = set()
     for problem in problems:
-        inside = [each for each in kept if problem.key and each.key.startswith((problem.key + ".", problem.key + "["))]
-        because = any(
-            each.reason.startswith("unknown key") or each.key.rpartition(".")[2] in problem.reason for each in inside
+        key = problem.key
+        ends = [bisect(ordered, (key + mark,)) for mark in "./[\\"]  # each pair of marks follow one another in Unicode
+        inside = chain(ordered[ends[0] : ends[1]], ordered[ends[2] : ends[3]])
+        because = key and any(
+            reason.startswith("unknown key") or name.rpartition(".")[2] in problem.reason for name, reason in inside
         )
-        there = [each for each in kept if ": line " not in each.reason]  # what is wrong with another file has one key
-        again = any(each.key == problem.key != "" for each in there)
-        if not because and not again:
+        if not because and key not in there:
             kept.append(problem)
+            insort(ordered, (key, problem.reason))
+            if key and ": line " not in problem.reason:  # what is wrong with another file has one key
+                there.add(key)
     return kept
