@@ -400,7 +400,7 @@ def test_tables_and_lists_too_deep(tmp_path, name):
     for load in (rc.load_scene, rc.load_study):
         with pytest.raises(rc.SceneError) as caught:
             load(path)
-        more = "a scene needs at most 8, so remove brackets or dots"
+        more = "remove brackets or dots: a scene needs at most 8"
         assert str(caught.value) == f"{path}: tables and lists lie more than 32 levels deep; {more}"
 
 

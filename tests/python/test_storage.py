@@ -295,14 +295,15 @@ def test_a_pickle_is_refused(tmp_path, monkeypatch, ending):
 
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
 def test_a_file_whose_arrays_are_larger_than_itself_is_refused(tmp_path, ending):
-    import h5py
+    import h5netcdf
 
     path = tmp_path / f"result{ending}"
     if ending == ".npz":
         np.savez_compressed(path, revchain=np.zeros(10**6))
     else:
-        with h5py.File(path, "w") as file:
-            file.create_dataset("numbers", (10**13,), "f8")  # none of them is written
+        with h5netcdf.File(path, "w") as file:
+            file.dimensions = {"x": 10**13}
+            file.create_variable("numbers", ("x",), "f8", chunks=(10**6,))  # none of them is written
     sealed(path)
     refused(path, "holds arrays larger than the file")
 

@@ -31,7 +31,7 @@ MOST_DIGITS = 400  # more than the largest float has
 MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # of a file, and of a line that is put right
 MOST_BYTES = 16 * 2**20  # of a file
 MOST_LEVELS = 32  # of tables and lists inside one another
-TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; a scene needs at most 8, so remove brackets or dots"
+TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; remove brackets or dots: a scene needs at most 8"
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
