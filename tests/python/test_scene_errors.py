@@ -470,3 +470,10 @@ def test_the_work_for_many_problems_grows_with_their_number():
         return result
 
     assert 0 < asked(2000) < 3 * asked(1000)
+
+
+@pytest.mark.parametrize("data", [{"ask": 0.5}, {"held": 0.5}, {"ask": {"response": {"angular_speed": []}}}], ids=repr)
+def test_tables_of_version_1_that_are_none(data):
+    with pytest.raises(rc.SceneError) as caught:
+        rc.Scene.from_dict({"links": [ONE], "schema_version": 1, **data})
+    assert caught.value.key == "schema_version" and caught.value.reason.startswith("is of version 1")
