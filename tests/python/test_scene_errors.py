@@ -12,6 +12,8 @@ import pytest
 
 import revchain as rc
 from revchain.cli import app as _cli
+from revchain.scenes import parse
+from revchain.scenes.error import Problem
 from revchain.scenes.scene import Scene
 
 LINK = "[[links]]\nmass = 1\nlength = 1\n"
@@ -233,7 +235,7 @@ DATA = {
     "a number for a table": ({"links": [3]}, "links[0]: must be a table, got 3"),
     "repeat 0": ({"links": [{**ONE, "repeat": 0}]}, "links[0].repeat: must be at least 1, got 0"),
     "repeat not whole": ({"links": [{**ONE, "repeat": 1.5}]}, "links[0].repeat: must be a whole number, got 1.5"),
-    "too many": ({"links": [{**ONE, "repeat": 6_000_000}] * 2}, "links: must be at most 10,000,000"),
+    "too many": ({"links": [{**ONE, "repeat": 6_000_000}] * 2}, "links: must be at most 10,000,000 together with their repeats, got 12,000,000; use fewer and longer links, or [cord]"),
     "no number": ({"links": [{**ONE, "length": "long"}]}, "links[0].length: must be a number, or a number and its unit"),
     "negative with unit": ({"links": [{**ONE, "length": "-2 m"}]}, 'links[0].length: must be positive, got "-2 m"'),
     "infinite with unit": ({"links": [{**ONE, "length": "1e999 m"}]}, "links[0].length: must be finite"),
@@ -380,3 +382,98 @@ time = {to = 3, steps = 201}  # s
     for text in ("ask = {modes = 1}\n" + LINK, "ask.modes = 1\n" + LINK, LINK + "[ask]\nmodes = 1\n[support]\nradius = 1\n[ask.shapes]\nangular_speed=1"):
         Path("c.toml").write_text(text)
         assert _cli.run(["validate", "--upgrade", "c.toml"]) == 0 and rc.load_scene("c.toml").ask.modes.count == 1
+
+
+DEEP = {
+    "lists.toml": f"links = {'[' * 33}{']' * 33}",
+    "tables.toml": f"{'a.' * 33}b = 1",
+    "recursion.toml": f"links = {'[' * 100_000}",
+    "lists.json": '{"links": ' + "[" * 33 + "]" * 33 + "}",
+    "recursion.json": "[" * 100_000,
+}
+
+
+@pytest.mark.parametrize("name", DEEP)
+def test_tables_and_lists_too_deep(tmp_path, name):
+    path = tmp_path / name
+    path.write_text(DEEP[name])
+    for load in (rc.load_scene, rc.load_study):
+        with pytest.raises(rc.SceneError) as caught:
+            load(path)
+        more = "remove brackets or dots: a scene needs at most 8"
+        assert str(caught.value) == f"{path}: tables and lists lie more than 32 levels deep; {more}"
+
+
+def test_the_deepest_level_that_is_read(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(f"links = {'[' * 31}{']' * 31}")
+    with pytest.raises(rc.SceneError, match=r"links\[0\]: must be a table, got \["):
+        rc.load_scene(path)
+
+
+@pytest.mark.parametrize("ending", ["toml", "json"])
+def test_a_file_too_large(tmp_path, ending, monkeypatch):
+    monkeypatch.setattr(parse, "MOST_BYTES", 100)
+    path = tmp_path / f"scene.{ending}"
+    scene = {"toml": LINK, "json": json.dumps({"links": [{"mass": 1, "length": 1}]})}[ending]
+    path.write_text(scene + " " * (100 - len(scene)))
+    assert rc.load_scene(path).system().size == 1
+    path.write_text(scene + " " * (101 - len(scene)))
+    with pytest.raises(rc.SceneError) as caught:
+        rc.load_scene(path)
+    more = "write equal links once, with repeat, or make the system in Python"
+    assert str(caught.value) == f"{path}: has more than 100 bytes, the limit for a file; {more}"
+
+
+def test_a_file_without_end():
+    with pytest.raises(rc.SceneError, match="/dev/zero: has more than 16,777,216 bytes"):
+        rc.load_scene("/dev/zero")
+
+
+NAMES = {"\0": "must have no null byte", "\ud800": "is no name of a file: it has a lone surrogate"}
+
+
+@pytest.mark.parametrize(("name", "reason"), NAMES.items(), ids=ascii)
+def test_a_study_that_names_no_file(tmp_path, name, reason):
+    path = tmp_path / "study.json"
+    path.write_text(json.dumps({"scene": name, "vary": {"gravity": {"values": [1, 2]}}}))
+    with pytest.raises(rc.SceneError) as caught:
+        rc.load_study(path)
+    assert str(caught.value).startswith(f"{path}: line 1, column 2: scene: ") and reason in str(caught.value)
+
+
+def test_the_work_for_many_problems_grows_with_their_number():
+    """Not with its square: counted in comparisons of keys, not in seconds."""
+
+    class Key(str):
+        asked = 0
+
+        def startswith(self, *_):
+            Key.asked += 1
+            return super().startswith(*_)
+
+        def __eq__(self, other):
+            Key.asked += 1
+            return super().__eq__(other)
+
+        def __lt__(self, other):
+            Key.asked += 1
+            return super().__lt__(other)
+
+        __hash__ = str.__hash__
+
+    def asked(count):
+        found = [Problem(0, 0, Key(f"links[{k}].length"), "is missing") for k in range(count)]
+        kept = parse.without_consequences([*found, *found, Problem(0, 0, Key("links"), "length is wrong")])
+        result, Key.asked = Key.asked, 0
+        assert [id(each) for each in kept] == [id(each) for each in found]
+        return result
+
+    assert 0 < asked(2000) < 3 * asked(1000)
+
+
+@pytest.mark.parametrize("data", [{"ask": 0.5}, {"held": 0.5}, {"ask": {"response": {"angular_speed": []}}}], ids=repr)
+def test_tables_of_version_1_that_are_none(data):
+    with pytest.raises(rc.SceneError) as caught:
+        rc.Scene.from_dict({"links": [ONE], "schema_version": 1, **data})
+    assert caught.value.key == "schema_version" and caught.value.reason.startswith("is of version 1")

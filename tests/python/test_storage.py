@@ -249,12 +249,81 @@ def test_other_arrays_and_objects(tmp_path):
             rc.load(path)
 
 
+class Ran:
+    """Pickled, this makes a file in the current folder when it is read."""
+
+    def __reduce__(self):
+        return open, ("ran", "w")
+
+
+def sealed(path):
+    """Make the file at `path` pass for one that revchain wrote."""
+    with open(path, "r+b") as file:
+        file.write(_storage._seal(file))
+
+
+def refused(path, match):
+    with pytest.raises(ValueError, match=match) as caught:
+        rc.load(path)
+    assert str(caught.value).startswith(f"{path}: ")
+
+
+def test_a_pickled_array_is_refused_by_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "result.npz"
+    rc.modes(CHAIN).save(path)
+    with np.load(path) as file:
+        arrays = dict(file)
+    for name in arrays:
+        np.savez(path, **{**arrays, name: np.array([Ran()], dtype=object)})
+        sealed(path)
+        refused(path, f"the array {name!r} is not loaded: .* pickled Python objects, which may run any code")
+    assert not (tmp_path / "ran").exists()
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+def test_a_pickle_is_refused(tmp_path, monkeypatch, ending):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / f"result{ending}"
+    for protocol in (0, 2, pickle.HIGHEST_PROTOCOL):
+        path.write_bytes(pickle.dumps(Ran(), protocol))
+        refused(path, "not a result that revchain saved")
+        sealed(path)
+        refused(path, "pickle|not a zip|not zip|signature|file format")
+    assert not (tmp_path / "ran").exists()
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+def test_a_file_whose_arrays_are_larger_than_itself_is_refused(tmp_path, ending):
+    import h5netcdf
+
+    path = tmp_path / f"result{ending}"
+    if ending == ".npz":
+        np.savez_compressed(path, revchain=np.zeros(10**6))
+    else:
+        with h5netcdf.File(path, "w") as file:
+            file.dimensions = {"x": 10**13}
+            file.create_variable("numbers", ("x",), "f8", chunks=(10**6,))  # none of them is written
+    sealed(path)
+    refused(path, "holds arrays larger than the file")
+
+
+HEADERS = {"[" * 100_000: "recursion", "[]": "attribute 'get'", "no JSON": "Expecting value", '{"format": "revchain 2"}': "'result'"}
+
+
+@pytest.mark.parametrize(("header", "match"), HEADERS.items(), ids=[text[:24] for text in HEADERS])
+def test_a_header_that_describes_no_result(tmp_path, header, match):
+    path = tmp_path / "result.npz"
+    np.savez(path, revchain=np.array(header))
+    sealed(path)
+    refused(path, match)
+
+
 @pytest.mark.parametrize("content", [{"kind": "revchain modes 1"}, {"revchain": '{"format": "revchain 1"}'}], ids=repr)
 def test_files_of_other_versions(tmp_path, content):
     path = tmp_path / "old.npz"
     np.savez(path, **{name: np.array(text) for name, text in content.items()})
-    with open(path, "r+b") as file:
-        file.write(_storage._seal(file))  # whole, as it was written
+    sealed(path)
     with pytest.raises(ValueError, match="save the result again|save it again"):
         rc.load(path)
 

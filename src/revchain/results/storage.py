@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results in files: .npz by numpy, .nc (netCDF 4) by xarray. Nothing is pickled."""
+"""Results in files: .npz by numpy, .nc (netCDF 4) by xarray. Nothing is pickled, and no pickle is read."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
+from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
 
@@ -22,6 +23,11 @@ from .files import hdf5_file, naming, written_aside
 
 FORMAT = "revchain 2"
 HEADER = "revchain"  # name of the entry that describes the contents of a file
+COMPRESSED = "holds arrays larger than the file, as revchain saves none; compute and save the result again"
+WRONG = (  # what the readers raise for a file that somebody else made and sealed
+    *(ArithmeticError, AttributeError, BadZipFile, EOFError, LookupError, MemoryError, NotImplementedError),
+    *(OSError, RuntimeError, TypeError, ValueError),
+)
 SEAL = b"revchain"  # at the end of a file, followed by the CRC-32 of all bytes before it
 
 
@@ -84,21 +90,42 @@ def load(path: str | os.PathLike[str]) -> Any:
         if _seal(file, size) != file.read():
             reason = "not a result that revchain saved, or damaged since; compute and save it again"
             raise ValueError(f"{os.fspath(path)}: {reason}")
-        if ending == ".npz":
-            file.seek(0)
-            with np.load(file, allow_pickle=False) as kept:
-                arrays = dict(kept)
-            return _loaded(path, arrays.get(HEADER), arrays)
-    with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
-        whole = dataset.load()
-        return _loaded(path, whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
+        file.seek(0)
+        try:
+            if ending == ".npz":
+                arrays = _arrays(file, size)
+                return _loaded(arrays.get(HEADER), arrays)
+            with xarray.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
+                if dataset.nbytes > size:
+                    raise ValueError(COMPRESSED)
+                whole = dataset.load()
+                return _loaded(whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
+        except WRONG as error:
+            raise ValueError(f"{os.fspath(path)}: {error or type(error).__name__}") from error
 
 
-def _loaded(path: str | os.PathLike[str], header: Any, arrays: Mapping[str, Any]) -> Result:
+def _arrays(file: IO[bytes], size: int) -> dict[str, np.ndarray[Any, Any]]:
+    """The arrays of an .npz file; none that is pickled, and none larger than the file."""
+    with ZipFile(file) as entries:
+        if any(entry.compress_type != ZIP_STORED or entry.file_size > size for entry in entries.infolist()):
+            raise ValueError(COMPRESSED)
+    file.seek(0)
+    arrays: dict[str, np.ndarray[Any, Any]] = {}
+    with np.load(file, allow_pickle=False) as kept:
+        for name in kept.files:
+            try:
+                arrays[name] = kept[name]
+            except ValueError as error:
+                reason = "is not loaded: it is damaged or holds pickled Python objects, which may run any code"
+                raise ValueError(f"the array {name!r} {reason} ({error}); compute and save the result again") from None
+    return arrays
+
+
+def _loaded(header: Any, arrays: Mapping[str, Any]) -> Result:
     said = {} if header is None else json.loads(str(header))
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
-        raise ValueError(f"{os.fspath(path)}: is a file of another version, {other}; compute and save the result again")
+        raise ValueError(f"is a file of another version, {other}; compute and save the result again")
     found: Result = _unpacked(said["result"], arrays, {})
     return found
 
@@ -144,7 +171,7 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
         if value["result"] not in Result._kinds and str(value.get("module")).startswith("revchain.closed_forms."):
             import_module(value["module"])  # imported when they are first needed
         if value["result"] not in Result._kinds:
-            raise ValueError(f"a file holds a {value['result']}, which this version of revchain does not know")
+            raise ValueError(f"holds a {value['result']}, which this version of revchain does not know")
         return restored(Result._kinds[value["result"]], state)
     if "system" in value:
         made[value["name"]] = system_from(value["system"], _unpacked(value["state"], arrays, made))

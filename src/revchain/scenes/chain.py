@@ -122,8 +122,10 @@ def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> C
 
 def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     """The chain of the links, lowest first, each with its number in the file; None as for `whole`."""
-    if sum(link.repeat for _, link in links) > MOST_LINKS:
-        raise SceneError(numbers.source, "links", f"must be at most {MOST_LINKS:,} together with their repeats")
+    if (count := sum(link.repeat for _, link in links)) > MOST_LINKS:
+        more = "use fewer and longer links, or [cord]"
+        reason = f"must be at most {MOST_LINKS:,} together with their repeats, got {count:,}; {more}"
+        raise SceneError(numbers.source, "links", reason)
     places = [numbers.of(f"links[{index}]") for index, _ in links]
     bodies = [_body(link, place) for place, (_, link) in zip(places, links, strict=True)]
     tips = [place.weight_if_given(link, "tip_") for place, (_, link) in zip(places, links, strict=True)]

@@ -7,10 +7,12 @@ import json
 import os
 import re
 import tomllib
+from bisect import bisect, insort
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin
@@ -27,15 +29,26 @@ from .tables import BESIDE, SYSTEMS, Link, fields_of
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than those of the largest float
 MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # repairs in a file, columns of a line to repair
+MOST_BYTES = 16 * 2**20  # of a file
+MOST_LEVELS = 32  # of tables and lists inside one another
+TOO_DEEP = f"tables and lists lie more than {MOST_LEVELS} levels deep; remove brackets or dots: a scene needs at most 8"
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
     """The text of a file."""
     source = file_path("revchain", "the scene or study", path)
     try:
-        return Path(source).read_text(encoding="utf-8-sig")
+        with open(source, "rb") as file:
+            data = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
+    except ValueError:
+        raise SceneError(ascii(source), "", "is no name of a file: it has a lone surrogate") from None
+    if len(data) > MOST_BYTES:
+        size = f"has more than {MOST_BYTES:,} bytes, the limit for a file"
+        raise SceneError(source, "", f"{size}; write equal links once, with repeat, or make the system in Python")
+    try:
+        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
 
@@ -50,8 +63,9 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
     source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
+        _check_levels(raw)
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
-        reason = Problem(0, 0, "", f"cannot be read: {error}")
+        reason = Problem(0, 0, "", TOO_DEEP if isinstance(error, RecursionError) else f"cannot be read: {error}")
         raise SceneError(source, problems=sorted(problems) or [reason]) from None
     try:
         yield raw, problems
@@ -67,6 +81,16 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
             return line, column
 
         raise error._placed(in_file) from None
+
+
+def _check_levels(raw: Any) -> None:
+    """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
+    level = [raw]
+    for _ in range(MOST_LEVELS + 1):
+        inside = (each.values() if isinstance(each, dict) else each for each in level if isinstance(each, dict | list))
+        level = [item for items in inside for item in items]
+    if level:
+        raise RecursionError
 
 
 def is_json(source: str) -> bool:
@@ -450,13 +474,18 @@ def _annotation_at(kind: type, key: str) -> Any:
 def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
     """The problems without those of a table that follow from a problem of one of its keys."""
     kept: list[Problem] = []
+    ordered: list[tuple[str, str]] = []  # keys and reasons of those kept, sorted
+    there: set[str] = set()
     for problem in problems:
-        inside = [each for each in kept if problem.key and each.key.startswith((problem.key + ".", problem.key + "["))]
-        because = any(
-            each.reason.startswith("unknown key") or each.key.rpartition(".")[2] in problem.reason for each in inside
+        key = problem.key
+        ends = [bisect(ordered, (key + mark,)) for mark in "./[\\"]  # each pair of marks follow one another in Unicode
+        inside = chain(ordered[ends[0] : ends[1]], ordered[ends[2] : ends[3]])
+        because = key and any(
+            reason.startswith("unknown key") or name.rpartition(".")[2] in problem.reason for name, reason in inside
         )
-        there = [each for each in kept if ": line " not in each.reason]  # what is wrong with another file has one key
-        again = any(each.key == problem.key != "" for each in there)
-        if not because and not again:
+        if not because and key not in there:
             kept.append(problem)
+            insort(ordered, (key, problem.reason))
+            if key and ": line " not in problem.reason:  # what is wrong with another file has one key
+                there.add(key)
     return kept

@@ -36,14 +36,14 @@ def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str
     new = deepcopy(data)
     upgrade(new)
     found = [("schema_version", "is of version 1: write schema_version = 2")] if version == 1 else []
-    for name, table in new.get("ask", {}).items():
+    for name, table in new["ask"].items() if isinstance(new.get("ask"), dict) else ():
         if isinstance(table, dict) and table != ask.get(name):
             entries = ", ".join(f"{key} = {_toml(value)}" for key, value in table.items())
             sure = version == 1 or old
             found.append((f"ask.{name}", f"{'is' if sure else 'may be'} of version 1: write [ask.{name}] {entries}"))
             found[-1] = (found[-1][0], found[-1][1] + ("" if sure else ", or schema_version = 2 at the top"))
     found = [(key, sentence + _REWRITES) for key, sentence in found]
-    if "tension" in (data.get("held") or {}):
+    if isinstance(held := data.get("held"), dict) and "tension" in held:
         found.append(("held.tension", "is that of the upper end in version 2: add the weight of the chain, by hand"))
     return found
 

@@ -130,12 +130,12 @@ class Study(Table, frozen=True):
                 data = {**data, "scene": load_scene(folder / scene).to_dict()}
             elif isinstance(scene, dict):
                 data = {**data, "scene": Scene._read(scene, source, []).to_dict()}
-        except SceneError as error:
+        except ValueError as error:  # a SceneError, or that the name has a null byte
             data = {**data, "scene": ""}  # so that the rest is read
-            if isinstance(scene, str):
-                problems += [Problem(0, 0, "scene", sentence) for sentence in str(error).split("\n")]
-            else:
+            if isinstance(error, SceneError) and not isinstance(scene, str):
                 problems += _within_scene(error.problems)
+            else:
+                problems += [Problem(0, 0, "scene", sentence) for sentence in str(error).split("\n")]
         study = parse.convert(data, cls, source, problems)
         study._plan(source, problems)
         return study
