@@ -213,17 +213,16 @@ function view(gltf, renderer) {
       return Math.abs(place.x) < 1 && Math.abs(place.y) < 1;
     }).length;
   }
+  function draw() {
+    stale = false;
+    pose();
+    renderer.render(scene, camera);
+    caption();
+  }
   function tick(now) {
     if (before !== null && playing) time += Math.min(now - before, 100) / 1000 * 10 ** $("pace").value;
     before = now;
-    if (playing || stale) {
-      stale = false;
-      pose();
-      renderer.render(scene, camera);
-      caption();
-      status.triangles ??= renderer.info.render.triangles;
-      status.seen ??= partsSeen();
-    }
+    if (playing || stale) draw();
     requestAnimationFrame(tick);
   }
   function play(on) { playing = on; $("play").textContent = on ? "Pause" : "Play"; }
@@ -256,11 +255,13 @@ function view(gltf, renderer) {
   const start = new URLSearchParams(location.hash.slice(1)).get("t");  // page.html#t=1.5 stands still at 1.5 s
   if (start !== null) { playing = false; time = Number(start); }
   play(playing);
+  draw();
   requestAnimationFrame(tick);
   const parts = [];
   solid.traverse((part) => { if (part.userData.name) parts.push(part); });
   const channels = clip ? clip.tracks.length : 0;
-  Object.assign(status, { state: "loaded", figures: figures.length, nodes: parts.length, channels });
+  const { triangles } = renderer.info.render;
+  Object.assign(status, { state: "loaded", figures: figures.length, nodes: parts.length, channels, triangles, seen: partsSeen() });
 }
 
 addEventListener("error", (event) => stop(event.message));
