@@ -119,7 +119,10 @@ class Corpus:
         read, text = draw.choice(self.texts)
         if kind == 2:
             path = self.folder / "changed.json"
-            path.write_bytes(json.dumps(changed_data(tomllib.loads(text), draw)).encode())
+            data = tomllib.loads(text)
+            if draw.random() < 0.2:
+                data["schema_version"] = 1  # whose keys are read to say what to write instead
+            path.write_bytes(json.dumps(changed_data(data, draw)).encode())
             return read, path
         path = self.folder / "changed.toml"
         path.write_bytes(changed_text(text.encode(), draw))
