@@ -313,7 +313,7 @@ def test_wrong_bells_and_rods():
     clapper = {"clapper_weight": 1, "clapper_centroid": 0.7, "clapper_radius_of_gyration": 0.1}
     with pytest.raises(ValueError, match="pendulum length must be less than the bell's"):
         two_links.pin_of_silent_clapper(**bell, **clapper)
-    for pins, message in (((0.1, 1.0, 1 / 3, 1.2), "outside the middle third"),
+    for pins, message in (((0.1, 1.0, 1 / 3, 1.2), "pin must be more than length/6 and less than length/2, got"),
                           ((np.nan, -0.3), "pin must be positive and finite, got")):  # fmt: skip
         for pin in pins:
             with pytest.raises(ValueError, match=message):

@@ -502,7 +502,7 @@ def test_what_is_no_model(tmp_path):
         rc.from_mjcf("<mujoco><chain/></mujoco>")
     with pytest.raises(ValueError, match=r"from_mjcf: the model has no joints"):
         rc.from_mjcf("<mujoco/>")
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(OSError, match=r"No such file or directory.*nothing\.xml"):
         rc.from_mjcf(tmp_path / "nothing.xml")
     with pytest.raises(TypeError, match="from_urdf: source must be a path"):
         rc.from_urdf(3)

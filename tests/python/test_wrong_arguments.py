@@ -108,6 +108,8 @@ ONE_OF = {
     "transverse_modes": {"weight": [1.0, 1.0], "place": [0.0, 1.0, 2.0, 3.0]},
     "two_links.joint_without_bending": {"length": 1.0, "pin": 0.3},
     "two_links.pin_of_silent_clapper": {},
+    "from_mjcf": {"source": rc.to_mjcf(CHAIN)},
+    "from_urdf": {"source": rc.to_urdf(CHAIN)},
     "rope.SkippingRope": {"span": 1.0, "length": 1.5},
     "SweepResult.save": {"path": "found.csv"},
     "Scene.branches": {"max_angular_speed": 5.0},

@@ -83,7 +83,7 @@ class Mechanism:
         return float(self.length.sum()) + self.radius
 
     def across(self, k: int, least: float) -> float:
-        """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it to the last digit.
+        """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it exactly.
 
         The forces of steady motion depend on the moment across a link less that along it, which the ball does not change.
         """

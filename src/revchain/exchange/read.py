@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as Xml
 
+from ..results.files import naming
 from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import file_path
@@ -41,7 +42,7 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
-        If the file cannot be read.
+        (a ValueError too) If the file cannot be read.
 
     Notes
     -----
@@ -80,7 +81,7 @@ def from_urdf(source: str | os.PathLike[str]) -> Chain | Rig:
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
-        If the file cannot be read.
+        (a ValueError too) If the file cannot be read.
 
     Notes
     -----
@@ -101,7 +102,8 @@ def _system(place: str, source: Any, root: str, least: float) -> Chain | Rig:
     mujoco = require("mujoco", "exchange", place)
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     name = "" if is_text else file_path(place, "source", source)
-    text = source if is_text else Path(name).read_text(encoding="utf-8")
+    with naming(name):
+        text = source if is_text else Path(name).read_text(encoding="utf-8")
     try:
         found = Xml.fromstring(text).tag
         if found != root:

@@ -13,12 +13,12 @@ from typing import Any
 
 
 class OutputError(OSError, ValueError):
-    """An output that cannot be written; an OSError that is also a ValueError."""
+    """A file that cannot be written, or read; an OSError that is also a ValueError."""
 
 
 @contextmanager
 def naming(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn an OSError of any library into one that names the output, not the temporary file."""
+    """Turn an OSError of any library into one that names the file, not the temporary one."""
     try:
         yield
     except OutputError:
