@@ -70,3 +70,8 @@ time.plot(moments, few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle=
 time.set(xlabel="time (s)", ylabel="offset of the free end (m)", title="plucked 0.01 m half way")
 legend_below(time, ncols=1)
 save(figure)
+
+# %%
+# The plucked chain swinging.
+
+rc.swing(chain, plucked, None, np.linspace(0.0, 2.0, 401)).show()

@@ -65,3 +65,8 @@ axes["speeds"].set(
     yticks=range(-90, 91, 30),
 )
 save(figure)
+
+# %%
+# The shapes turning. Drag the picture to turn the view.
+
+shapes.show()

@@ -27,3 +27,8 @@ for k, off in enumerate(result.conical_height / continuous.conical_height - 1):
 axes = result.plot()
 axes.set_title("A watch chain of 120 links")
 save(axes.figure)
+
+# %%
+# The five modes turning. Drag the picture to turn the view.
+
+result.show()

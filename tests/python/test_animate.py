@@ -442,7 +442,7 @@ def test_what_cannot_be_written_leaves_what_was_there(tmp_path):
 def test_the_view_of_a_notebook_is_the_page(tmp_path):
     shapes = rc.steady_shapes(CHAIN, conical_height=0.1)
     shapes.animate(tmp_path / "shapes.html", figures=[0], time_scale=0.5)
-    shown = shapes.show(figures=[0], time_scale=0.5, height=500).data
+    shown = shapes.show(figures=[0], time_scale=0.5, height=500)._repr_html_()
     page = re.search(r'<iframe srcdoc="([^"]*)" style="width: 100%; height: 500px; border: 0"></iframe>', shown)[1]
     assert html.unescape(page) == (tmp_path / "shapes.html").read_text(encoding="utf-8")
     with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: height must be positive and finite, got 0"):
@@ -450,15 +450,13 @@ def test_the_view_of_a_notebook_is_the_page(tmp_path):
 
 
 def test_packages_that_are_missing(python, without):
-    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "IPython") + (
+    program = without("matplotlib", "PIL", "imageio_ffmpeg", "pygltflib", "meshio") + (
         "import revchain as rc\n"
         "m = rc.modes(rc.Chain.uniform_rods(12), 2)\n"
         "for method, path in ((m.animate, 'a.gif'), (m.animate, 'a.mp4'), (m.to_glb, 'a.glb'),\n"
         "                     (m.to_html, 'b.html'), (m.to_vtk, 'a.vtu')):\n"
         "    try: method(path)\n"
         "    except ImportError as error: print(error)\n"
-        "try: m.show()\n"
-        "except ImportError as error: print(error)\n"
         "m.animate('a.html'); m.to_vtk('a.xdmf', duration=0.2)\n"
     )
     done = python("-c", program)
@@ -469,7 +467,6 @@ def test_packages_that_are_missing(python, without):
         'a .glb file needs pygltflib: pip install "revchain[exchange]"',
         'a page with a solid needs pygltflib: pip install "revchain[exchange]"',
         'a .vtu file needs meshio: pip install "revchain[exchange]"',
-        'the interactive view needs IPython: pip install "revchain[notebook]"',
     ]
 
 

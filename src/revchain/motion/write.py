@@ -91,15 +91,26 @@ def write_film(
         writers[ending](film, aside, progress or _silent)
 
 
+class View:
+    """A page in a notebook: what shows objects by their ``_repr_html_`` shows it."""
+
+    def __init__(self, page: str, height: float) -> None:
+        self._frame = f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: {height:g}px; border: 0"></iframe>'
+
+    def _repr_html_(self) -> str:
+        return self._frame
+
+    def __repr__(self) -> str:
+        return "a motion, which notebooks show"
+
+
 def show_film(
-    result: Any, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, height: int
-) -> Any:
+    result: Any, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, height: float
+) -> View:
     """See `Moving.show`."""
     place = f"revchain.{type(result).__name__}.show"
-    display = require("IPython.display", "notebook", "the interactive view")
     tall = one_positive(place, "height", height)
-    page = html.escape(page_of(_film(result, place, figures, time_scale, duration, 25.0)))
-    return display.HTML(f'<div><iframe srcdoc="{page}" style="width: 100%; height: {tall:g}px; border: 0"></iframe></div>')
+    return View(page_of(_film(result, place, figures, time_scale, duration, 25.0)), tall)
 
 
 def _film(

@@ -107,21 +107,20 @@ class Moving:
 
         Returns
         -------
-        IPython.display.HTML
-            The view. It needs no connection, and still works when the notebook is opened without Python.
+        object
+            The view, which a notebook shows if the call is the last line of a cell. It needs no package and no connection,
+            and still works when the notebook is opened without Python.
 
         Raises
         ------
         ValueError
             As `animate`.
-        ImportError
-            If IPython is not installed; the message says how to install it.
 
         Examples
         --------
         >>> import revchain as rc
         >>> rc.modes(rc.Chain.uniform_rods(12, length=1.0), 3).show()
-        <IPython.core.display.HTML object>
+        a motion, which notebooks show
         """
         from ..motion.write import show_film
 
