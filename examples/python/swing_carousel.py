@@ -69,4 +69,4 @@ save(figure)
 # %%
 # The shapes turning. Drag the picture to turn the view.
 
-shapes.show()
+shapes.show(height=420)
