@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from ..plots.style import PALETTE
 from .film import Figure, Film, spread
 
-COLOURS = ("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22", "#17becf")
 MOST_NUMBERS = 36_000  # of places, 2.7 bytes each: no page exceeds 200 KB
 FRAMES, PINS = (60, 120), (30, 200)  # least and most
 LINE = 400  # points of a curve
@@ -70,7 +70,7 @@ def _data(film: Film) -> dict[str, Any]:
             name: _rounded(getattr(bodies, name)) for name in ("link", "along", "size", "rod", "wheel", "floats")
         },
         "figures": [
-            _figure(figure, COLOURS[colour]) for figure, colour in zip(film.figures, film.colours, strict=True)
+            _figure(figure, f"#{PALETTE[colour % len(PALETTE)]}") for figure, colour in zip(film.figures, film.colours, strict=True)
         ],
         "clock": film.clock,
         "chart": None

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..systems.extras import require
 from ..systems.numbers import Floats
+from ..plots.style import PALETTE
 from .film import Complex, Figure, Film, pace, side_by_side
 
 MOST_LINKS = 400  # of a chain of more, every second pin or fewer
@@ -20,14 +21,13 @@ SIDES = 20  # of a cylinder
 THIN, THICK, BALL = 0.006, 0.014, 0.035  # radii, over the height or the width of the whole
 BALL_OF_LINK = 0.28  # most, over the mean link
 DISC = 0.6  # radius of a flywheel, over the reach
-COLOURS = ("1f77b4", "ff7f0e", "2ca02c", "d62728", "9467bd", "8c564b", "e377c2", "7f7f7f", "bcbd22", "17becf")
 GREYS = {
     "body": "595959",
     "floating": "f0f0f0",
     "support": "1a1a1a",
     "axis": "b3b3b3",
-    "forward": "1f77b4",
-    "backward": "d62728",
+    "forward": PALETTE[0],
+    "backward": PALETTE[3],
 }
 FLOAT, SHORT, ARRAY, ELEMENTS = 5126, 5123, 34962, 34963  # of glTF
 Floats32 = NDArray[np.float32]
@@ -170,7 +170,7 @@ class _Solid:
         turning = self._node("turning", root)
         self._turn(figure, turning, phase, whole)
         points = in_space(figure.offset, figure.height)
-        colour = COLOURS[film.colours[nth]]
+        colour = PALETTE[film.colours[nth] % len(PALETTE)]
         for k in range(points.shape[1] - 1):
             name = film.names[k] if film.names else f"segment {k}"
             self._bar(

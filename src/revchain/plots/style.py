@@ -15,17 +15,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000")
+"""Colours that can be told apart without seeing red or green (Okabe and Ito 2008)."""
+
 STYLE = {
     "axes.titlesize": "medium",
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.prop_cycle": "cycler(color=['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '000000'])",
+    "axes.prop_cycle": f"cycler(color={list(PALETTE)})",
     "legend.frameon": False,
     "savefig.dpi": 200,
     "svg.hashsalt": "revchain",
 }
-"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and colours that can be told apart without
-seeing red or green (Okabe and Ito 2008)."""
+"""For `matplotlib.rcParams.update`: letters of 10 points, the smallest of 8.3, and the colours of `PALETTE`."""
 
 WIDEST = 8.0  # inches, of a new figure
 MOST_PINS_AS_DOTS = 40
