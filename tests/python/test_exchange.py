@@ -196,6 +196,21 @@ def test_positions_of_other_shapes():
         assert not shape.position[:, 1].any() and not shape.velocity[:, [0, 2]].any()
 
 
+@pytest.mark.parametrize("span", [0.5, 0.7])
+def test_reactions_of_held_chains(span):
+    """Each force carries what is below it: weights and the lower bearing's force, with the centripetal acceleration."""
+    shape = rc.steady_shapes(rc.Held(RODS, span=span), angular_speed=15.0)[0]
+    assert shape.reaction[0] == pytest.approx([shape.lower_pull[0], 0.0, shape.lower_pull[1]], rel=1e-12)
+    assert shape.reaction[-1] == pytest.approx([-shape.upper_pull[0], 0.0, -shape.upper_pull[1]], rel=1e-12)
+    across = shape.offset[1:] + (shape.offset[:-1] - shape.offset[1:]) * RODS.centroid / RODS.length
+    below = np.stack([-(15.0**2) * across, 0.0 * across, np.full(3, 9.80665)], 1) * RODS.mass[:, None]
+    np.testing.assert_allclose(shape.reaction[1:], shape.reaction[0] + np.cumsum(below, 0), atol=1e-12 * shape.tension.max())
+    np.testing.assert_allclose(shape.joint_angle, [-shape.inclination[0], *-np.diff(shape.inclination), shape.inclination[-1]])
+    rows = json.loads(json.dumps(shape.to_dict()))["places"]
+    assert [row["reaction"] for row in rows] == shape.reaction.tolist()
+    assert [row["joint_angle"] for row in rows] == shape.joint_angle.tolist()
+
+
 def test_a_list_of_shapes_is_a_list_of_keyframes(tmp_path):
     shapes = rc.steady_shapes(RODS, conical_height=0.03)
     text = rc.to_mjcf(shapes, tmp_path / "shapes.xml")

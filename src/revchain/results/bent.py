@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
 from .held_sensitivity import held_shape_sensitivity
 from .shape_sensitivity import ShapeSensitivity
-from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven, judged
+from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, in_space, is_driven, judged
 from .sheet import Column, Sheet
 
 
@@ -302,6 +303,15 @@ class HeldShape(_HeldShape):
     force_inclination: Field[Floats] = Field(
         "Inclination of the upward force at each pin (`tension`) to the vertical, rad, shape (N + 1,).", part=True
     )
+    joint_angle: Field[Floats] = Field(
+        "Inclination of the link below each pin less that of the link above it, rad, shape (N + 1,); beyond the ends 0.",
+        lambda s: -np.diff(s.inclination, prepend=0.0, append=0.0),
+    )
+    reaction: Field[Floats] = Field(
+        "Force at each pin on what is below it, x, y, z in the axes of `position`, shape (N + 1, 3), N or in the unit of the "
+        "weights; at the lower end the force on the bearing.",
+        lambda s: in_space(x=-s.tension * np.sin(s.force_inclination), z=s.tension * np.cos(s.force_inclination)),
+    )
     error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
     sensitivity: Field[ShapeSensitivity] = Field(
@@ -357,6 +367,11 @@ class HeldShape(_HeldShape):
 
     def _places(self) -> list[Column]:
         return [Column("pin", np.arange(len(self.offset)), "pin")]
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet = super()._sheet(brief)
+        joints = [Column("joint_angle", self.joint_angle), Column("reaction", self.reaction, axes=("component",))]
+        return replace(sheet, columns=[*sheet.columns, *joints])
 
 
 class HeldCordShape(_HeldShape):
