@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""What the pictures of measurements share: the style of the documentation, and how they are written."""
+"""Pictures of measurements: they have the style of the documentation and are written by one function."""
 
 import matplotlib
 

@@ -42,7 +42,7 @@ struct StabilityWindowsOptions {
 std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 
-/// The same for a branch of a rig, in the direction of rotation of the branch.
+/// Returns the stability windows of a branch of a rig, in the direction of rotation of the branch.
 std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 

@@ -39,7 +39,7 @@ class Mechanism:
     Attributes
     ----------
     names : tuple of str
-        Of the links, all different.
+        Names of the links; no two are equal.
     mass, length, centroid, moment, radius_of_gyration : array, shape (N,)
         The moment of inertia is that across the link, about its centre of gravity.
     ratio : array, shape (2, N)
@@ -47,7 +47,7 @@ class Mechanism:
     wheeled : array of bool, shape (N,)
         Whether a link has a wheel that carries an angular momentum along it.
     radius, stiffness, carriage : float
-        Of the support; the stiffness is infinite where it is firm.
+        Radius and stiffness of the support, and the mass that moves with it; a firm support has infinite stiffness.
     turning : float
         Moment of inertia of the support about the axis.
     gravity : float
@@ -226,6 +226,6 @@ def _steady(name: str, shape: SteadyShape, made: Mechanism, momentum: Floats, ax
 
 
 def _rates(made: Mechanism, momentum: Floats, speed: float, inclination: Floats) -> Floats:
-    """Of wheels whose moment is that of their links, relative to the links, which turn with the figure."""
+    """Speeds of the wheels relative to their links. A wheel has the moment of inertia of its link."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(made.wheeled, momentum / made.moment - speed * np.cos(inclination), 0.0)

@@ -42,9 +42,9 @@ def to_mjcf(
     path : path-like, optional
         Where to write the text.
     gravity : float, optional
-        Of a system, m/s^2; standard gravity if left out. A shape has its own.
+        Acceleration of gravity, m/s^2; standard gravity if left out. Only for a system: a shape has its own.
     timestep : float, optional
-        Of the integrator, s. If left out: a thousandth of a turn, less for links that oscillate faster.
+        Time step of the integrator, s. If left out: a thousandth of a turn, less for links that oscillate faster.
 
     Returns
     -------

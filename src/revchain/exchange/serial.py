@@ -95,7 +95,7 @@ class Serial:
         raise ValueError(f"{self.place}: {why}")
 
     def _name(self, kind: str, number: int) -> str:
-        """Of a body or joint, for messages."""
+        """The name of a body or joint, for messages."""
         name = getattr(self.model, kind)(number).name
         return f"{kind} {name!r}" if name else f"{kind} number {number}"
 
@@ -262,7 +262,7 @@ class Serial:
         return ("one hinge", axes[0]) if len(hinges) == 1 else ("two hinges", None)
 
     def _moments(self, body: int, axis: Floats, hinge: Floats | None, name: str) -> tuple[float, float]:
-        """Of inertia about the centre of gravity, across the link and along it."""
+        """Moments of inertia about the centre of gravity, across the link and along it."""
         model = self.model
         frame = self._matrix(model.body_iquat[body])
         inertia = frame @ np.diag(model.body_inertia[body]) @ frame.T

@@ -32,7 +32,7 @@ def to_urdf(
     path : path-like, optional
         Where to write the text.
     gravity : float, optional
-        Of a system given by weight, m/s^2; standard gravity if left out. A shape has its own.
+        Acceleration of gravity, m/s^2, for a system given by weight; standard gravity if left out. A shape has its own.
 
     Returns
     -------

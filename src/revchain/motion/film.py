@@ -51,7 +51,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Bodies:
-    """What the links carry; arrays have one number for each body."""
+    """Bodies, rods and wheels of the links; arrays have one number for each body."""
 
     link: Whole = field(default_factory=lambda: np.zeros(0, int))
     along: Floats = field(default_factory=lambda: np.zeros(0))  # from the upper pin, over the length of the link

@@ -18,7 +18,7 @@ from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
 from .held_sensitivity import held_shape_sensitivity
 from .shape_sensitivity import ShapeSensitivity
-from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, in_space, is_driven, judged
+from .shapes import Shape, Stability, SteadyShapes, at_speed, force_above, forced, is_driven, judged
 from .sheet import Column, Sheet
 
 
@@ -310,7 +310,7 @@ class HeldShape(_HeldShape):
     reaction: Field[Floats] = Field(
         "Force at each pin on what is below it, x, y, z in the axes of `position`, shape (N + 1, 3), N or in the unit of the "
         "weights; at the lower end the force on the bearing.",
-        lambda s: in_space(x=-s.tension * np.sin(s.force_inclination), z=s.tension * np.cos(s.force_inclination)),
+        lambda s: force_above(s.tension, s.force_inclination),
     )
     error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.", part=True)
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)

@@ -132,6 +132,11 @@ def in_space(x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0) -> Floa
     return np.stack(np.broadcast_arrays(*(np.asarray(each, np.float64) for each in (x, y, z))), axis=-1)
 
 
+def force_above(size: Floats, inclination: Floats) -> Floats:
+    """Forces of the links above pins on what hangs below, from their sizes and their inclinations to the vertical."""
+    return in_space(x=-size * np.sin(inclination), z=size * np.cos(inclination))
+
+
 class Shape(Result, Moving):
     """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
 
@@ -235,7 +240,7 @@ class SteadyShape(Shape):
     reaction: Field[Floats] = Field(
         "Force on each link at its upper pin, x, y, z in the axes of `position`, shape (N, 3), N or in the unit of the "
         "weights.",
-        lambda s: in_space(x=-s.tension * np.sin(s.reaction_inclination), z=s.tension * np.cos(s.reaction_inclination)),
+        lambda s: force_above(s.tension, s.reaction_inclination),
     )
     residual: Field[float] = Field(
         "Largest moment about a pin of the chain below it, divided by total weight times total length.", part=True
