@@ -61,7 +61,7 @@ def test_bounds_of_c_plus_plus_dependencies_are_those_of_cmake(recipes, cmake):
 def test_bounds_of_python_dependencies_are_those_of_pyproject(recipes, project):
     cpp, python = yaml.safe_load(recipes["recipe.yaml"])["outputs"]
     assert (cpp["package"]["name"], python["package"]["name"]) == ("revchain-cpp", "revchain")
-    needed = project["project"]["dependencies"] + project["project"]["optional-dependencies"]["cli"]
+    needed = project["project"]["dependencies"]
     assert python["requirements"]["run"] == ["python", *(line.replace(">=", " >=") for line in needed)]
     build = dict(line.split(">=") for line in project["build-system"]["requires"] if "eigen" not in line)
     assert {f"{name} >={bound}" for name, bound in build.items()} < set(python["requirements"]["host"])
@@ -70,9 +70,9 @@ def test_bounds_of_python_dependencies_are_those_of_pyproject(recipes, project):
         assert f" {debian[name]} (>= {bound})," in recipes["control"]
 
 
-def test_extras_that_debian_recommends_and_suggests_exist(repository, project):
+def test_extras_that_debian_suggests_exist(repository, project):
     rules = (repository / "debian/rules").read_text(encoding="utf-8")
-    sections = re.findall(r"--(?:recommends|suggests)-section=(\w+)", rules)
+    sections = re.findall(r"--suggests-section=(\w+)", rules)
     assert sections
     assert set(sections) <= set(project["project"]["optional-dependencies"])
 
