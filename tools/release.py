@@ -27,8 +27,8 @@ NUMBER = r"\d+\.\d+\.\d+"
 STATED = {
     "CMakeLists.txt": rf"(?m)^(project\(revchain VERSION )({NUMBER})",
     "CITATION.cff": rf"(?m)^(version: )({NUMBER})$",
-    "packaging/conda/recipe.yaml": rf'(?m)^(  version: ")({NUMBER})"$',
-    "packaging/vcpkg/revchain/vcpkg.json": rf'(?m)^(  "version": ")({NUMBER})"',
+    "packaging/conda/recipe.yaml": rf'(?m)^(  version: ")({NUMBER})',
+    "packaging/vcpkg/revchain/vcpkg.json": rf'(?m)^(  "version": ")({NUMBER})',
     "debian/changelog": rf"\A(revchain \()({NUMBER})",
 }
 
@@ -37,17 +37,20 @@ class Refused(Exception):
     """What is wrong with the files, one line for each problem."""
 
 
+def read(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
 def version_of(root: Path) -> str:
-    text = (root / "CMakeLists.txt").read_text(encoding="utf-8")
-    if not (stated := re.search(STATED["CMakeLists.txt"], text)):
+    if not (stated := re.search(STATED["CMakeLists.txt"], read(root / "CMakeLists.txt"))):
         raise Refused("CMakeLists.txt: has no version. Write: project(revchain VERSION X.Y.Z")
     return stated[2]
 
 
 def release_date(root: Path, version: str) -> date:
     """The date of the section of CHANGELOG.md for the version, which must be the first and must say something."""
-    text = (root / "CHANGELOG.md").read_text(encoding="utf-8")
-    name, _, section = next(iter(re.split(r"(?m)^## ", text)[1:]), "").partition("\n")
+    sections = re.split(r"(?m)^## ", read(root / "CHANGELOG.md"))[1:]
+    name, _, section = (sections[0] if sections else "").partition("\n")
     found, _, when = name.partition(" ")
     if found != version:
         raise Refused(
@@ -70,12 +73,15 @@ def problems(root: Path) -> Iterator[str]:
     for name, pattern in STATED.items():
         if not (path := root / name).exists():
             continue
-        stated = re.search(pattern, path.read_text(encoding="utf-8"))
+        stated = re.search(pattern, read(path))
         if (found := stated[2] if stated else "none") != version:
-            yield f"{name}: the version must be {version}, as in CMakeLists.txt, it is {found}. Run: tools/release bump {version}"
+            yield (
+                f"{name}: the version must be {version}, as in CMakeLists.txt, it is {found}. "
+                f"Run: tools/release bump {version}"
+            )
     try:
         line = f"date-released: {release_date(root, version)}"
-        if line not in (root / "CITATION.cff").read_text(encoding="utf-8").splitlines():
+        if line not in read(root / "CITATION.cff").splitlines():
             yield f"CITATION.cff: the line '{line}' is missing. Run: tools/release bump {version}"
     except Refused as error:
         yield str(error)
@@ -88,7 +94,7 @@ def bump(root: Path, version: str) -> None:
     for name, pattern in STATED.items():
         if not (path := root / name).exists():
             continue
-        text = path.read_text(encoding="utf-8")
+        text = read(path)
         if name == "CITATION.cff":
             text = re.sub(r"(?m)^date-released: .*\n", "", text)
             text = re.sub(pattern, rf"\g<1>\g<2>\ndate-released: {when}", text)
@@ -118,22 +124,21 @@ def sbom(root: Path, gsl: str, when: datetime) -> str:
         licences = [LicenseExpression(licence)] if licence else []
         return Component(name=name, version=version, purl=purl, bom_ref=str(purl), licenses=licences, **more)
 
-    pins = dict(re.findall(r"(?m)^([\w-]+)==(\S+)$", (root / "tools/build_constraints.txt").read_text(encoding="utf-8")))
-    three = json.loads((root / "src/revchain/motion/viewer/package.json").read_text(encoding="utf-8"))["dependencies"]["three"]
-    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    pins = dict(re.findall(r"(?m)^([\w-]+)==(\S+)$", read(root / "tools/build_constraints.txt")))
+    viewer = json.loads(read(root / "src/revchain/motion/viewer/package.json"))["dependencies"]
+    project = tomllib.loads(read(root / "pyproject.toml"))["project"]
     itself = component("pypi", "revchain", version_of(root), project["license"], description=project["description"])
     contained = [
         component("generic", "gsl", gsl, "GPL-3.0-or-later", description="GNU Scientific Library, linked statically"),
         component("pypi", "cmeel-eigen", pins["cmeel-eigen"], "MPL-2.0", description="Eigen, compiled in"),
         component("pypi", "pybind11", pins["pybind11"], "BSD-3-Clause", description="compiled in"),
-        component("npm", "three", three, "MIT", description="three.js, in revchain/motion/viewer.min.js"),
+        component("npm", "three", viewer["three"], "MIT", description="three.js, in revchain/motion/viewer.min.js"),
     ]
     installed: dict[str, dict[str, str]] = {}  # name -> extra, '' for none -> versions
-    users = {name: needs for name, needs in project["optional-dependencies"].items() if name not in {"all", "docs", "test"}}
-    for extra, needs in {"": project["dependencies"], **users}.items():
+    for extra, needs in {"": project["dependencies"], **project["optional-dependencies"]}.items():
         for need in needs:
             name, versions = re.fullmatch(r"([\w.-]+)(?:\[.*\])?(.*)", need).groups()
-            if name != "revchain":
+            if name != "revchain" and extra not in {"docs", "test"}:
                 installed.setdefault(name, {})[extra] = versions
     beside = [
         component(
@@ -155,7 +160,7 @@ def sbom(root: Path, gsl: str, when: datetime) -> str:
 
 def run(*command: str | Path, where: Path = ROOT, **env: str) -> str:
     print("+", *command, flush=True)
-    result = subprocess.run(command, cwd=where, env=os.environ | env, text=True, stdout=subprocess.PIPE)
+    result = subprocess.run(command, check=False, cwd=where, env=os.environ | env, text=True, stdout=subprocess.PIPE)
     if result.returncode:
         raise Refused(f"{result.stdout}{' '.join(map(str, command))} failed with {result.returncode}")
     return result.stdout

@@ -3,6 +3,7 @@
 
 import importlib.util
 import json
+import re
 import shutil
 import zipfile
 from datetime import UTC, date, datetime
@@ -20,11 +21,12 @@ def release(repository):
 
 @pytest.fixture
 def tree(repository, tmp_path, release):
-    """A copy of the files that state the version, and a CHANGELOG ready for version 3.4.5."""
-    for name in release.STATED:
+    """A copy of the files that state the version, as if it were 0.1.0, and a CHANGELOG ready for version 3.4.5."""
+    for name, pattern in release.STATED.items():
         if (repository / name).exists():
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(repository / name, tmp_path / name)
+            text = (repository / name).read_text(encoding="utf-8")
+            (tmp_path / name).write_text(re.sub(pattern, r"\g<1>0.1.0", text), encoding="utf-8")
     (tmp_path / "CHANGELOG.md").write_text("# Changes\n\n## 3.4.5 (2027-01-31)\n\n- New.\n\n## 0.1.0 (unreleased)\n")
     return tmp_path
 
@@ -35,7 +37,8 @@ def test_bump_writes_one_version_everywhere(release, tree):
     release.bump(tree, "3.4.5")
     assert list(release.problems(tree)) == []
     assert release.version_of(tree) == "3.4.5"
-    assert all("3.4.5" in (tree / name).read_text() for name in before)
+    for name in before.keys() - {"CITATION.cff", "debian/changelog"}:
+        assert (tree / name).read_text() == before[name].replace("0.1.0", "3.4.5", 1)
     assert "date-released: 2027-01-31\n" in (tree / "CITATION.cff").read_text()
     after = {name: (tree / name).read_text() for name in before}
     release.bump(tree, "3.4.5")
