@@ -4,15 +4,12 @@
 #include "bindings.hpp"
 #include "revchain/cord.hpp"
 
-#include <pybind11/functional.h>
-
 namespace {
 
 using revchain::Cord;
 using revchain::CordBranch;
 using revchain::CordBranches;
 using revchain::Index;
-using CordFunction = std::function<double(double)>;
 
 template <class To, class From>
 py::array array_of(const std::vector<From>& values) {
@@ -32,28 +29,6 @@ std::vector<revchain::CordShape> on_branch(const Cord& cord, Index mode, const s
     if (name == "top_tension") options.top_tension = value;
     if (all) return revchain::shapes_on_branch(cord, options).shapes;
     return {revchain::steady_shape(cord, options)};
-}
-
-revchain::CordStart start_of(const py::object& given) {
-    if (given.is_none()) return {};
-    if (PyCallable_Check(given.ptr()) != 0) return given.cast<CordFunction>();
-    const auto array = given.cast<Array>();
-    return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
-}
-
-py::tuple swing(const Cord& cord, const py::object& offset, const py::object& velocity, const Array& time,
-                const Array& arc, Index count, double gravity) {
-    const revchain::CordSwingOptions options{
-        .offset = start_of(offset),
-        .velocity = start_of(velocity),
-        .time = {time.data(), time.data() + time.size()},
-        .arc_length = Eigen::Map<const revchain::Vector<double>>(arc.data(), arc.size()),
-        .count = count,
-        .gravity = gravity};
-    const auto found = without_lock([&] { return revchain::swing(cord, options); });
-    return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
-                          to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
-                          found.energy_left_out, to_numpy(found.error_estimate));
 }
 
 }  // namespace
@@ -109,14 +84,4 @@ void bind_cord_branches(py::module_& module) {
             return *shape;
         },
         "cord"_a, "height"_a, "half_waves"_a, "tip_offset"_a, "at_fold"_a);
-    module.def(
-        "cord_stability",
-        [](const Cord& cord, const revchain::CordShape& shape, bool driven) {
-            const py::gil_scoped_release release;
-            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return revchain::stability(cord, shape, frame);
-        },
-        "cord"_a, "shape"_a, "driven"_a);
-    module.def("cord_swing", &swing, "cord"_a, "offset"_a, "velocity"_a, "time"_a, "arc_length"_a, "count"_a,
-               "gravity"_a);
 }

@@ -29,9 +29,8 @@ void bind_finite(py::module_& module) {
     };
     py::class_<SteadyShape>(module, "SteadyShape", "A steady shape of a whirling chain.")
         .def(py::init([](const Array& inclination, const Array& offset, const Array& height, const Array& tension,
-                         const Array& reaction_inclination, revchain::Index half_waves, double conical_height,
-                         double residual, double error_bound, double condition, double moment_of_inertia,
-                         double effective_energy) {
+                         const Array& reaction_inclination, int half_waves, double conical_height, double residual,
+                         double error_bound, double condition, double moment_of_inertia, double effective_energy) {
                  const auto vector = [](const Array& x) {
                      return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(x.data(), x.size()));
                  };

@@ -3,7 +3,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/cord.hpp"
+#include "revchain/finite/stability/cord.hpp"
 #include "revchain/held.hpp"
 #include "revchain/stability.hpp"
 
@@ -77,12 +77,12 @@ py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
 
 template <class Shape>
 void def_branches(py::module_& module, const char* name) {
-    using Branch = revchain::HeldBranchOf<Shape>;
-    py::class_<Branch>(module, name, "A branch of steady shapes of a system held at a span.")
-        .def_readonly("mode", &Branch::mode)
-        .def_readonly("shapes", &Branch::shapes)
-        .def_readonly("folds", &Branch::folds)
-        .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); });
+    using Found = revchain::HeldBranchOf<Shape>;
+    py::class_<Found>(module, name, "A branch of steady shapes of a system held at a span.")
+        .def_readonly("mode", &Found::mode)
+        .def_readonly("shapes", &Found::shapes)
+        .def_readonly("folds", &Found::folds)
+        .def_property_readonly("end", [](const Found& b) { return std::string(to_string(b.end)); });
 }
 
 template <class System>

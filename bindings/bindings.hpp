@@ -90,13 +90,13 @@ void bind_linear(py::module_& module);
 void bind_rig_modes(py::module_& module);
 void bind_finite(py::module_& module);
 void bind_branches(py::module_& module);
+void bind_analytic(py::module_& module);
 void bind_cord(py::module_& module);
 void bind_held(py::module_& module);
 void bind_two_links(py::module_& module);
 void bind_diagrams(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_points(py::module_& module);
-void bind_elliptic(py::module_& module);
 void bind_response(py::module_& module);
 void bind_models(py::module_& module);
 

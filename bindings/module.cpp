@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gsl/gsl_errno.h>
-
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -37,9 +35,6 @@ void tell_of_memory(std::exception_ptr thrown) {  // NOLINT(performance-unnecess
 
 PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     module.doc() = "Compiled core of revchain; use the package, not this module.";
-    // Where GSL is linked statically, as in our wheels, this handler is the module's own copy; the headers never reach
-    // one in either case.
-    gsl_set_error_handler_off();
     py::register_local_exception_translator(tell_of_memory);
     bind_core(module);
     bind_chain(module);
@@ -50,12 +45,12 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_finite(module);
     bind_branches(module);
     bind_cord(module);
+    bind_analytic(module);
     bind_held(module);
     bind_two_links(module);
     bind_diagrams(module);
     bind_batch(module);
     bind_points(module);
-    bind_elliptic(module);
     bind_response(module);
     bind_models(module);
     refuse_old_pickles(module);

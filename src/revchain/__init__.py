@@ -24,6 +24,8 @@ Closed forms
 Files
     Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
     from_urdf
+C++
+    cmake_prefix: the folder of the C++ headers in this package
 
 Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Links and pins are
 counted from 0, modes from 1. The *conical height* of a speed is ``gravity / speed**2``, the height of the conical
@@ -92,6 +94,7 @@ from .systems.rig import Rig as Rig
 from .systems.rig import Support as Support
 
 if _TYPE_CHECKING:
+    from .cli.headers import cmake_prefix as cmake_prefix
     from .closed_forms import conical_pendulum as conical_pendulum
     from .closed_forms import elliptic as elliptic
     from .closed_forms import hoop as hoop
@@ -149,6 +152,7 @@ _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "TransverseModes": "closed_forms.statics",
     "funicular_polygon": "closed_forms.statics",
     "transverse_modes": "closed_forms.statics",
+    "cmake_prefix": "cli.headers",
     "load": "results.storage",
     "to_mjcf": "exchange.mjcf",
     "to_urdf": "exchange.urdf",
@@ -186,7 +190,7 @@ def __getattr__(name: str) -> _Any:
         from .systems.extras import require
 
         try:
-            require("msgspec", "cli", "a scene file")
+            require("msgspec", None, "a scene file")
         except ImportError as error:
             raise AttributeError(str(error)) from error
         value = getattr(_import_module(f".{_OF_FILES[name]}", __name__), name)

@@ -10,14 +10,27 @@ from .cli.exit_codes import ExitCode
 NEEDED = ("typer", "rich", "msgspec")
 
 
+def _print_cmake_prefix() -> int:
+    from .cli.headers import cmake_prefix
+
+    try:
+        print(cmake_prefix())
+    except FileNotFoundError as error:
+        print(error, file=sys.stderr)
+        return ExitCode.WRONG_USAGE
+    return ExitCode.OK
+
+
 def main() -> int:
     """Run the command line; the exit code is returned."""
+    if sys.argv[1:] == ["--cmake-prefix"]:  # builds of C++ ask for it where typer need not be installed
+        return _print_cmake_prefix()
     try:
         from .cli.app import run
     except ModuleNotFoundError as error:
         if error.name not in NEEDED:
             raise
-        print(f'The command line needs {error.name}: pip install "revchain[cli]"', file=sys.stderr)
+        print(f"The command line needs {error.name}: pip install {error.name}", file=sys.stderr)
         return ExitCode.WRONG_USAGE
     return run()
 

@@ -67,8 +67,7 @@ grep -q '^Total Tests: 0$' log || { cat log; fail 'BUILD_TESTING=OFF leaves test
 say 'find_package(revchain COMPONENTS analytic)'
 build analytic analytic
 
-package=$(echo "$root"/.venv/lib/python3*/site-packages/revchain)
-if [[ -d $package/share/cmake ]]; then
+if package=$("$root/.venv/bin/python" -m revchain --cmake-prefix 2>/dev/null); then
   say 'find_package in the installed Python package'
   build in_python light -DCMAKE_PREFIX_PATH="$package"
   grep -q "$package/include" in_python/build.ninja || fail 'the headers are not those of the Python package'

@@ -530,11 +530,24 @@ def test_a_reader_that_stops_early():
 
 
 @pytest.mark.parametrize("missing", ["typer", "rich", "msgspec"])
-def test_without_the_extra(python, without, missing):
+def test_without_a_package(python, without, missing):
     program = without(missing) + "from revchain.__main__ import main\nsys.exit(main())\n"
     done = python("-c", program)
     assert done.returncode == 2
-    assert done.stdout == "" and done.stderr == f'The command line needs {missing}: pip install "revchain[cli]"\n'
+    assert done.stdout == "" and done.stderr == f"The command line needs {missing}: pip install {missing}\n"
+
+
+def test_cmake_prefix(python, without, tmp_path, monkeypatch):
+    program = without("typer", "msgspec") + "from revchain.__main__ import main\nsys.exit(main())\n"
+    done = python("-c", program, "--cmake-prefix")
+    assert done.returncode == 0 and done.stdout == f"{rc.cmake_prefix()}\n", done.stderr
+    for name in ("share/cmake/revchain/revchain-config.cmake", "share/pkgconfig/revchain.pc", "include/revchain/modes.hpp"):
+        assert (Path(rc.cmake_prefix()) / name).is_file()
+    done = python("-m", "revchain", "--cmake-prefix", "modes")
+    assert done.returncode == 2 and "--cmake-prefix must be the only argument" in done.stderr
+    monkeypatch.setattr(rc, "__path__", [str(tmp_path)])
+    with pytest.raises(FileNotFoundError, match=f"no C\\+\\+ headers in {tmp_path}; install a wheel"):
+        rc.cmake_prefix()
 
 
 def test_without_matplotlib(python, without):

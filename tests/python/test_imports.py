@@ -9,7 +9,7 @@ import pytest
 
 import revchain as rc
 
-OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
+OPTIONAL = ["matplotlib", "msgspec", "tomlkit", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
 OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "mujoco"]
 
 
@@ -41,7 +41,7 @@ def test_everything_but_the_extras_works_without_them(python, without):
     assert lines[:2] == ['plotting needs matplotlib: pip install "revchain[plot]"'] * 2
     assert lines[2] == 'to_xarray needs xarray: pip install "revchain[netcdf]"'
     assert lines[3].endswith('pip install "revchain[netcdf]"') and lines[4].endswith('pip install "revchain[netcdf]"')
-    assert lines[5] == 'a scene file needs msgspec: pip install "revchain[cli]"'
+    assert lines[5] == "a scene file needs msgspec: pip install msgspec"
 
 
 @pytest.mark.parametrize("missing", OPTIONAL)

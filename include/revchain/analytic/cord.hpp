@@ -359,9 +359,10 @@ inline CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
 }
 
 inline Tuned tune(const Cord&, const TuneOptions&) {
-    detail::throw_invalid("tune",
-                          "a Cord cannot be tuned yet; the heights of a cord of one density go with its length, "
-                          "so that length times wanted height over modes(cord) gives the length");
+    detail::throw_invalid(
+        "tune",
+        "a Cord cannot be tuned yet in C++ (Python's revchain.tune does it); its heights are proportional to its "
+        "length, so multiply the length by the wanted height over that of modes(cord)");
 }
 
 inline Explanation explain(const Cord&, const ModesOptions<double>&) {

@@ -111,8 +111,13 @@ def common(
     version: Annotated[
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
     ] = False,
+    cmake_prefix: Annotated[
+        bool, typer.Option("--cmake-prefix", help="Print the folder of the C++ headers, for CMake, and end.")
+    ] = False,
 ) -> None:
     """Whirl speeds and shapes of hanging chains, with error bounds."""
+    if cmake_prefix:  # alone it is answered by __main__, which does not need typer
+        raise typer.BadParameter("--cmake-prefix must be the only argument")
 
 
 def save_picture(axes: Any, title: str, path: Path) -> None:

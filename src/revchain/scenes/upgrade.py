@@ -94,7 +94,7 @@ def _put(table: Data, new: str, make: Callable[..., Any], *old: str) -> None:
         table.pop(name, None)
     value = make(*(item.unwrap() if document is not None else item for item in items))
     if document is not None:
-        tomlkit = require("tomlkit", "cli", "--upgrade")
+        tomlkit = require("tomlkit", None, "--upgrade")
         entries, value = value, tomlkit.inline_table() if isinstance(value, dict) else tomlkit.item(value)
         if isinstance(entries, dict):
             value.update(entries)
@@ -117,7 +117,7 @@ def upgraded_text(text: str, is_json: bool) -> str:
             upgrade(data)
             return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
         return text
-    tomlkit = require("tomlkit", "cli", "--upgrade")
+    tomlkit = require("tomlkit", None, "--upgrade")
     plain = tomlkit.parse(text).unwrap()
     if not old_keys(plain):
         return text
