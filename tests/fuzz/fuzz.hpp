@@ -133,7 +133,7 @@ inline void expect_number(double result) {
     if (std::isnan(result)) throw std::runtime_error("a result is NaN");
 }
 
-inline constexpr int longest_call = 60;  // seconds, under sanitizers
+inline constexpr int longest_call = 60;  // seconds of processor time, under sanitizers
 
 /// The case `number % 6`, wild if `number / 6` is even. Returns the message if the library refused the numbers, otherwise
 /// an empty text. Throws if a call fails or takes longer than `longest_call`.

@@ -9,8 +9,8 @@ cmake --preset fuzzer
 cmake --build --preset fuzzer
 program=build/fuzzer/tests/fuzz failures=build/fuzzer/failures log=build/fuzzer/log.txt
 mkdir -p $failures ${2+"$2"}
-# A call throws after 60 s; -timeout ends a loop that does not look at the time.
-if $program -seed=1 -max_len=512 -len_control=0 -timeout=90 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+# A call throws after 60 s of processor time; -timeout ends a loop that does not look at the time.
+if $program -seed=1 -max_len=512 -len_control=0 -timeout=300 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
   -artifact_prefix=$failures/ -max_total_time="$1" -print_final_stats=1 ${2+"$2"} >$log 2>&1; then
   awk '/ cov: / {reached = $4} /number_of_executed_units/ {calls = $2} /slowest_unit/ {slowest = $2}
     END {print calls " inputs passed, the slowest took " slowest " s; " reached " places in the code reached"}' $log
