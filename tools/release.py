@@ -233,7 +233,7 @@ def build(twice: bool) -> None:
                 raise Refused("the second build is not equal to the first:\n" + "\n".join(found))
             print("equal in both builds:", *sorted(path.name for path in first.iterdir()))
     run("git", "archive", f"--prefix=revchain-{version}/", "-o", dist / f"revchain-{version}-source.tar.gz", "HEAD")
-    gsl = run("pkg-config", "--modversion", "gsl").strip()
+    gsl = run("gsl-config", "--version").strip()
     text = sbom(ROOT, gsl, datetime.fromtimestamp(int(epoch), UTC))
     (dist / f"revchain-{version}.cdx.json").write_text(text, encoding="utf-8")
     run(ROOT / "tools/site")
