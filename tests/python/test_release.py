@@ -3,8 +3,10 @@
 
 import importlib.util
 import json
+import os
 import re
 import shutil
+import tarfile
 import zipfile
 from datetime import UTC, date, datetime
 
@@ -101,6 +103,20 @@ def test_bill_of_materials(release, repository):
     assert f'"{parts["three"]["version"].split(".")[1]}"' in bundle  # three.REVISION
     assert parts["numpy"]["scope"] == "required"
     assert parts["mujoco"]["scope"] == "optional"
+
+
+def test_archive_depends_on_contents_alone(release, tmp_path):
+    for number in range(2):
+        site = tmp_path / str(number)
+        for name in ("b", "a")[:: 1 - 2 * number]:  # written in the other order, and with another time, the second time
+            (site / name).mkdir(parents=True)
+            (site / name / "index.html").write_text(name)
+            os.utime(site / name / "index.html", (number, number))
+        (tmp_path / f"of{number}").mkdir()
+        release.archive(site, tmp_path / f"of{number}" / "x-site.tar.gz", 1_800_000_000)
+    assert list(release.differences(tmp_path / "of0", tmp_path / "of1")) == []
+    with tarfile.open(tmp_path / "of0" / "x-site.tar.gz") as tar:
+        assert tar.getnames() == ["x-site", "x-site/a", "x-site/a/index.html", "x-site/b", "x-site/b/index.html"]
 
 
 def test_differences_of_two_builds(release, tmp_path):
