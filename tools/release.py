@@ -183,7 +183,8 @@ def check() -> None:
 def packages(folder: Path, epoch: str, **env: str) -> Path:
     """The folder dist of a clone in `folder`, with the sdist and the wheel in it."""
     run("git", "clone", "--quiet", ROOT, folder)
-    env |= {"SOURCE_DATE_EPOCH": epoch, "PIP_CONSTRAINT": str(folder / "tools/build_constraints.txt")}
+    constraints = (folder / "tools/build_constraints.txt").as_uri()  # pip splits paths at spaces
+    env |= {"SOURCE_DATE_EPOCH": epoch, "PIP_CONSTRAINT": constraints}
     run(sys.executable, "-m", "build", "--sdist", "--outdir", folder / "dist", folder, **env)
     run(folder / "tools/wheel", where=folder, **env)
     return folder / "dist"
