@@ -43,7 +43,7 @@ def read(path: Path) -> str:
 
 def version_of(root: Path) -> str:
     if not (stated := re.search(STATED["CMakeLists.txt"], read(root / "CMakeLists.txt"))):
-        raise Refused("CMakeLists.txt: has no version. Write: project(revchain VERSION X.Y.Z")
+        raise Refused("CMakeLists.txt: has no version. Write: project(revchain VERSION X.Y.Z)")
     return stated[2]
 
 
