@@ -29,6 +29,8 @@ STATED = {
     "CITATION.cff": rf"(?m)^(version: )({NUMBER})$",
     "packaging/conda/recipe.yaml": rf'(?m)^(  version: ")({NUMBER})',
     "packaging/vcpkg/revchain/vcpkg.json": rf'(?m)^(  "version": ")({NUMBER})',
+    "docs/howto/cmake.md": rf"(revchain-)({NUMBER})(?=-source\.tar\.gz)",
+    "docs/install.md": rf"(revchain-)({NUMBER})(?=-FILE\.whl)",
     "debian/changelog": rf"\A(revchain \()({NUMBER})",
 }
 
