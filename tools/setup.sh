@@ -19,6 +19,7 @@ needs_table='
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
    clang     clang                     llvm      clang               clangxx
+   fuzzer    clang,libclang-rt-dev     llvm      clang,compiler-rt   clangxx,compiler-rt
    emscripten emscripten               emscripten emscripten         emscripten
    chromium  chromium                  chromium  chromium            chromium
 '
@@ -62,6 +63,8 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     lapack) printf 'extern "C" void dsterf_(); int main() { dsterf_(); }' |
       ${CXX:-c++} -x c++ - -llapack -o /dev/null 2>/dev/null || [ -n "${OPENBLAS_HOME-}" ] ;;
     clang) command -v clang++ || command -v clang++-14 || command -v clang++-19 ;;
+    fuzzer) printf 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+      clang++ -x c++ - -fsanitize=fuzzer,address,undefined -o /dev/null 2>/dev/null ;;
     emscripten) command -v emcc ;;
     chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;

@@ -1,27 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "revchain/rig.hpp"
 
-/// Random calls of the library with ordinary, extreme and invalid numbers. A call may return or throw InvalidArgument;
-/// sanitizers, hung calls and other exceptions end the program.
+/// Random calls of the library with ordinary, extreme and invalid numbers. A call may return or throw InvalidArgument.
+/// A report of a sanitizer, a hung call and any other exception are failures.
 namespace fuzz {
 
 using revchain::Chain;
 using revchain::Index;
 
+/// Random bits: the bytes of an input, if there is one, then a generator. The bytes also seed the generator.
+class Bits {
+   public:
+    using result_type = std::uint64_t;
+    static constexpr result_type min() { return 0; }
+    static constexpr result_type max() { return ~result_type(0); }
+
+    explicit Bits(std::uint64_t seed) : engine_(seed) {}
+    explicit Bits(std::span<const std::uint8_t> input) : input_(input) {
+        std::seed_seq seeds(input.begin(), input.end());
+        engine_.seed(seeds);
+    }
+
+    result_type operator()() { return take(sizeof(result_type)); }
+    /// Only as many bytes of the input as the count needs: then a change of one byte changes one choice.
+    std::uint64_t below(std::uint64_t count) { return take(count <= 256 ? 1 : sizeof(result_type)) % count; }
+
+   private:
+    result_type take(std::size_t bytes) {
+        if (input_.empty()) return engine_();
+        bytes = std::min(bytes, input_.size());
+        result_type result = 0;
+        std::memcpy(&result, input_.data(), bytes);
+        input_ = input_.subspan(bytes);
+        return result;
+    }
+
+    std::span<const std::uint8_t> input_;
+    std::mt19937_64 engine_;
+};
+
 class Random {
    public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
+    explicit Random(Bits bits) : bits_(bits) {}
 
-    std::uint64_t below(std::uint64_t count) { return engine_() % count; }
+    std::uint64_t below(std::uint64_t count) { return bits_.below(count); }
     bool one_in(std::uint64_t count) { return below(count) == 0; }
-    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits_); }
     double power(double decades) { return std::pow(10.0, between(-decades, decades)); }
     template <class T>
     T pick(std::initializer_list<T> values) {
@@ -90,7 +125,7 @@ class Random {
     bool wild = false;
 
    private:
-    std::mt19937_64 engine_;
+    Bits bits_;
 };
 
 /// Results may be infinite, but no silent NaN.
@@ -98,7 +133,13 @@ inline void expect_number(double result) {
     if (std::isnan(result)) throw std::runtime_error("a result is NaN");
 }
 
-// Each in <name>.cpp: one random call or a few.
+inline constexpr int longest_call = 60;  // seconds of processor time, under sanitizers
+
+/// The case `number % 6`, wild if `number / 6` is even. Returns the message if the library refused the numbers, otherwise
+/// an empty text. Throws if a call fails or takes longer than `longest_call`.
+std::string run(std::uint64_t number, Random random);
+
+// Each in <name>.cpp.
 void linear(Random& random);
 void rigs(Random& random);
 void shapes(Random& random);

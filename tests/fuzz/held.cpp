@@ -28,8 +28,8 @@ void fuzz::held(Random& random) {
         const double span = hung.total_length() * random.between(0.01, 1.01);
         const revchain::HeldBy by =
             random.one_in(2) ? revchain::HeldBy{.span = span} : revchain::HeldBy{.tension = tension};
-        const auto found =
-            revchain::steady_shapes(revchain::Held(hung, by), {.conical_height = height, .max_half_waves = waves});
+        const auto found = revchain::steady_shapes(revchain::Held(hung, by),
+                                                   {.conical_height = height, .max_half_waves = waves, .budget = 3000});
         for (const revchain::HeldShape& shape : found.shapes) {
             fuzz::expect_number(shape.inclination.sum());
             fuzz::expect_number(shape.error_bound);

@@ -72,7 +72,7 @@ using CordFunction = std::function<double(double)>;
 /// The function of a start: nothing where there is none.
 template <class Start>
 CordFunction function_of(std::string_view name, const Start& start, const Vector<double>& places, double length) {
-    constexpr std::string_view place = "swing";
+    static constexpr std::string_view place = "swing";  // static: clang 14 refuses it uncaptured in the lambda
     CordFunction given;
     if (const auto* function = std::get_if<CordFunction>(&start)) {
         if (!*function) throw_invalid(place, std::string(name) + " must be a function, not an empty one");
