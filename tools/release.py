@@ -29,6 +29,8 @@ STATED = {
     "CITATION.cff": rf"(?m)^(version: )({NUMBER})$",
     "packaging/conda/recipe.yaml": rf'(?m)^(  version: ")({NUMBER})',
     "packaging/vcpkg/revchain/vcpkg.json": rf'(?m)^(  "version": ")({NUMBER})',
+    "docs/howto/cmake.md": rf"(revchain-)({NUMBER})(?=-source\.tar\.gz)",
+    "docs/install.md": rf"(revchain-)({NUMBER})(?=-FILE\.whl)",
     "debian/changelog": rf"\A(revchain \()({NUMBER})",
 }
 
@@ -43,7 +45,7 @@ def read(path: Path) -> str:
 
 def version_of(root: Path) -> str:
     if not (stated := re.search(STATED["CMakeLists.txt"], read(root / "CMakeLists.txt"))):
-        raise Refused("CMakeLists.txt: has no version. Write: project(revchain VERSION X.Y.Z")
+        raise Refused("CMakeLists.txt: has no version. Write: project(revchain VERSION X.Y.Z)")
     return stated[2]
 
 

@@ -296,7 +296,7 @@ TEST_CASE("cord: wrong cords, and questions without an answer") {
             }
         }
 
-    CHECK_THROWS_WITH(revchain::tune(cord, {}), ContainsSubstring("gives the length"));
+    CHECK_THROWS_WITH(revchain::tune(cord, {}), ContainsSubstring("multiply the length by the wanted height over that of modes(cord)"));
     CHECK_THROWS_WITH(revchain::explain(cord), ContainsSubstring("CordModes::method"));
 
     revchain::Progress progress;
