@@ -8,7 +8,7 @@ void bind_cord_modes(py::module_& module);
 void bind_cord_branches(py::module_& module);
 void bind_elliptic(py::module_& module);
 
-/// What needs GSL; without_analytic.cpp takes its place in a module without GSL.
+/// Binds everything that needs GSL. A module without GSL is built from without_analytic.cpp and not from this file.
 void bind_analytic(py::module_& module) {
     // Where GSL is linked statically, as in our wheels, this handler is the module's own copy; the headers never reach
     // one in either case.

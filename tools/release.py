@@ -36,7 +36,7 @@ STATED = {
 
 
 class Refused(Exception):
-    """What is wrong with the files, one line for each problem."""
+    """The release cannot be made. The message has one line for each problem."""
 
 
 def read(path: Path) -> str:
