@@ -51,9 +51,10 @@ struct Taylor : Derivatives<T, D> {
     [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const Taylor& g) {
         return combined(f, g, [](const Interval<T>& x, const Interval<T>& y) REVCHAIN_INLINED { return x - y; });
     }
-    [[gnu::always_inline]] friend Taylor operator-(Taylor f, const Interval<T>& constant) {
-        f.value = f.value - constant, f.centre_value = f.centre_value - constant;
-        return f;
+    [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const Interval<T>& constant) {
+        Taylor r = f;  // a parameter by value of this alignment makes GCC print a note
+        r.value = f.value - constant, r.centre_value = f.centre_value - constant;
+        return r;
     }
     [[gnu::always_inline]] friend Taylor operator*(const Interval<T>& k, const Taylor& f) {
         return combined(f, f, [&](const Interval<T>& x, const Interval<T>&) REVCHAIN_INLINED { return k * x; });
