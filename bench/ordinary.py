@@ -84,12 +84,6 @@ def dense(diagonal, off):
     return full
 
 
-def symmetrised(links):
-    K, off, M, _ = links.pencil()
-    scale = 1 / np.sqrt(M)
-    return K * scale**2, off * scale[:-1] * scale[1:], scale
-
-
 # ---- revchain: heights, shapes
 
 
@@ -111,53 +105,127 @@ def our_wheels(links):
     return np.sort(found.conical_height)[::-1], found.shape
 
 
-# ---- peers
+# ---- peers: the leanest programs that we could write, without checks and with one triangle of each matrix
+
+
+def pencil_matrices(links, held=True):
+    """K and M assembled; the lower triangle is enough for eigh."""
+    K, off, M, cross = links.pencil(held)
+    return lower_triangle(K, off), lower_triangle(M, cross)
+
+
+def lower_triangle(diagonal, below):
+    n = len(diagonal)
+    full = np.zeros((n, n))
+    flat = full.reshape(-1)
+    flat[:: n + 1] = diagonal
+    flat[n :: n + 1] = below
+    return full
 
 
 def numpy_eigh(links):
-    diagonal, off, scale = symmetrised(links)
-    values, vectors = np.linalg.eigh(dense(diagonal, off))
+    """Point masses: M^-1/2 K M^-1/2, whose vectors are divided by the root of the mass."""
+    k, scale = links.weight.cumsum() / links.length, links.weight**-0.5
+    diagonal = k.copy()
+    diagonal[1:] += k[:-1]
+    values, vectors = np.linalg.eigh(lower_triangle(diagonal * scale * scale, -k[:-1] * scale[:-1] * scale[1:]))
     return 1 / values, vectors.T * scale
 
 
+def by_inclination(weight, length, more):
+    """Heights as eigenvalues: with the inclinations as unknowns K is diagonal and M needs an outer product.
+
+    Slowest first they come last; the matrix is scaled by the roots of K.
+    """
+    h = more.get("centroid", length)
+    below = weight.cumsum() - weight
+    kappa = weight * h + length * below
+    root = np.sqrt(kappa)
+    full = np.outer(length / root, root)  # of link j and a link i below it: a_j kappa_i / (root_i root_j)
+    inertia = weight * (h * h + more.get("radius_of_gyration", 0.0) ** 2) + length * length * below
+    full.reshape(-1)[:: len(weight) + 1] = inertia / kappa
+    return full, root
+
+
+def offsets_of(vectors, root, length):
+    """Offsets of the pins, a row for each mode: sums of length times inclination from the support down."""
+    turned = vectors.T * (length / root)
+    return np.cumsum(turned[:, ::-1], axis=1)[:, ::-1]
+
+
+def numpy_inclinations(links):
+    full, root = by_inclination(links.weight, links.length, links.more)
+    values, vectors = np.linalg.eigh(full)
+    return values[::-1], offsets_of(vectors, root, links.length)[::-1]
+
+
 def numpy_eigvalsh(links):
-    diagonal, off, _ = symmetrised(links)
-    return 1 / np.linalg.eigvalsh(dense(diagonal, off)), None
+    return np.linalg.eigvalsh(by_inclination(links.weight, links.length, links.more)[0])[::-1], None
 
 
 def tridiagonal(links, count=None, vectors=True):
-    diagonal, off, scale = symmetrised(links)
+    k, scale = links.weight.cumsum() / links.length, links.weight**-0.5
+    diagonal = k.copy()
+    diagonal[1:] += k[:-1]
     chosen = {} if count is None else {"select": "i", "select_range": (0, count - 1)}
+    pair = diagonal * scale * scale, -k[:-1] * scale[:-1] * scale[1:]
     if not vectors:
-        return 1 / linalg.eigvalsh_tridiagonal(diagonal, off, **chosen), None
-    values, found = linalg.eigh_tridiagonal(diagonal, off, **chosen)
+        return 1 / linalg.eigvalsh_tridiagonal(*pair, check_finite=False, **chosen), None
+    values, found = linalg.eigh_tridiagonal(*pair, check_finite=False, **chosen)
     return 1 / values, found.T * scale
 
 
+LEAN = {"check_finite": False, "overwrite_a": True, "overwrite_b": True}
+
+
 def generalised(links, count=None, vectors=True):
-    K, off, M, cross = links.pencil()
+    K, M = pencil_matrices(links)
     chosen = {} if count is None else {"subset_by_index": (0, count - 1)}
-    found = linalg.eigh(dense(K, off), dense(M, cross), eigvals_only=not vectors, **chosen)
+    found = linalg.eigh(K, M, eigvals_only=not vectors, **LEAN, **chosen)
     return (1 / found[0], found[1].T) if vectors else (1 / found, None)
 
 
 def inverted(links):
     """M first, which is what has to be definite for SciPy: K is as well, and the heights are the eigenvalues."""
-    K, off, M, cross = links.pencil()
-    values, vectors = linalg.eigh(dense(M, cross), dense(K, off))
+    K, M = pencil_matrices(links)
+    values, vectors = linalg.eigh(M, K, **LEAN)
     return values[::-1], vectors.T[::-1]
 
 
 def on_spring(links):
-    K, off, M, cross = links.pencil(held=False)
-    K[-1] += links.stiffness
-    values, vectors = linalg.eigh(dense(M, cross), dense(K, off))
+    K, M = pencil_matrices(links, held=False)
+    K[-1, -1] += links.stiffness
+    values, vectors = linalg.eigh(M, K, **LEAN)
     values = values[::-1]
     return values[values > 1e-14 * values[0]], vectors.T[::-1]
 
 
+def spring_as_link(links):
+    """The spring as one more massless thread: its length is the weight over the stiffness."""
+    weight = np.append(links.weight, 0.0)
+    length = np.append(links.length, links.weight.sum() / links.stiffness)
+    full, root = by_inclination(weight, length, {})
+    values, vectors = np.linalg.eigh(full)
+    values = values[::-1]
+    return values[values > 1e-14 * values[0]], offsets_of(vectors, root, length)[::-1]
+
+
+def wheels_by_inclination(links):
+    """n^2 M/g - n G - K with K diagonal: a definite pencil of twice the size, and one eigh of it."""
+    full, root = by_inclination(links.weight, links.length, links.more)
+    n = len(root)
+    both, mass = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, 2 * n))
+    flat = both.reshape(-1)
+    flat[: 2 * n * n : 2 * n + 1] = links.momentum / (root * root)
+    flat[2 * n * n :: 2 * n + 1] = 1.0
+    mass[:n, :n] = full / GRAVITY
+    mass.reshape(-1)[2 * n * n + n :: 2 * n + 1] = 1.0
+    values, vectors = linalg.eigh(both, mass, **LEAN)
+    return np.sort(GRAVITY / (values * values))[::-1], offsets_of(vectors[:n], root, links.length)
+
+
 def first_order(links):
-    """n^2 M/g - n G - K: wheels resist the difference of the inclinations of neighbours turning."""
+    """n^2 M/g - n G - K as a matrix of first order: wheels resist the difference of neighbours' inclinations."""
     K, off, M, cross = links.pencil()
     turned = links.momentum / links.length**2
     diagonal = turned.copy()
@@ -176,10 +244,12 @@ def first_order(links):
 
 JOBS = {
     "plummets, all modes with shapes": ("plummets", ours("all"), {
-        "numpy eigh": numpy_eigh, "scipy eigh(K, M)": generalised, "scipy eigh_tridiagonal": tridiagonal}),
-    "rods, all modes with shapes": ("rods", ours("all"), {"scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
+        "numpy eigh": numpy_eigh, "numpy eigh, inclinations": numpy_inclinations,
+        "scipy eigh_tridiagonal": tridiagonal}),
+    "rods, all modes with shapes": ("rods", ours("all"), {
+        "numpy eigh, inclinations": numpy_inclinations, "scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
     "random bodies, all modes with shapes": ("bodies", ours("all"), {
-        "scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
+        "numpy eigh, inclinations": numpy_inclinations, "scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
     "plummets, heights alone": ("plummets", ours("all", shapes=False), {
         "numpy eigvalsh": numpy_eigvalsh, "scipy eigvalsh_tridiagonal": lambda links: tridiagonal(links, vectors=False),
         "scipy eigh(K, M)": lambda links: generalised(links, vectors=False)}),
@@ -190,8 +260,10 @@ JOBS = {
         "revchain, rtol=1e-14": ours("all", shapes=False, rtol=1e-14)}),
     "rods, full accuracy against 1e-14": ("rods", ours("all", shapes=False), {
         "revchain, rtol=1e-14": ours("all", shapes=False, rtol=1e-14)}),
-    "rigs with springs": ("plummets", our_rig, {"scipy eigh(M, K)": on_spring}),
-    "rigs with flywheels": ("plummets", our_wheels, {"scipy eig, first order": first_order}),
+    "rigs with springs": ("plummets", our_rig, {
+        "scipy eigh(M, K)": on_spring, "numpy eigh, inclinations": spring_as_link}),
+    "rigs with flywheels": ("plummets", our_wheels, {
+        "scipy eigh, inclinations": wheels_by_inclination, "scipy eig, first order": first_order}),
 }
 WITHOUT_PEER = {  # nothing else lists steady shapes or their branches: kind, sizes, call
     "plummets, steady shapes": ("plummets", (2, 4, 8, 12), lambda links: rc.steady_shapes(
