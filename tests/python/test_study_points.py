@@ -30,7 +30,7 @@ def links(rng, kind="any", size=None):
 
 def speeds(rng, *more):
     ask = {"shapes": {"angular_speed": number(rng, 3.0, 12.0)}}
-    return ask | {name: {"angular_speed": [2.0, number(rng, 3.0, 9.0)]} for name in more} | {"modes": {"count": 3}}
+    return ask | {name: {"angular_speed": [2.0, number(rng, 3.0, 9.0)]} for name in more} | {"modes": {"count": 2}}
 
 
 def chain(rng):
