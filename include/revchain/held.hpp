@@ -40,6 +40,8 @@ struct HeldBy {
     Support upper{};          ///< of a chain: support of its upper end
 
     bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
+    /// Whether every steady shape lies in a plane: no torque about the axis acts at an end whose radius is 0.
+    bool planar() const { return lower.radius == 0 || upper.radius == 0; }
     bool firm() const { return lower.is_firm() && upper.is_firm(); }
 };
 
@@ -124,8 +126,10 @@ struct HeldShapesOptions {
 /// with this tension at the upper end. For a chain there follows every other shape found. Every link is in tension.
 /// `missing` lists the numbers of half waves for which no shape was found.
 /// `complete` true: it is proved that no other shape has one of these numbers of half waves. Otherwise `undecided`
-/// gives the ranges of the lowest link's inclination (rad) of possible other shapes. For a cord `complete` is true only
-/// at a span without gravity.
+/// gives the ranges of the lowest link's inclination (rad) of possible other shapes in the plane of the axis and the
+/// ends. For a cord `complete` is true only at a span without gravity.
+/// If both radii differ from 0, the arms can twist the chain, and shapes that leave that plane may exist. They are not
+/// looked for, and `complete` is false. `HeldBy::planar` is true for all other ends: every shape then lies in a plane.
 ///
 /// `HeldShape` (finite/held/shape.hpp) and `HeldCordShape` (finite/held/cord.hpp) give forces times the conical height.
 /// Divide by `conical_height` for the unit of the weights; without gravity multiply by the square of the speed for
@@ -139,8 +143,9 @@ struct HeldShapesOptions {
 /// none (finite/held/search.hpp). Lists proved complete (tests/cpp/held.cpp): 99 of 108 for 3, 6 and 9 links with
 /// l <= a and one half wave; none for chains with l > a or with massless links between others; few for two half waves
 /// or more. Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left. On
-/// arms and springs: all of 36 for 3 links and two half waves, 25 of 36 for 4 links and three; above the resonance of a
-/// carriage on its spring 8 of 24 for 3 links and three (tests/python/test_held_ends.py has part of them).
+/// arms and springs nothing is left undecided in all of 36 for 3 links and two half waves, and in 25 of 36 for 4 links
+/// and three; above the resonance of a carriage on its spring in 8 of 24 for 3 links and three
+/// (tests/python/test_held_ends.py has part of them).
 /// Method for cords: power series of degree 24; without gravity the shape is that of section 5, y = b sn(K x/a).
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, and their bound is mostly proved
 /// (tests/cpp/held.cpp). Places of cords are within 1e-13 of the length, and their bound is an estimate. The tension
@@ -159,9 +164,9 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// `gravity` over the square of the speed, with the gravity of the options. Modes of a held cord: cord.hpp.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
-/// next height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no
-/// effect.
+/// doubles enclose the height. Accuracy: 1 ulp. `error_bound` is this number, an estimate: rounding in the counts is
+/// not bounded. Shapes 1e-13 over the relative gap to the next height. Cost: 60 sweeps for each height, one for each
+/// shape. `method` and `other` of the options have no effect.
 /// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
 /// does not exceed the weight (the chain would not be straight), for `certify`, and for wrong numbers and windows as
 /// `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
@@ -192,8 +197,9 @@ struct HeldBranchesOptions {
 /// would begin stands for both.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
-/// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
-/// none. Accuracy: 1e-15 rad where `condition` is moderate, an estimate. Cost: some hundred shapes of 10 sweeps each.
+/// folds in double. Branches that begin elsewhere, or leave the plane of the ends, are not looked for: `steady_shapes`
+/// can prove at a speed that there are no other shapes. Accuracy: 1e-15 rad where `condition` is moderate, an estimate.
+/// Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, without gravity, for a step not positive, and unless exactly one of height and
 /// speed is given, positive and finite.
 /// A cord folds as it approaches the slowest speed, at which one of its two straight parts, hung from its end, begins

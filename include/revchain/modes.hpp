@@ -70,7 +70,7 @@ template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
     Vector<T> conical_height{};    ///< (k,) lambda, descending, in the chain's unit of length
-    Vector<T> error_bound{};       ///< (k,) relative to the exact conical height of the stored numbers
+    Vector<T> error_bound{};       ///< (k,) relative to the exact height of the stored numbers; of a Held an estimate
     Certificate<T> certificate{};  ///< empty unless asked for
     std::string method{};          ///< that found the heights
     Status status = Status::success;

@@ -66,3 +66,23 @@ TEST_CASE("held on arms and springs: 10,000 random systems within their proved b
     CHECK(unproved < shapes / 500);
     CHECK(sharp > 0.95 * shapes);
 }
+
+TEST_CASE("held on two arms: no list is complete, because shapes may leave the plane") {
+    support::Random random(21);
+    int planar = 0, twisted = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Chain<double> chain = support::chain_of(
+            3, [&](Index) { return revchain::plummet(random.between(0.2, 2), random.between(0.2, 2)); });
+        const double length = chain.total_length(), height = std::exp(random.between(-3, 0)) * length;
+        HeldBy by{.span = random.between(0.1, 0.8) * length};
+        by.lower = random_end(random, length, chain.total_weight(), height);
+        by.upper = random_end(random, length, chain.total_weight(), height);
+        if (by.firm() && std::hypot(*by.span, by.upper.radius - by.lower.radius) >= length) continue;
+        const auto found = revchain::steady_shapes(Held(chain, by), {.conical_height = height});
+        CHECK(by.planar() == (by.lower.radius == 0 || by.upper.radius == 0));
+        CHECK(found.complete == (by.planar() && found.undecided.empty()));
+        planar += found.complete, twisted += !by.planar() && found.undecided.empty();
+    }
+    CHECK(planar > 10);
+    CHECK(twisted > 10);
+}

@@ -201,7 +201,8 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
     Modes<double> result = detail::room_for_modes(range, options);
     result.method = "bisection";
     for (Index j = 0; j < range.count; ++j) {
-        detail::set_height(result, j, taut.height(range.first - 1 + j), epsilon<double>(), 0, options);
+        const double estimate = epsilon<double>();  // of the error: rounding in the counts is not bounded
+        detail::set_height(result, j, taut.height(range.first - 1 + j), estimate, 0, options);
         detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
     result.lazy_shapes =

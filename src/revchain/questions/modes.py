@@ -154,10 +154,10 @@ def modes(
     Proved counts of the exact heights decide which modes lie in a window: adjacent windows share no mode and miss none.
     A height just above `low` may be rounded to it.
 
-    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, proved by counts). Cost: bisection takes O(N)
-    for each halving, about 50 halvings for each mode; shapes take O(N) time and memory for each mode, when they are read.
-    Other Python threads can run meanwhile. For a rig whose speeds may be complex all speeds are found, in 0.3
-    microseconds times the square of the number of links: 5000 links in 7 s.
+    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, proved by counts; for a held chain 1 ulp, an
+    estimate). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N) time and
+    memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds may be complex
+    all speeds are found, in 0.3 microseconds times the square of the number of links: 5000 links in 7 s.
 
     References
     ----------

@@ -96,7 +96,8 @@ def steady_shapes(
         Held chains: ``complete`` is true if it is proved that there are no other shapes of so many half waves; else
         ``undecided`` gives the inclinations of the lowest link at which others may start. The proof mostly succeeds for
         one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more it often leaves a few
-        hundredths of a radian; for more half waves it seldom succeeds. Held cords: ``complete`` is true for a span without
+        hundredths of a radian; for more half waves it seldom succeeds. If both ends are off the axis, a shape need not lie
+        in a plane. Only shapes in the plane of the ends are looked for, and ``complete`` is false. Held cords: ``complete`` is true for a span without
         gravity, which has one shape for each number of half waves.
 
     Raises

@@ -148,7 +148,7 @@ class Modes(Result, Moving):
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
-        "cords it is checked by measurement.",
+        "cords it is checked by measurement, and for a chain held at both ends it is an estimate.",
         part=True,
     )
     conical_height_low: Field[Floats | None] = Field(
@@ -357,8 +357,12 @@ class Modes(Result, Moving):
             Column("period", self.period, "period (s)"),
             Column("speed_error_bound", self.speed_error_bound),
             Column("conical_height", self.conical_height, "height (m)", 9),
-            Column("error_bound", self.error_bound, "error bound"),
+            Column("error_bound", self.error_bound, self._error),
         ]
+
+    @property
+    def _error(self) -> str:
+        return "error estimate" if isinstance(self.system, Held) else "error bound"
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         """Columns of the shapes; with `brief`, nodes only if they are known or cheap."""
@@ -376,7 +380,7 @@ class Modes(Result, Moving):
         return f"{which} of a {system[0].lower()}{system[1:]}: by {self.method}, {self.status.replace('_', ' ')}"
 
     def _note(self) -> str:
-        return f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"
+        return f"gravity {self.gravity:.6g} m/s^2; {self._error}: relative, of the conical height"
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]

@@ -484,11 +484,14 @@ class SteadyShapes(Results[Any], Moving):
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing; for a held system, no shape of up to `max_half_waves` half waves.",
+        "Whether it is proved that no shape is missing; for a held system, no shape of up to `max_half_waves` half waves. "
+        "False if both ends are off the axis: shapes may then leave their plane, and such shapes are not looked for.",
         part=True,
     )
     undecided: Field[Floats] = Field(
-        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2).", part=True
+        "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2). For a held chain: "
+        "shapes in the plane of the axis and the ends.",
+        part=True,
     )
     cells: Field[int] = Field("Number of parts of the range that were examined.", part=True)
     missing: Field[tuple[int, ...]] = Field(
@@ -545,6 +548,8 @@ class SteadyShapes(Results[Any], Moving):
             kind = type(self[0])
             columns += kind._columns(self)
             notes = [kind._note]
+        if isinstance(self.system, Held) and not self.system.is_planar:
+            notes.append("both ends are off the axis: shapes that leave the plane of the ends are not looked for")
         names = ("gravity", "angular_speed", "conical_height", "complete", "undecided", "missing")
         heading = self._how_many(at_speed(self.angular_speed))
         facts = {name: getattr(self, name) for name in names}

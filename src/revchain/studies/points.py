@@ -38,7 +38,7 @@ _LINK = ("weight", "mass", "length", "centroid", "radius_of_gyration", "pendulum
 _UNIFORM = ("weight", "mass", "length")
 _METHODS = (UNSET, "bisection", "condensed", "aberth", "interpolated")
 _SPEED = ("angular_speed", "conical_height", "error_bound", "speed_error_bound")
-_SHAPE = ("lowest_inclination", "top_inclination", "free_end_offset", "top_tension", "shape_error_bound")
+_SHAPE = ("lowest_inclination", "top_inclination", "free_end_offset", "top_tension")
 _RESPONSE = ("angular_speed", "free_end_offset", "largest_offset", "support_force", "error_bound")
 _OF_RESPONSE = ["support_force" if name == "support_force" else f"response_{name}" for name in _RESPONSE]
 
@@ -121,13 +121,18 @@ def blocks_of(scene: Scene, largest: Scene, find: tuple[str, ...], max_shapes: i
     if "shapes" in find:
         labels = tuple(range(1, max_shapes + 1))
         blocks += [Block("shapes", "i8"), Block("shapes_complete", "?"), Block("half_waves", "i8", "shape", labels)]
-        blocks += [Block(name, "f8", "shape", labels) for name in (_SHAPE if bounds else _SHAPE[:-1])]
+        blocks += [Block(name, "f8", "shape", labels) for name in (*_SHAPE, *[f"shape_{_accuracy(scene)}"] * bounds)]
     if "response" in find:
         speeds = Columns(scene, 1).speeds_of_response({})[0].shape[1]
         labels = tuple(range(1, speeds + 1))
         names = _OF_RESPONSE if bounds else _OF_RESPONSE[:-1]
         blocks += [Block(name, "f8", "" if speeds == 1 else "speed", labels) for name in names]
     return tuple(blocks)
+
+
+def _accuracy(scene: Scene) -> str:
+    """The field of a shape that has the size of its error."""
+    return "error_bound" if scene.cord is UNSET else "error_estimate"
 
 
 def _modes_of(scene: Scene, largest: Scene) -> int:
@@ -462,7 +467,7 @@ def solve_compiled(
         options = (speeds, shapes.direction, shapes.hanging_only, gravity, progress)
         good, number, complete, half_waves, tables = systems.steady_shapes(size["shape"], given, *options)
         found |= {"shapes": number, "shapes_complete": complete, "half_waves": half_waves}
-        found |= dict(zip(_SHAPE, tables, strict=True))
+        found |= dict(zip((*_SHAPE, "shape_error_bound"), tables, strict=True))
         status = np.maximum(status, good)
     if "response" in find:
         given, speeds = columns.speeds_of_response(points)
@@ -493,11 +498,11 @@ def one_by_one(scene: Scene, find: tuple[str, ...]) -> tuple[dict[str, Any], boo
         good = modes.status == "success"
     if "shapes" in find:
         shapes: Any = scene.steady_shapes()
-        complete = not shapes.missing if scene.is_held else shapes.complete
-        found |= {"shapes": len(shapes), "shapes_complete": complete, "half_waves": [s.half_waves for s in shapes]}
-        rows = [(s.inclination[0], s.inclination[-1], s.offset[0], s.tension[-1], s.error_bound) for s in shapes]
-        found |= dict(zip(_SHAPE, zip(*rows, strict=True) if rows else [()] * len(_SHAPE), strict=True))
-        good = good and bool(complete)
+        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete, "half_waves": [s.half_waves for s in shapes]}
+        for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
+            found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
+        found[f"shape_{_accuracy(scene)}"] = [getattr(s, _accuracy(scene)) for s in shapes]
+        good = good and bool(shapes.complete)
     if "response" in find:
         moved = scene.response()
         offset = np.atleast_2d(moved.offset)

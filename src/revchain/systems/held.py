@@ -127,6 +127,11 @@ class Held(System):
         return self.lower.radius == self.upper.radius == 0.0
 
     @property
+    def is_planar(self) -> bool:
+        """Whether every steady shape must lie in a plane with the axis: the radius of at least one end is 0."""
+        return self.lower.radius == 0.0 or self.upper.radius == 0.0
+
+    @property
     def is_firm(self) -> bool:
         """Whether both ends are firm: neither is on a spring."""
         return math.isinf(self.lower.stiffness) and math.isinf(self.upper.stiffness)

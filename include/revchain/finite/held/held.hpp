@@ -13,8 +13,8 @@ namespace revchain {
 struct HeldShapes {
     std::vector<HeldShape> shapes;            ///< by half waves
     std::vector<int> missing;                 ///< half waves of those asked with which nothing was found
-    bool complete = false;                    ///< proved: none of so many half waves is missing
-    std::vector<InclinationRange> undecided;  ///< of the lowest link, where there may be others; empty if complete
+    bool complete = false;                    ///< proved: none of so many half waves is missing; false unless planar
+    std::vector<InclinationRange> undecided;  ///< of the lowest link, where others may begin in the plane of the ends
     long cells = 0;                           ///< looked at
 };
 
@@ -58,6 +58,8 @@ class HeldChain {
         return held_ends(supports_, wide_.units, height, part, by_part_);
     }
     bool mirrored() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
+    /// Whether every shape lies in a plane. With a torque about the axis, which needs two arms, it may leave it.
+    bool planar() const { return supports_.lower.radius == 0 || supports_.upper.radius == 0; }
 
     /// Directions in the state kept last.
     const std::vector<Direction<double>>& kept() const { return kept_; }
@@ -232,7 +234,7 @@ inline void keep_different(HeldShapes& list, int max_half_waves) {
             list.missing.push_back(k);
 }
 
-/// Adds to the shapes found by their branches all others, and says where there may be more.
+/// Adds to the shapes found by their branches all others in the plane of the ends, and says where there may be more.
 inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& height, const HeldGoal& goal,
                      const HeldListOptions& options) {
     using S = Wide<double>;
@@ -261,7 +263,7 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
         return std::any_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; });
     });
     list.undecided = inclinations(found.undecided);
-    list.complete = found.undecided.empty(), list.cells = found.cells;
+    list.complete = held.planar() && found.undecided.empty(), list.cells = found.cells;
 }
 
 /// Shapes of up to `max_half_waves` half waves at a span and a height; height 0: without gravity.
