@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "forces.hpp"
 #include "interrupt.hpp"
 #include "revchain/finite/stability/cord.hpp"
 #include "revchain/held.hpp"
@@ -14,18 +15,13 @@ using revchain::Held;
 using revchain::HeldCordShape;
 using revchain::HeldShape;
 
-/// Stiffness, carriage weight and radius of what holds an end.
-using End = std::array<double, 3>;
-revchain::Support support(const End& end) { return {end[0], end[1], end[2]}; }
-
 /// Shapes of a chain or a cord; without holding the GIL.
 template <class System>
-auto shapes(const System& system, std::optional<double> span, std::optional<double> tension, bool weightless,
-            const End& lower, const End& upper, std::optional<double> conical_height,
+auto shapes(const System& system, std::optional<double> span, const Tension& pull, bool weightless, const End& lower, const End& upper, std::optional<double> conical_height,
             std::optional<double> angular_speed, double gravity, int max_half_waves, bool prove, long budget) {
     const py::gil_scoped_release release;
     return revchain::steady_shapes(Held(system, {.span = span,
-                                                 .tension = tension,
+                                                 .tension = tension(pull),
                                                  .weightless = weightless,
                                                  .lower = support(lower),
                                                  .upper = support(upper)}),

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "bindings.hpp"
+#include "forces.hpp"
 #include "interrupt.hpp"
 #include "revchain/count.hpp"
 #include "revchain/held.hpp"
@@ -246,13 +247,13 @@ void bind_linear(py::module_& module) {
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);
     py::class_<HeldChain>(module, "Held", "A chain held at both ends; immutable.")
-        .def(py::init([](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless,
-                         const std::array<double, 3>& lower, const std::array<double, 3>& upper) {
+        .def(py::init([](const Chain& chain, std::optional<double> span, const Tension& pull, bool weightless,
+                         const End& lower, const End& upper) {
                  return HeldChain(chain, {.span = span,
-                                          .tension = tension,
+                                          .tension = tension(pull),
                                           .weightless = weightless,
-                                          .lower = {lower[0], lower[1], lower[2]},
-                                          .upper = {upper[0], upper[1], upper[2]}});
+                                          .lower = support(lower),
+                                          .upper = support(upper)});
              }),
              "chain"_a, "span"_a, "tension"_a, "weightless"_a, "lower"_a, "upper"_a);
     module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,

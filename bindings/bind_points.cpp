@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "forces.hpp"
 #include "interrupt.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/response.hpp"
@@ -39,11 +40,6 @@ class Numbers {
     bool given() const { return given_; }
     Index links() const { return links_; }
     double operator()(Index point, Index link = 0) const { return data_[point * row_ + (links_ == 1 ? 0 : link)]; }
-    bool any(Index point) const {
-        bool found = false;
-        for (Index m = 0; m < links_ && given_; ++m) found = found || (*this)(point, m) != 0;
-        return found;
-    }
 
    private:
     const double* data_ = nullptr;
@@ -56,7 +52,7 @@ class Numbers {
 class Points {
    public:
     Points(Index points, Index links, std::string kind, const std::map<std::string, Array>& tables, Marks clamped,
-           std::vector<Index> first, bool rigged, Marks standing, bool turning)
+           std::vector<Index> first, bool rigged, Marks standing, bool turning, bool by_mass)
         : points_(points),
           links_(links),
           kind_(std::move(kind)),
@@ -65,7 +61,8 @@ class Points {
           first_(std::move(first)),
           standing_(std::move(standing)),
           rigged_(rigged),
-          turning_(turning) {
+          turning_(turning),
+          by_mass_(by_mass) {
         const auto read = [&](const char* name, bool needed = false) {
             const auto found = tables_.find(name);
             if (found != tables_.end()) return Numbers(name, found->second, points_);
@@ -76,7 +73,8 @@ class Points {
         centroid_ = read("centroid"), radius_ = read("radius_of_gyration", centroid_.given());
         tip_ = read("tip"), exponent_ = read("exponent", kind_ == "tapered");
         stiffness_ = read("stiffness"), carriage_ = read("carriage_weight"), arm_ = read("support_radius");
-        momentum_ = read("momentum"), axial_ = read("axial_moment");
+        wheel_ = read("wheel_weight"), turned_ = read("wheel_radius_of_gyration", wheel_.given());
+        spin_ = read("spin", wheel_.given()), driven_ = read("driven", wheel_.given());
         displaced_ = read("displaced_weight"), added_ = read("added_weight");
         buoyancy_ = read("displaced_centroid"), spread_ = read("displaced_radius_of_gyration");
         if (first_.size() != clamped_.size() || (tip_.given() && tip_.links() > Index(first_.size())))
@@ -99,20 +97,21 @@ class Points {
         return result;
     }
 
-    Rig rig(Index i) const {
+    Rig rig(Index i, double gravity) const {
         const Chain chain = this->chain(i);
         revchain::Rigging with{};
-        if (stiffness_.given()) with.support.stiffness = stiffness_(i);
+        if (stiffness_.given()) with.support.stiffness = quotient(stiffness_(i), by_mass_ ? gravity : 1.0);
         if (carriage_.given()) with.support.carriage_weight = carriage_(i);
         if (arm_.given()) with.support.radius = arm_(i);
         with.fluid = turning_ ? revchain::Fluid::turning : revchain::Fluid::still;
-        const bool wheels = momentum_.any(i) || axial_.any(i);
         for (Index m = 0; m < chain.size(); ++m) {
             const revchain::Link<double> link = chain.link(m);
             if (!standing_.empty())
                 with.posture.push_back(standing_[static_cast<std::size_t>(m)] ? revchain::Posture::stands
                                                                               : revchain::Posture::hangs);
-            if (wheels) with.flywheels.push_back({momentum_(i, m), axial_(i, m)});
+            if (wheel_.given())
+                with.flywheels.push_back(
+                    wheel(wheel_(i, m), turned_(i, m), spin_(i, m), driven_(i, m) != 0, gravity));
             if (!displaced_.given()) continue;
             if (turning_ && added_(i, m) > 0)
                 revchain::detail::throw_invalid("Rig", "fluid that turns with the chain has no added_weight",
@@ -125,6 +124,7 @@ class Points {
                     std::isnan(spread_(i, m)) ? revchain::radius_of_gyration(link) : spread_(i, m));
             with.displaced.push_back(fluid);
         }
+        without_idle(with.flywheels);
         return Rig(chain, std::move(with));
     }
 
@@ -167,9 +167,9 @@ class Points {
     Marks clamped_;
     std::vector<Index> first_;
     Marks standing_;
-    bool rigged_, turning_;
-    Numbers weight_, length_, centroid_, radius_, tip_, exponent_, stiffness_, carriage_, arm_, momentum_, axial_;
-    Numbers displaced_, added_, buoyancy_, spread_;
+    bool rigged_, turning_, by_mass_;
+    Numbers weight_, length_, centroid_, radius_, tip_, exponent_, stiffness_, carriage_, arm_, wheel_, turned_;
+    Numbers spin_, driven_, displaced_, added_, buoyancy_, spread_;
 };
 
 /// An array of one row for each point, all NaN, 0 or false.
@@ -228,7 +228,7 @@ py::tuple rig_modes(const Points& points, Index columns, Index first, Index coun
     const Numbers g("gravity", gravity, points.size());
     auto status = points.each(progress, [&](Index i) {
         const auto modes = revchain::modes(
-            points.rig(i), {.first = first, .count = count, .gravity = g(i), .other = false, .progress = progress});
+            points.rig(i, g(i)), {.first = first, .count = count, .gravity = g(i), .other = false, .progress = progress});
         const Index available = std::max(modes.forward.available, modes.backward.available);
         if (first > std::max<Index>(1, available))
             revchain::detail::throw_invalid("modes", "there are fewer modes in a direction", available);
@@ -261,7 +261,7 @@ py::tuple steady_shapes(const Points& points, Index most, const Array& given, bo
             options.angular_speed = points.rigged() ? direction * at(i) : at(i);
         else
             options.conical_height = at(i);
-        const auto shapes = points.rigged() ? revchain::steady_shapes(points.rig(i), options)
+        const auto shapes = points.rigged() ? revchain::steady_shapes(points.rig(i, g(i)), options)
                                             : revchain::steady_shapes(points.chain(i), options);
         count(i, 0) = static_cast<std::int64_t>(shapes.shapes.size()), complete(i, 0) = shapes.complete;
         for (Index k = 0; k < std::min<Index>(most, static_cast<Index>(shapes.shapes.size())); ++k) {
@@ -290,7 +290,7 @@ py::tuple response(const Points& points, const Array& given, bool speeds, const 
         for (Index k = 0; k < at.links(); ++k) asked.push_back(at(i, k));
         revchain::Response moved;
         if (points.rigged()) {
-            const Rig rig = points.rig(i);
+            const Rig rig = points.rig(i, g(i));
             if (rig.support().radius != 0) options.support_radius = rig.support().radius;
             moved = revchain::response(rig, options);
         } else {
@@ -323,8 +323,9 @@ py::tuple response(const Points& points, const Array& given, bool speeds, const 
 void bind_points(py::module_& module) {
     py::class_<Points>(module, "Points", "Systems that differ only in numbers, solved one by one.")
         .def(py::init<Index, Index, std::string, const std::map<std::string, Array>&, Marks, std::vector<Index>, bool,
-                      Marks, bool>(),
-             "points"_a, "links"_a, "kind"_a, "tables"_a, "clamped"_a, "first"_a, "rigged"_a, "standing"_a, "turning"_a)
+                      Marks, bool, bool>(),
+             "points"_a, "links"_a, "kind"_a, "tables"_a, "clamped"_a, "first"_a, "rigged"_a, "standing"_a, "turning"_a,
+             "by_mass"_a)
         .def("modes", &modes, "columns"_a, "first"_a, "count"_a, "rtol"_a, "certify"_a, "method"_a, "progress"_a)
         .def("rig_modes", &rig_modes, "columns"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a)
         .def("steady_shapes", &steady_shapes, "most"_a, "given"_a, "speeds"_a, "direction"_a, "hanging_only"_a,

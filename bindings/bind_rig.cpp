@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "forces.hpp"
 #include "revchain/gyrostatic_string.hpp"
 #include "revchain/rig.hpp"
 
@@ -22,30 +23,32 @@ double at(const std::optional<Array>& array, Index m, double otherwise) {
     return array->data()[array->ndim() == 0 ? 0 : m];
 }
 
-/// Leaves out an array of nothing but zeros.
-std::optional<Array> unless_zero(const std::optional<Array>& array) {
-    if (!array || std::all_of(array->data(), array->data() + array->size(), [](double x) { return x == 0; })) return {};
-    return array;
-}
-
+/// `force` is the unit of stiffness and momentum over that of the weights. Wheels are given by their momentum and axial
+/// moment, or by weight, radius of gyration, spin in rad/s and whether a motor turns them, which takes gravity.
 Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weight, double support_radius,
-             const std::optional<Flags>& standing, const std::optional<Array>& given_momentum,
-             const std::optional<Array>& given_moment, const std::optional<Array>& displaced_weight,
+             const std::optional<Flags>& standing, const std::optional<Array>& momentum,
+             const std::optional<Array>& axial_moment, const std::optional<Array>& wheel_weight,
+             const std::optional<Array>& wheel_radius_of_gyration, const std::optional<Array>& spin,
+             const std::optional<Array>& driven, const std::optional<Array>& displaced_weight,
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
-             const std::optional<Array>& added_weight, bool turning_fluid) {
-    const std::optional<Array> momentum = unless_zero(given_momentum), axial_moment = unless_zero(given_moment);
-    for (const auto* array : {&momentum, &axial_moment, &displaced_weight, &displaced_centroid,
-                              &displaced_radius_of_gyration, &added_weight})
+             const std::optional<Array>& added_weight, bool turning_fluid, double force, double gravity) {
+    for (const auto* array :
+         {&momentum, &axial_moment, &wheel_weight, &wheel_radius_of_gyration, &spin, &driven, &displaced_weight,
+          &displaced_centroid, &displaced_radius_of_gyration, &added_weight})
         if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())
         revchain::detail::throw_invalid("Rig", "standing must have one entry for each link", standing->size());
-    revchain::Rigging with{.support = {stiffness, carriage_weight, support_radius}};
+    revchain::Rigging with{.support = support({stiffness, force, carriage_weight, support_radius})};
     with.fluid = turning_fluid ? revchain::Fluid::turning : revchain::Fluid::still;
     const bool floats = displaced_weight || displaced_centroid || displaced_radius_of_gyration || added_weight;
     for (Index m = 0; m < chain.size(); ++m) {
         if (standing) with.posture.push_back(standing->data()[m] ? Posture::stands : Posture::hangs);
-        if (momentum || axial_moment) with.flywheels.push_back({at(momentum, m, 0), at(axial_moment, m, 0)});
+        if (momentum || axial_moment)
+            with.flywheels.push_back({quotient(at(momentum, m, 0), force), at(axial_moment, m, 0)});
+        if (wheel_weight)
+            with.flywheels.push_back(wheel(at(wheel_weight, m, 0), at(wheel_radius_of_gyration, m, 0), at(spin, m, 0),
+                                           at(driven, m, 0) != 0, gravity));
         if (!floats) continue;
         const revchain::Link<double> link = chain.link(m);
         Displaced fluid = displaced_by(link, at(displaced_weight, m, 0), at(added_weight, m, 0));
@@ -55,7 +58,16 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
                 "Rig: links[" + std::to_string(m) + "]", link.length, at(displaced_radius_of_gyration, m, 0));
         with.displaced.push_back(fluid);
     }
+    without_idle(with.flywheels);
     return Rig(chain, std::move(with));
+}
+
+/// A number of the flywheel of each link.
+template <revchain::Wide<double> Flywheel::*number>
+py::array of_wheels(const Rig& rig) {
+    revchain::Vector<double> numbers(rig.size());
+    for (Index m = 0; m < rig.size(); ++m) numbers[m] = (rig.flywheel(m).*number).high;
+    return to_numpy(numbers);
 }
 
 using String = revchain::GyrostaticString<double>;
@@ -76,8 +88,12 @@ void bind_rig(py::module_& module) {
     py::class_<Rig>(module, "Rig", "A chain with a support, flywheels, a fluid or inverted links; immutable.")
         .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a,
              "standing"_a = py::none(), "momentum"_a = py::none(), "axial_moment"_a = py::none(),
-             "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),
-             "displaced_radius_of_gyration"_a = py::none(), "added_weight"_a = py::none(), "turning_fluid"_a = false)
+             "wheel_weight"_a = py::none(), "wheel_radius_of_gyration"_a = py::none(), "spin"_a = py::none(),
+             "driven"_a = py::none(), "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),
+             "displaced_radius_of_gyration"_a = py::none(), "added_weight"_a = py::none(), "turning_fluid"_a = false,
+             "force"_a = 1.0, "gravity"_a = revchain::conical_pendulum::standard_gravity)
+        .def_property_readonly("momentum", &of_wheels<&Flywheel::momentum>)
+        .def_property_readonly("axial_moment", &of_wheels<&Flywheel::axial_moment>)
         .def(
             "__eq__", [](const Rig& x, const Rig& y) { return x == y; }, py::is_operator());
 

@@ -4,6 +4,7 @@
 // Masses serve as weights, as in the Python package: speeds depend on ratios alone, stiffness and momentum are divided
 // by gravity.
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -25,6 +26,12 @@ namespace {
 std::vector<revchain::SteadyShape> shapes;
 int direction = 1;
 
+/// A force in newtons in the unit of the weights, in double words: bounds hold for the number given.
+revchain::Wide<double> over_gravity(double force) {
+    if (std::isinf(force)) return force;
+    return revchain::Wide<double>(force) / revchain::Wide<double>(gravity);
+}
+
 // A rig without rigging costs what its chain costs: one way for both keeps the page small.
 
 /// A part is so many equal links: count, mass, length, centroid, radius of gyration, whether they stand, momentum and
@@ -44,7 +51,7 @@ revchain::Rig rig_of(const std::vector<double>& given, int parts, revchain::Supp
         stand = stand || part[5] != 0, turn = turn || part[6] != 0 || part[7] != 0;
         rigging.posture.insert(rigging.posture.end(), count,
                                part[5] != 0 ? revchain::Posture::stands : revchain::Posture::hangs);
-        rigging.flywheels.insert(rigging.flywheels.end(), count, {part[6] / gravity, part[7]});
+        rigging.flywheels.insert(rigging.flywheels.end(), count, {over_gravity(part[6]), part[7]});
     }
     if (!stand) rigging.posture.clear();
     if (!turn) rigging.flywheels.clear();
@@ -78,7 +85,7 @@ int set_rig(int parts, double stiffness, double carriage, double radius, double 
     const std::vector<double> given = numbers;
     return answered([&] {
         gravity = g, direction = 1, shapes.clear();
-        rig = rig_of(given, parts, {stiffness / g, carriage, radius});
+        rig = rig_of(given, parts, {over_gravity(stiffness), carriage, radius});
         put(static_cast<double>(rig->size()));
     });
 }

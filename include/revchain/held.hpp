@@ -34,7 +34,8 @@ namespace revchain {
 /// How the two ends are held: give either `span` or `tension`.
 struct HeldBy {
     std::optional<double> span{};     ///< distance of the two ends along the axis, less than the length
-    std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
+    /// at the upper end, in the unit of the weights; without gravity, newtons
+    std::optional<Wide<double>> tension{};
     bool weightless = false;  ///< no gravity: weights are masses; between firm ends shapes do not depend on speed
     Support lower{};          ///< of a chain: support of its lower end; a negative radius is on the other side
     Support upper{};          ///< of a chain: support of its upper end
@@ -50,8 +51,8 @@ struct HeldBy {
 /// round the axis at a radius, as two arms of a jib do. Both ends and the axis lie in one plane.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite; for a span that is not
-/// less than the length, firm ends as far apart as the length, a stiffness not positive, a negative carriage weight,
-/// numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform or has a
+/// less than the length, firm ends as far apart as the length, a stiffness not positive, a carriage weight that is
+/// negative or has no spring, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform or has a
 /// tip weight.
 template <class System>
 class Held {
@@ -62,9 +63,9 @@ class Held {
         if (by.span.has_value() == by.tension.has_value())
             detail::throw_invalid("Held", std::string("give either span or tension, got ") +
                                               (by.span ? "both: span " + detail::in_digits(*by.span) + ", tension " +
-                                                             detail::in_digits(*by.tension)
+                                                             detail::in_digits(by.tension->high)
                                                        : "neither"));
-        if (by.tension) detail::require_positive("Held", "tension", *by.tension);
+        if (by.tension) detail::require_positive("Held", "tension", by.tension->high);
         if (by.span) detail::require_positive("Held", "span", *by.span);
         if (by.span && !(*by.span < length()))
             detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
@@ -91,9 +92,11 @@ class Held {
 
    private:
     void check(const std::string& name, const Support& end) const {
-        if (!(end.stiffness > 0)) detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness);
+        if (!(end.stiffness.high > 0))
+            detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness.high);
         detail::require_not_negative("Held", name + " carriage weight", end.carriage_weight);
         detail::require_finite("Held", name + " radius", end.radius);
+        detail::require_yielding("Held", name + " end", end);
         if (by_.tension && end.radius != 0)
             detail::throw_invalid(
                 "Held", "under a tension both ends must be on the axis; give the span instead; " + name + " radius",
@@ -101,7 +104,7 @@ class Held {
         if (std::is_same_v<System, Cord> && !(end == Support{}))
             detail::throw_invalid(
                 "Held", "the ends of a cord are firm points on the axis; cut it into links; " + name + " stiffness",
-                end.stiffness);
+                end.stiffness.high);
     }
 
     System system_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,25 +22,35 @@
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
 /// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
-/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`, `branches`, `stability`, `response` and
-/// `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
+/// given. Stiffness and momentum are double words: with masses for weights, newtons are divided by gravity without
+/// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. The questions about a rig: `modes` (rig_modes.hpp),
+/// `steady_shapes`, `branches`, `stability`, `response` and `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
 namespace revchain {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
-    double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
+    /// sideways, force over length; infinite where firm
+    Wide<double> stiffness = std::numeric_limits<double>::infinity();
     double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
     double radius = 0;           ///< distance of the support's place of rest from the axis; 0 on the axis
 
-    bool is_firm() const { return std::isinf(stiffness); }
+    bool is_firm() const { return std::isinf(stiffness.high); }
     friend bool operator==(const Support&, const Support&) = default;
 };
+
+namespace detail {
+inline void require_yielding(std::string_view place, const std::string& name, const Support& support) {
+    if (support.is_firm() && support.carriage_weight > 0)
+        throw_invalid(place, name + " must have a stiffness: what moves sideways needs a support that yields; weight",
+                      support.carriage_weight);
+}
+}  // namespace detail
 
 /// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small amplitudes it acts as a
 /// thread of length W/E, where W is the weight of the chain. Throws InvalidArgument unless stiffness > 0 and carriage
 /// weight >= 0, both finite.
-inline Support horizontal_spring(double stiffness, double carriage_weight = 0) {
-    detail::require_positive("horizontal_spring", "stiffness", stiffness);
+inline Support horizontal_spring(const Wide<double>& stiffness, double carriage_weight = 0) {
+    detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
     detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
     return {stiffness, carriage_weight, 0};
 }
@@ -57,8 +68,8 @@ inline Support carried_round(double radius) {
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
-    double momentum = 0;      ///< H, constant whatever the link does; weight times length times time, any sign
-    double axial_moment = 0;  ///< C >= 0, weight times length squared (over g: a moment of inertia)
+    Wide<double> momentum{0.0};      ///< H, constant whatever the link does; weight times length times time, any sign
+    Wide<double> axial_moment{0.0};  ///< C >= 0, weight times length squared (over g: a moment of inertia)
 
     friend bool operator==(const Flywheel&, const Flywheel&) = default;
 };
@@ -69,8 +80,11 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
     require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
     require_finite(place, "spin", spin);
     require_positive(place, "gravity", gravity);
-    const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
-    if (!std::isfinite(moment) || !std::isfinite(momentum))
+    using S = Wide<double>;
+    int heavy = 0, far = 0;  // products of numbers near 1 have all digits of both words
+    const S part = S(std::frexp(weight, &heavy)), radius = S(std::frexp(radius_of_gyration, &far));
+    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far), momentum = moment * spin / S(gravity);
+    if (!isfinite(moment) || !isfinite(momentum))
         throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
                       radius_of_gyration);
     return {momentum, moment};
@@ -124,8 +138,8 @@ struct Rigging {
 /// part of the weight. Use a `Chain` where there is no rigging: it costs less.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
-/// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or
-/// added. Cost O(N) once.
+/// not finite, a support without stiffness, a carriage at a firm support, and a negative carriage weight, radius, axial
+/// moment, weight displaced or added. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
@@ -158,7 +172,7 @@ class Rig {
     /// Whether any link has a momentum of its own, so that the two directions of rotation differ.
     bool has_momentum() const {
         return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
-                           [](const Flywheel& wheel) { return wheel.momentum != 0; });
+                           [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
 
     friend bool operator==(const Rig&, const Rig&) = default;
@@ -181,15 +195,16 @@ inline void Rig::check() const {
     as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
     as_long(with_.displaced.size(), "displaced");
     const Support& support = with_.support;
-    if (!(support.stiffness > 0))
-        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness);
+    if (!(support.stiffness.high > 0))
+        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness.high);
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
                                  support.radius);
+    detail::require_yielding("Rig", "the support", support);
     if (with_.flywheels.empty() && with_.displaced.empty()) return;
     const auto check_link = [&](Index m, std::string_view place) {
         const Flywheel wheel = flywheel(m);
-        detail::require_finite(place, "momentum", wheel.momentum);
-        detail::require_not_negative(place, "axial moment", wheel.axial_moment);
+        detail::require_finite(place, "momentum", wheel.momentum.high);
+        detail::require_not_negative(place, "axial moment", wheel.axial_moment.high);
         const Displaced fluid = displaced(m);
         detail::require_not_negative(place, "weight displaced", fluid.weight);
         detail::require_finite(place, "centre of buoyancy", fluid.centroid);
@@ -234,7 +249,8 @@ struct RigLink {
 };
 
 /// The numbers of a rig's links, lowest first, in `Wide<double>`. `RigLink::error_part` bounds their errors: three
-/// operations for the share of a body, a few for the sum of shares, and a compensated sum for the weights hung below.
+/// operations for the share of a body, a few for the sum of shares, a compensated sum for the weights hung below, and
+/// up to four operations in which a caller has found a stiffness or a momentum.
 /// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
@@ -277,13 +293,14 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
             add(weight, weight, link.centroid, link.gyration_ratio);
             add(-borne, carried, fluid.centroid, fluid.gyration_ratio);
         }
-        if (wheel.axial_moment != 0) {  // turning with the link, it reduces the link's inertia across the axis
-            const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);
+        if (wheel.axial_moment.high != 0) {  // turning with the link, it reduces the link's inertia across the axis
+            const S turning =
+                ldexp(wheel.axial_moment, -units.weight_exponent - 2 * units.length_exponent) / (a * a);
             result.cross = result.cross + turning;
             result.lower = result.lower - turning, result.upper = result.upper - turning;
             result.size.lower += turning.high, result.size.upper += turning.high, result.size.cross += turning.high;
         }
-        result.spin = S(std::ldexp(in_weights(wheel.momentum), -units.length_exponent)) / a;
+        result.spin = ldexp(wheel.momentum, -units.weight_exponent - units.length_exponent) / a;
         result.hung = hung.value(), hung_size = result.size.hung;
         links.push_back(result);
     }

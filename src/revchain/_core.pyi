@@ -35,6 +35,7 @@ class Points:
         rigged: bool,
         standing: list[bool],
         turning: bool,
+        by_mass: bool,
     ) -> None: ...
     def modes(
         self,
@@ -111,12 +112,22 @@ class Rig:
         standing: numpy.typing.NDArray[numpy.bool_] | None = None,
         momentum: _Floats | None = None,
         axial_moment: _Floats | None = None,
+        wheel_weight: _Floats | None = None,
+        wheel_radius_of_gyration: _Floats | None = None,
+        spin: _Floats | None = None,
+        driven: _Floats | None = None,
         displaced_weight: _Floats | None = None,
         displaced_centroid: _Floats | None = None,
         displaced_radius_of_gyration: _Floats | None = None,
         added_weight: _Floats | None = None,
         turning_fluid: bool = False,
+        force: float = 1.0,
+        gravity: float = 9.80665,
     ) -> None: ...
+    @property
+    def momentum(self) -> _Floats: ...
+    @property
+    def axial_moment(self) -> _Floats: ...
 
 def sensitivity(
     chain: Chain, first: int, conical_height: _Floats
@@ -180,7 +191,8 @@ def gyrostatic_string_rotation(
 
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
-_End = tuple[float, float, float]
+_End = tuple[float, float, float, float]
+_Tension = tuple[float, float]
 
 _Complex = numpy.typing.NDArray[numpy.complex128]
 
@@ -970,12 +982,12 @@ class CordShapes:
 
 class Held:
     def __init__(
-        self, chain: Chain, span: float | None, tension: float | None, weightless: bool, lower: _End, upper: _End
+        self, chain: Chain, span: float | None, tension: _Tension | None, weightless: bool, lower: _End, upper: _End
     ) -> None: ...
 
 class HeldCord:
     def __init__(
-        self, cord: Cord, span: float | None, tension: float | None, weightless: bool
+        self, cord: Cord, span: float | None, tension: _Tension | None, weightless: bool
     ) -> None: ...
 
 class CordBranch:
@@ -1085,7 +1097,7 @@ def count_held_modes(
 def held_shapes(
     system: Chain,
     span: float | None,
-    tension: float | None,
+    tension: _Tension | None,
     weightless: bool,
     lower: _End,
     upper: _End,
@@ -1100,7 +1112,7 @@ def held_shapes(
 def held_shapes(
     system: Cord,
     span: float | None,
-    tension: float | None,
+    tension: _Tension | None,
     weightless: bool,
     lower: _End,
     upper: _End,

@@ -35,8 +35,8 @@ QuadResponse truth(const Rig& rig, Quad speed, Quad gravity) {
         const Quad moves = rig.fluid() == revchain::Fluid::turning ? -B : Quad(fluid.added_weight);
         const Quad h = link.centroid, hb = fluid.centroid;
         const Quad rho = support::quad(link.gyration_ratio) * a * a, rhob = support::quad(fluid.gyration_ratio) * a * a;
-        const Quad kappa = W * h - B * hb + a * below + speed * Quad(wheel.momentum);
-        const Quad sign = rig.stands(m) ? -1 : 1, C = wheel.axial_moment;
+        const Quad kappa = W * h - B * hb + a * below + speed * support::quad(wheel.momentum);
+        const Quad sign = rig.stands(m) ? -1 : 1, C = support::quad(wheel.axial_moment);
         const Quad lower = W * (h * h + rho) + moves * (hb * hb + rhob) - C;
         const Quad upper = W * ((a - h) * (a - h) + rho) + moves * ((a - hb) * (a - hb) + rhob) - C;
         const Quad cross = W * (h * (a - h) - rho) + moves * (hb * (a - hb) - rhob) + C;
@@ -45,7 +45,7 @@ QuadResponse truth(const Rig& rig, Quad speed, Quad gravity) {
         below += W - B;
     }
     if (!firm)
-        system.add(static_cast<std::size_t>(chain.size()), height * Quad(rig.support().stiffness),
+        system.add(static_cast<std::size_t>(chain.size()), height * support::quad(rig.support().stiffness),
                    Quad(rig.support().carriage_weight), 0, 0);
     return system.solve();
 }

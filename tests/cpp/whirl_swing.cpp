@@ -40,13 +40,14 @@ class Motion {
                 lean(M_, moves * turn * a * a);
             };
             lean(K_, sign * (W * h - Quad(fluid.weight) * Quad(fluid.centroid) + a * below));
-            lean(G_, sign * Quad(rig.flywheel(m).momentum));
+            lean(G_, sign * support::quad(rig.flywheel(m).momentum));
             body(W, h, support::quad(link.gyration_ratio));
             body(fluid.added_weight, fluid.centroid, support::quad(fluid.gyration_ratio));
             below += W - Quad(fluid.weight);
         }
         if (!rig.support().is_firm())
-            K_[n_ - 1][n_ - 1] += rig.support().stiffness, M_[n_ - 1][n_ - 1] += rig.support().carriage_weight;
+            K_[n_ - 1][n_ - 1] += support::quad(rig.support().stiffness),
+                M_[n_ - 1][n_ - 1] += rig.support().carriage_weight;
         inverse_ = inverse(M_);
         Quad size = 0;
         for (const Quads& row : product(inverse_, K_))

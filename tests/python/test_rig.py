@@ -99,7 +99,7 @@ def test_wrong_parts_are_refused(make, name, values):
         ({"displaced": rc.Displaced(weight=[1.0] * 4)}, r"displaced weight .* got shape \(4,\)"),
         ({"displaced": rc.Displaced(weight=1.0, added_weight=0.5), "fluid": "turning"}, "no added mass, got 0.5"),
         ({"displaced": rc.Displaced(mass=1.0)}, "displaced"),
-        ({"support": rc.Support(mass=1.0)}, "support"),
+        ({"support": rc.Support(stiffness=1.0, mass=1.0)}, "support"),
         ({"support": rc.Support(radius=-0.5)}, "support radius must not be negative, got -0.5"),
         ({"inverted": [1, 0]}, r"inverted must be True, False or an array of them"),
         ({"inverted": [True]}, r"one for each of the 2 links, got \[True\]"),

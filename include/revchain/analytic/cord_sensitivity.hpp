@@ -48,7 +48,7 @@ inline CordSensitivity sensitivity(const CordModes& modes) {
     for (Vector<double>* v : {&result.weight, &result.tip_weight, &result.exponent, &result.tension})
         v->setZero(modes.size());
     if (modes.held) {
-        const double tension = *modes.held->tension;
+        const double tension = modes.held->tension->high;
         const Wide<double> below = detail::lower_tension("sensitivity", Held<Cord>(cord, *modes.held), 1.0);
         const double lower = static_cast<double>(below / Wide<double>(cord.weight()) * Wide<double>(cord.length()));
         for (Index j = 0; j < modes.size(); ++j)

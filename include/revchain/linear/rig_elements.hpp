@@ -35,17 +35,21 @@ inline bool is_nothing(const RigElement& e) {
 
 }  // namespace detail
 
-/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm.
+/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm. The error
+/// of the stiffness is that of the quotient a caller may have found it as.
 /// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
 inline std::optional<RigElement> support_element(const Rig& rig) {
     using S = Wide<double>;
     const Support& support = rig.support();
     if (support.is_firm()) return std::nullopt;
     const ChainUnits units = rig.chain().units();
-    const double stiffness = std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
-    if (!(std::isfinite(stiffness) && stiffness > 0))
-        detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length", support.stiffness);
-    return RigElement{S(stiffness), S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent))};
+    const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
+    if (!(isfinite(stiffness) && stiffness.high > 0))
+        detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length",
+                              support.stiffness.high);
+    RigElement spring{stiffness, S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent))};
+    spring.error.stiffness = RigLink::error_part * stiffness.high;
+    return spring;
 }
 
 }  // namespace revchain

@@ -50,7 +50,7 @@ inline HeldPins held_by(const Rig& rig, Index m) {
     const bool turning = rig.fluid() == Fluid::turning;
     const double moved = turning ? fluid.weight : fluid.added_weight;
     const Wide<double> none(0.0);
-    if (rig.flywheel(m).axial_moment > 0) return HeldPins::both;
+    if (rig.flywheel(m).axial_moment.high > 0) return HeldPins::both;
     if (turning && rig.fills_its_link(m) && link.weight == moved) return HeldPins::nothing;
     if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return HeldPins::both;
     if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
@@ -131,7 +131,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
     const Rigging& with = rig.rigging();
     const bool plain = with.posture.empty() && with.displaced.empty() &&
                        std::all_of(with.flywheels.begin(), with.flywheels.end(),
-                                   [](const Flywheel& wheel) { return wheel.axial_moment == 0; });
+                                   [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
     if (!plain || !rig.chain().has_one_weight_unit()) {
         const std::vector<RigLink> links = rig_links(rig);
         for (Index m = 0; m < rig.size(); ++m)
@@ -154,8 +154,8 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
         for (Index m = 0; m < rig.size(); ++m) {
             RigElement& e = elements[static_cast<std::size_t>(m)];
             const S length(std::ldexp(rig.chain().length()[m], -assembled.units.length_exponent));
-            e.spin = S(std::ldexp(std::ldexp(rig.flywheel(m).momentum, -assembled.units.weight_exponent),
-                                  -assembled.units.length_exponent)) /
+            e.spin = ldexp(rig.flywheel(m).momentum,
+                           -assembled.units.weight_exponent - assembled.units.length_exponent) /
                      (length * length);
             e.error.spin = RigLink::error_part * std::abs(e.spin.high);
         }
@@ -192,7 +192,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         }
         e.spin = e.spin * result.pace, e.error.spin *= result.pace.high;
         const bool plain =
-            rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
+            rig.flywheel(m).axial_moment.high == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
         add(e, plain || detail::is_not_negative(e));
         held.push_back(detail::held_by(rig, m));
     }

@@ -41,10 +41,11 @@ inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& opti
 }
 
 /// The conical height times the tension at the upper end; without gravity, tension over speed squared.
-inline double height_times_tension(const HeldBy& by, double height, const HeldShapesOptions& options) {
-    const double tension = by.tension.value(), speed = options.angular_speed.value_or(1);
-    const double product = by.weightless ? tension / speed / speed : height * tension;
-    require_positive("steady_shapes", "conical height times tension", product);
+inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
+                                         const HeldShapesOptions& options) {
+    const Wide<double> tension = by.tension.value(), speed(options.angular_speed.value_or(1));
+    const Wide<double> product = by.weightless ? tension / speed / speed : height * tension;
+    require_positive("steady_shapes", "conical height times tension", product.high);
     return product;
 }
 
@@ -63,7 +64,9 @@ inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& he
 inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held, double gravity) {
     HeldBy by = held.by();
     const Wide<double> lower = lower_tension(place, held, gravity);
-    if (by.weightless) by.lower.stiffness /= gravity, by.upper.stiffness /= gravity;  // in masses times gravity
+    if (by.weightless)  // in masses times gravity
+        for (Support* end : {&by.lower, &by.upper})
+            if (!end->is_firm()) end->stiffness = end->stiffness / Wide<double>(gravity);
     return {held.system(), lower, by.weightless, {by.lower, by.upper, {}}};
 }
 
@@ -71,7 +74,7 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
 inline double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
         throw_invalid(place, "is for what is held at a span; under a tension ask steady_shapes at each speed, or modes",
-                      *by.tension);
+                      by.tension->high);
     if (by.weightless)
         throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) ask steady_shapes");
     return *by.span;
@@ -107,16 +110,16 @@ REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const 
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
     const finite::HeldSupports supports = detail::supports_at(held.by(), height, options);
     if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
-    const double rounded = static_cast<double>(height);
-    return finite::held_shapes_under_tension(
-        held.system(), supports, detail::height_times_tension(held.by(), rounded, options), rounded, wanted);
+    return finite::held_shapes_under_tension(held.system(), supports,
+                                             detail::height_times_tension(held.by(), height, options), height, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
-    const double height = static_cast<double>(detail::height_asked(held.by(), options));
-    if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height, options.max_half_waves);
+    const Wide<double> height = detail::height_asked(held.by(), options);
+    const int most = options.max_half_waves;
+    if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height.high, most);
     return finite::held_cord_shapes_under_tension(
-        held.system(), detail::height_times_tension(held.by(), height, options), height, options.max_half_waves);
+        held.system(), detail::height_times_tension(held.by(), height, options).high, height.high, most);
 }
 
 REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {

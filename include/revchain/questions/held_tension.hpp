@@ -22,7 +22,7 @@ Wide<double> lower_tension(std::string_view place, const Held<System>& held, dou
                       "a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; ask "
                       "steady_shapes for its shapes and stability for small motions about one; span",
                       *held.by().span);
-    const Wide<double> upper(*held.by().tension);
+    const Wide<double> upper = *held.by().tension;
     if (held.by().weightless) {
         require_positive(place, "gravity", gravity);
         return upper / Wide<double>(gravity);
@@ -37,7 +37,7 @@ Wide<double> lower_tension(std::string_view place, const Held<System>& held, dou
         throw_invalid(place,
                       "tension at the upper end must exceed the weight " + in_digits(static_cast<double>(weight)) +
                           ", or the lower part is slack",
-                      *held.by().tension);
+                      upper.high);
     return lower;
 }
 

@@ -85,7 +85,7 @@ inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& a
     // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
     const S two(2.0), below = m == 0 ? S(0.0) : mode.links[static_cast<std::size_t>(m - 1)].hung;
     const S axial =
-        S(std::ldexp(rig.flywheel(m).axial_moment, -units.weight_exponent - 2 * units.length_exponent)) * square;
+        ldexp(rig.flywheel(m).axial_moment, -units.weight_exponent - 2 * units.length_exponent) * square;
     const S by_length = sign * square * (below - two * (link.tension + mode.speed * link.spin)) +
                         turning * two * (solid.resists(s) + fluid.resists(s) - axial) / link.length;
     const S by_centroid = solid.weight * (sign * square - turning * two * solid.centre * s);
@@ -187,8 +187,7 @@ REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double ang
     S above(0.0);
     bool held = rig.support().is_firm();
     if (!held)
-        above =
-            S(std::ldexp(rig.support().stiffness, units.length_exponent - units.weight_exponent)) + links.carriage();
+        above = ldexp(rig.support().stiffness, units.length_exponent - units.weight_exponent) + links.carriage();
     const S turning = links.turning();
     for (std::size_t m = links.size(); m-- > number + 1; held = false)
         above = held ? links.stiffness(m) - turning * links.link(m).lower

@@ -33,7 +33,7 @@ inline Rig swinging(std::string_view place, const Rig& rig) {
                                   "] is in a fluid that turns; a rig swings in a fluid at rest: write \"still\"",
                               rig.displaced(m).weight);
     Rigging with = rig.rigging();
-    for (Flywheel& wheel : with.flywheels) wheel.axial_moment = 0;
+    for (Flywheel& wheel : with.flywheels) wheel.axial_moment = 0.0;
     return {rig.chain(), std::move(with)};
 }
 

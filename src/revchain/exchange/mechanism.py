@@ -131,7 +131,7 @@ def mechanism(place: str, given: Any, gravity: float | None) -> tuple[Mechanism,
         else one_positive(place, "gravity", STANDARD_GRAVITY if gravity is None else gravity)
     )
     rig = system if isinstance(system, Rig) else Rig(system)
-    if rig.displaced is not None:
+    if rig._floats:
         raise ValueError(
             f"{place}: a fluid has no counterpart in the engine; give the rig without displaced, got {rig!r}"
         )
@@ -162,10 +162,7 @@ def _bodies(place: str, rig: Rig, gravity: float) -> tuple[Mechanism, Floats, Fl
         )
     per = 1.0 if chain.by_mass else gravity
     mass, size = (chain.mass if chain.by_mass else chain.weight) / per, chain.size
-    momentum, axial = np.zeros(size), np.zeros(size)
-    if rig.flywheels is not None:
-        kept, turning = rig._turning(gravity)
-        momentum, axial = momentum + kept * rig._force(gravity), axial + turning / per
+    momentum, axial = rig._own_momentum(gravity), rig._turning(gravity)[1] / per
     radius = chain.radius_of_gyration
     moment = mass * radius * radius
     wheeled = (momentum != 0) | (axial != 0)

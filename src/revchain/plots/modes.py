@@ -61,7 +61,7 @@ class Straight:
     @property
     def said(self) -> str:
         """What to write under the system at rest."""
-        fluid = f"\nin {self.system.fluid} fluid" if isinstance(self.system, Rig) and self.system.displaced is not None else ""
+        fluid = f"\nin {self.system.fluid} fluid" if isinstance(self.system, Rig) and self.system._floats else ""
         arm = "\narm not\nto scale" if isinstance(self.system, Rig) and self.system.support.radius else ""
         return f"at rest{fluid}{arm}"
 
@@ -216,7 +216,7 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     if straight.few:
         ax.set_xlabel("dots: centres of gravity, larger where heavier; rings: pins;\nbars: rods of the same inertia", fontsize="small")
     ax.set_xticks([])
-    if isinstance(system, Rig) and system.displaced is not None:
+    if isinstance(system, Rig) and system._floats:
         ax.set_facecolor(FLUID)
         ax.set_title(f"in {system.fluid} fluid", fontsize="small")
     return ax
@@ -297,7 +297,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     if len(rows) or carried is not None:
         turn = "\n" if columns < 4 else " "
         ax.set_xlabel(f"offset from the axis, own scale each;{turn}rings mark the nodes", fontsize="small")
-    if rigged and system.displaced is not None:
+    if rigged and system._floats:
         ax.set_facecolor(FLUID)
     return ax
 

@@ -488,7 +488,7 @@ def _rig_data(rig: Rig, name: str, gravity: float) -> Any:
     if name in DATA:
         return _data(rig.chain)[name]
     if name == "momentum":
-        return rig._force(gravity) * rig._momentum(gravity)
+        return rig._own_momentum(gravity)
     if name in ("stiffness", "support_mass"):
         return rig.support.stiffness if name == "stiffness" else rig.support.carriage
     given = (rig.flywheels if name == "spin" else rig.displaced) or rig.support

@@ -267,8 +267,7 @@ def _balance(shape: SteadyShape) -> Balance:
         bears, moves = np.concatenate([weight, -borne]), np.concatenate([weight, carried])
         centroid = np.concatenate([centroid, column(given.get("centroid", centroid))])
         gyration = np.concatenate([gyration, column(given.get("radius_of_gyration", gyration))])
-        if rig.flywheels is not None:
-            momentum, axial = (column(x) for x in rig._turning(shape.gravity))
+        momentum, axial = rig._turning(shape.gravity)
         support = rig.support
         stiffness, carriage, radius = support.stiffness / shape._per, support.carriage, support.radius
     reach = np.where(link[:, None] < pins, column(chain.length), 0.0)

@@ -261,7 +261,7 @@ class Columns:
         turning = scene.fluid == "turning"
         if not marked:
             clamped, first = [], []
-        return _core.Points(count, links, kind, tables, clamped, first, scene.is_rigged, standing, turning)
+        return _core.Points(count, links, kind, tables, clamped, first, scene.is_rigged, standing, turning, self.by_mass)
 
     def speed_of_shapes(self, points: Mapping[Path, Floats]) -> tuple[Floats, bool]:
         """The speed or height of the shapes at each point, and whether it is a speed."""
@@ -350,7 +350,7 @@ class Columns:
         if isinstance(scene.support, Support):
             support, place = scene.support, ("support",)
             stiffness = self._number(support, place, "stiffness", "stiffness", "positive", math.inf)
-            tables["stiffness"] = self._alone(stiffness / gravity if self.by_mass else stiffness)
+            tables["stiffness"] = self._alone(stiffness)
             carriage = self._weight(support, place, gravity, "not negative", "", 0.0)
             radius = self._number(support, place, "radius", "length", "not negative", 0.0)
             tables |= {"carriage_weight": self._alone(carriage), "support_radius": self._alone(radius)}
@@ -361,7 +361,7 @@ class Columns:
         repeats = [link.repeat for _, link in links]
         if any(link.flywheel is not UNSET for _, link in links):
             wheels = [self._flywheel(link.flywheel, (*place, "flywheel"), gravity) for place, link in links]
-            for k, name in enumerate(("momentum", "axial_moment")):
+            for k, name in enumerate(("wheel_weight", "wheel_radius_of_gyration", "spin", "driven")):
                 tables[name] = self._column(name, [wheel[k] for wheel in wheels], repeats)
         if any(link.displaced is not UNSET for _, link in links):
             fluids = [self._displaced(link.displaced, (*place, "displaced"), gravity) for place, link in links]
@@ -373,14 +373,12 @@ class Columns:
         standing = [link.standing for _, link in links]
         return np.repeat(standing, repeats).tolist() if any(standing) else []
 
-    def _flywheel(self, table: Flywheel | UnsetType, place: Path, gravity: Any) -> tuple[Any, Any]:
+    def _flywheel(self, table: Flywheel | UnsetType, place: Path, gravity: Any) -> tuple[Any, ...]:
         if isinstance(table, UnsetType):
-            return 0.0, 0.0
+            return 0.0, 0.0, 0.0, 0.0
         radius = self._number(table, place, "radius_of_gyration", "length", "not negative")
         heavy = self._weight(table, place, gravity, "not negative")
-        spin = self._number(table, place, "spin", "spin", "any")
-        long: Any = np.asarray(heavy, np.longdouble) * radius * radius * spin / gravity  # rounded once, as there
-        return long.astype(np.float64)[()], heavy * radius * radius if table.driven else 0.0
+        return heavy, radius, self._number(table, place, "spin", "spin", "any"), float(table.driven)
 
     def _displaced(self, table: Displaced | UnsetType, place: Path, gravity: Any) -> tuple[Any, Any, Any, Any]:
         """Displaced weight, added weight, centroid and radius of gyration; NaN for those of the link."""

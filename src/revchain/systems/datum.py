@@ -228,8 +228,8 @@ def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -
     here = np.arange(rig.size) == link
     part = here.astype(float)
     if name == "momentum":
-        kept = rig._force(gravity) * rig._momentum(gravity)
-        moment = 0.0 if rig.flywheels is None else rig.flywheels._about(gravity)[1]
+        kept = rig._own_momentum(gravity)
+        moment = rig._turning(gravity)[1]
         typical = rig._force(gravity) * whole * long * math.sqrt(long / gravity)
 
         def turning(x: float) -> Rig:

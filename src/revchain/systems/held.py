@@ -158,7 +158,7 @@ class Held(System):
             return max(self.system.mode_count - 1, 0)
         force = 2.0 * self.system._compiled.total_weight  # any tension has as many
         ends = self._ends(STANDARD_GRAVITY)
-        taut = _core.Held(self.system._compiled, None, force, False, *ends)
+        taut = _core.Held(self.system._compiled, None, (force, 1.0), False, *ends)
         return int(_core.count_held_modes(taut, np.asarray(1e-100 * self.length), STANDARD_GRAVITY))
 
     @property
@@ -174,9 +174,9 @@ class Held(System):
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
 
-    def _pull(self, gravity: float) -> float | None:
-        """Tension that the compiled system takes."""
-        return None if self.tension is None else self.tension / self._force(gravity)
+    def _pull(self, gravity: float) -> tuple[float, float] | None:
+        """Tension, and its unit over that of the compiled system's forces."""
+        return None if self.tension is None else (self.tension, self._force(gravity))
 
     def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
         if isinstance(self.system, Cord):
@@ -188,10 +188,10 @@ class Held(System):
         ends = {} if isinstance(system, Cord) else {"lower": self.lower, "upper": self.upper}
         return Held(system, span=span, tension=tension, weightless=self.weightless, **ends)
 
-    def _ends(self, gravity: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Stiffness, weight and radius of each end, as the compiled system takes them."""
+    def _ends(self, gravity: float) -> tuple[_End, _End]:
+        """Stiffness, its unit of force over that of the compiled system, weight and radius of each end."""
         force = self._force(gravity)
-        lower, upper = ((end.stiffness / force, end.carriage, end.radius) for end in (self.lower, self.upper))
+        lower, upper = ((end.stiffness, force, end.carriage, end.radius) for end in (self.lower, self.upper))
         return lower, upper
 
     def _words(self) -> list[str]:
@@ -245,6 +245,9 @@ class Held(System):
     def _from_data(cls, data: dict[str, Any]) -> Held:
         given = {name: Support(**value) if name in ("lower", "upper") else value for name, value in data.items()}
         return cls(from_data(given.pop("of")), **given)  # type: ignore[arg-type]
+
+
+_End = tuple[float, float, float, float]
 
 
 def _checked(place: str, end: Support, held: Held) -> Support:

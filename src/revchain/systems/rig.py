@@ -79,7 +79,7 @@ class Support(_Fitting):
     stiffness : float
         Sideways stiffness of the spring, N/m, positive; infinite for a firm support.
     mass, weight : float, optional
-        Mass (kg) or weight (N) that moves sideways with the pin, in the same quantity as the chain.
+        Mass (kg) or weight (N) that moves sideways with the pin, in the same quantity as the chain. It needs a stiffness.
     radius : float
         Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is that of the
         place of rest. At an end of a `Held` it may be negative: on the other side of the axis.
@@ -87,7 +87,7 @@ class Support(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is out of its range.
+        If a number is not finite or is out of its range, or a mass moves with a pin that has no spring.
 
     References
     ----------
@@ -117,6 +117,12 @@ class Support(_Fitting):
                 raise ValueError(f"{place}: radius must be finite, got {value:g}")
             if name in ("mass", "weight") and not 0 <= value < math.inf:
                 raise ValueError(f"{place}: {name} must be finite and not negative, got {value:g}")
+        carriage = {name: value for name, value in given.items() if name in ("mass", "weight") and value > 0}
+        if math.isinf(given["stiffness"]) and carriage:
+            ((name, value),) = carriage.items()
+            raise ValueError(
+                f"{place}: stiffness is missing: what moves sideways needs a support that yields, got {name} {value:g}"
+            )
         left_out = {"stiffness": math.inf}
         _set(self, "_given", {name: value for name, value in given.items() if value != left_out.get(name, 0.0)})
 
@@ -237,22 +243,17 @@ class Flywheel(_Fitting):
         with np.errstate(over="ignore", invalid="ignore"):
             return np.asarray(given.get("mass", given.get("weight")) * radius * radius)
 
-    def _about(self, gravity: float) -> tuple[Floats, Floats]:
-        """Momentum and axial moment; for wheels given by mass, the momentum is divided by gravity."""
+    def _columns(self, gravity: float) -> dict[str, Floats]:
+        """The numbers of the wheels by their names in the compiled rig, which multiplies them in double words."""
         given = self._given
         if "momentum" in given:
-            return given["momentum"], given.get("axial_moment", _NOTHING)
-        place = "revchain.Flywheel"
-        heavy, radius = given.get("mass", given.get("weight")), given["radius_of_gyration"]
-        moment = self._inertia
+            return dict(given)
         with np.errstate(over="ignore", invalid="ignore"):
-            long = np.asarray(heavy, np.longdouble) * radius * radius * given["spin"] / gravity  # rounded once, to double
-            momentum = np.asarray(long.astype(np.float64))
-        wrong = ~(np.isfinite(moment) & np.isfinite(momentum))
-        refuse_where(
-            wrong, np.broadcast_to(radius, wrong.shape), f"{place}: gives too large a momentum with radius_of_gyration"
-        )
-        return momentum, np.where(given.get("driven", False), moment, 0.0)
+            moment = self._inertia
+            wrong = ~(np.isfinite(moment) & np.isfinite(moment * given["spin"] / gravity))
+        radius = np.broadcast_to(given["radius_of_gyration"], wrong.shape)
+        refuse_where(wrong, radius, "revchain.Flywheel: gives too large a momentum with radius_of_gyration")
+        return {_COLUMN_OF_WHEEL.get(name, name): value for name, value in given.items()}
 
 
 class Displaced(_Fitting):
@@ -317,6 +318,11 @@ class Displaced(_Fitting):
             if name != "centroid":
                 refuse_where(column < 0, column, f"{place}: {name} must not be negative")
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
+
+    @property
+    def _bears(self) -> bool:
+        """Whether any fluid is displaced or moves with a link; if not, its place matters for derivatives alone."""
+        return any(value.any() for name, value in self._given.items() if name in _HEAVY)
 
 
 class Rig(System):
@@ -409,7 +415,7 @@ class Rig(System):
                 like(f"{place}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
         if support is not None and support.radius < 0:
             raise ValueError(f"{place}: support radius must not be negative, got {support.radius:g}")
-        if displaced is not None and not any(value.any() for name, value in displaced._given.items() if name in _HEAVY):
+        if displaced is not None and not (displaced._bears or displaced._given.keys() & {"centroid", "radius_of_gyration"}):
             displaced = None
         if fluid == "turning" and displaced is not None:
             added = displaced._given.get("added_mass", displaced._given.get("added_weight", np.zeros(())))
@@ -437,19 +443,25 @@ class Rig(System):
         """Whether each link is inverted (stands on its upper pin), shape (N,), lowest first; read-only."""
         return np.broadcast_to(np.False_, self.size) if self._inverted is None else self._inverted
 
+    @property
+    def _floats(self) -> bool:
+        """Whether a link displaces fluid or moves some."""
+        return self.displaced is not None and self.displaced._bears
+
     def _momentum(self, gravity: float) -> Floats:
-        """Constant angular momentum of each link, as the compiled rig takes it, shape (N,)."""
-        momentum = _NOTHING if self.flywheels is None else self._turning(gravity)[0]
-        return np.broadcast_to(momentum, self.size)
+        """Constant angular momentum of each link in the compiled rig's unit of force, shape (N,)."""
+        return self._turning(gravity)[0]
 
     def _turning(self, gravity: float) -> tuple[Floats, Floats]:
-        """Momentum and axial moment as the compiled rig takes them, each a number or one for each link."""
-        assert self.flywheels is not None
-        momentum, moment = self.flywheels._about(gravity)
-        if self.by_mass and "momentum" in self.flywheels._given:
-            momentum = momentum / gravity
-        place, size = "revchain.Rig", self.size
-        return _column(place, "momentum", momentum, size), _column(place, "axial_moment", moment, size)
+        """Momentum and axial moment of each link in the compiled rig's unit of force, shape (N,)."""
+        under = self._under(gravity)
+        return under.momentum, under.axial_moment
+
+    def _own_momentum(self, gravity: float) -> Floats:
+        """Constant angular momentum of each link in the unit of `Flywheel`, as given if it was, shape (N,)."""
+        if self.flywheels is not None and "momentum" in self.flywheels._given:
+            return np.broadcast_to(self.flywheels.momentum, self.size)
+        return self._force(gravity) * self._momentum(gravity)
 
     @property
     def has_momentum(self) -> bool:
@@ -472,17 +484,20 @@ class Rig(System):
         place, size = "revchain.Rig", self.size
         columns: dict[str, Floats] = {}
         if self.flywheels is not None:
-            columns["momentum"], columns["axial_moment"] = self._turning(gravity)
+            for name, value in self.flywheels._columns(gravity).items():
+                columns[name] = _column(place, name, np.asarray(value, float), size)
         if self.displaced is not None:
             for name, value in self.displaced._given.items():
                 columns[_COLUMN_OF[name]] = _column(place, f"displaced {name}", value, size)
         return _core.Rig(
             self.chain._compiled,
-            stiffness=self.support.stiffness / self._force(gravity),
+            stiffness=self.support.stiffness,
             carriage_weight=self.support.carriage,
             support_radius=self.support.radius,
             standing=self._inverted,
             turning_fluid=self.fluid == "turning",
+            force=self._force(gravity),
+            gravity=gravity,
             **columns,
         )
 
@@ -561,6 +576,7 @@ class Rig(System):
 
 
 _HEAVY = ("mass", "weight", "added_mass", "added_weight")
+_COLUMN_OF_WHEEL = {"mass": "wheel_weight", "weight": "wheel_weight", "radius_of_gyration": "wheel_radius_of_gyration"}
 _COLUMN_OF = {
     "mass": "displaced_weight",
     "weight": "displaced_weight",

@@ -26,7 +26,7 @@ inline double held_against_truth(const revchain::Chain<double>& chain, const rev
         Quad y = x[0], z = 0;
         dy[0] = 1;
         const auto spring = [&](const revchain::Support& end, Quad at) {  // on an offset with the changes dy
-            const Quad stiffness = lambda * Quad(end.stiffness), carriage = end.carriage_weight;
+            const Quad stiffness = lambda * quad(end.stiffness), carriage = end.carriage_weight;
             const Quad force = stiffness * (at - Quad(end.radius)) - carriage * at;
             for (std::size_t j = 0; j < angles; ++j) {
                 b[j] += force * dy[j];

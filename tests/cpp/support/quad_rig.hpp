@@ -54,9 +54,9 @@ class QuadRig {
                 momentum_x += body.moves / gravity_ * body.gyration * across_x;
             }
             const auto wheel = rig_.flywheel(m);
-            momentum_x += (Quad(wheel.momentum) + Quad(wheel.axial_moment) / gravity_ * speed_ * ez) * ex;
-            result.inertia += Quad(wheel.axial_moment) * ez * ez;
-            result.energy -= speed_ * Quad(wheel.momentum) * ez;
+            momentum_x += (quad(wheel.momentum) + quad(wheel.axial_moment) / gravity_ * speed_ * ez) * ex;
+            result.inertia += quad(wheel.axial_moment) * ez * ez;
+            result.energy -= speed_ * quad(wheel.momentum) * ez;
             torque -= speed_ * momentum_x;  // of (0, 0, n) x momentum
             result.torque.push_back(torque);
             Fx = force_x, Fz = force_z;
@@ -69,9 +69,9 @@ class QuadRig {
             const auto& support = rig_.support();
             const Quad drawn = at.top - Quad(support.radius);
             result.inertia += Quad(support.carriage_weight) * at.top * at.top;
-            result.energy += Quad(support.stiffness) * drawn * drawn / 2;
+            result.energy += quad(support.stiffness) * drawn * drawn / 2;
             const Quad force = Fx + Quad(support.carriage_weight) / gravity_ * speed_ * speed_ * at.top -
-                               Quad(support.stiffness) * (at.top - Quad(support.radius));
+                               quad(support.stiffness) * (at.top - Quad(support.radius));
             result.torque.push_back(force), result.worst = std::max(result.worst, fabsq(force) / weight);
         }
         result.energy -= result.inertia / gravity_ * speed_ * speed_ / 2;

@@ -54,7 +54,7 @@ struct RigData {
             momentum.push_back(number(rig.flywheel(m).momentum)), axial.push_back(number(rig.flywheel(m).axial_moment));
         }
         yields = !rig.support().is_firm();
-        stiffness = number(yields ? rig.support().stiffness : 0.0);
+        stiffness = number(yields ? rig.support().stiffness : revchain::Wide<double>(0.0));
         carriage = number(rig.support().carriage_weight), radius = number(rig.support().radius);
     }
     std::size_t size() const { return a.size(); }

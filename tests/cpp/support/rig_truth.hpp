@@ -36,7 +36,7 @@ class RigTruth {
             const Quad moment = W * h - B * hB + a * hung;  // of what bears, about the upper pin
             hung += W - B;
             add(K, m, sign * moment / (a * a), -sign * moment / (a * a), sign * moment / (a * a));
-            const Quad p = Quad(rig.flywheel(i).momentum) / (a * a) * sign;
+            const Quad p = quad(rig.flywheel(i).momentum) / (a * a) * sign;
             add(G, m, p, -p, p);
             const auto body = [&](Quad moves, Quad centroid, Quad gyration) {  // gyration: radius^2 / a^2
                 const Quad y0 = centroid / a, y1 = (a - centroid) / a;
@@ -44,11 +44,11 @@ class RigTruth {
             };
             body(W, h, quad(link.gyration_ratio));
             body(turning ? -B : Quad(fluid.added_weight), hB, quad(fluid.gyration_ratio));
-            const Quad c = -Quad(rig.flywheel(i).axial_moment) / (a * a);
+            const Quad c = -quad(rig.flywheel(i).axial_moment) / (a * a);
             add(M, m, c, -c, c);
         }
         if (!firm) {
-            K.d[links] += Quad(rig.support().stiffness);
+            K.d[links] += quad(rig.support().stiffness);
             M.d[links] += Quad(rig.support().carriage_weight);
         }
     }

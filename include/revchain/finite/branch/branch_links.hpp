@@ -97,11 +97,11 @@ struct BranchSystem {
         const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
         const Support& support = of.support();
         links.radius = S(in_lengths(support.radius));
-        for (Index m = 0; m < of.size(); ++m) axial += in_lengths(in_lengths(in_weights(of.flywheel(m).axial_moment)));
+        for (Index m = 0; m < of.size(); ++m) axial += in_lengths(in_lengths(in_weights(of.flywheel(m).axial_moment.high)));
         if (support.is_firm()) return;
         S reach(0.0);
         for (const Link<S>& link : links.links) reach = reach + link.length;
-        const S stiffness(std::ldexp(in_weights(support.stiffness), units.length_exponent));
+        const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
         links.links.push_back({reach, stiffness * reach, S(0.0), S(in_weights(support.carriage_weight)), S(0.0)});
         if (!links.spin.empty()) links.spin.push_back(S(0.0));
         links.spring = true;

@@ -288,18 +288,18 @@ inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& su
 /// Shapes of up to `max_half_waves` half waves whose tension at the upper end, times the height, is
 /// `height_times_tension`.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
-                                            double height_times_tension, double conical_height,
-                                            const HeldListOptions& options) {
+                                            const Wide<double>& height_times_tension,
+                                            const Wide<double>& conical_height, const HeldListOptions& options) {
     using S = Wide<double>;
     HeldChain held(chain, supports);
     const ChainUnits units = held.links().units;
-    const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
-                 lambda = std::ldexp(conical_height, -units.length_exponent);
+    const S wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
+            lambda = ldexp(conical_height, -units.length_exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
-        each_under(held, k, lambda, wanted,
-                   [&](const HeldState& found) { add(held.finished(found, S(found.span), S(lambda), options.prove)); });
+        each_under(held, k, lambda.high, wanted.high,
+                   [&](const HeldState& found) { add(held.finished(found, S(found.span), lambda, options.prove)); });
     });
-    if (options.prove) complete(list, held, S(lambda), {Interval<double>(wanted), false}, options);
+    if (options.prove) complete(list, held, lambda, {enclosed<double>(wanted), false}, options);
     return list;
 }
 

@@ -33,7 +33,8 @@ HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, con
         if (by_part) result.radius_change[above] = radius;
         if (support.is_firm() || (part == 0 && !by_part)) continue;
         const T at = supports.height ? static_cast<T>(*supports.height) : height;
-        const T stiffness = at * T(std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent));
+        const T stiffness =
+            at * static_cast<T>(ldexp(support.stiffness, units.length_exponent - units.weight_exponent));
         end.firm = false, end.stiffness = stiffness / T(part > 0 ? part : 1), end.compliance = T(part) / stiffness;
         end.carriage = T(std::ldexp(support.carriage_weight, -units.weight_exponent));
         if (by_part)

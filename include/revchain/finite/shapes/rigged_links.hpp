@@ -131,18 +131,17 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
             reject("the lowest link's weight that moves must not balance about its upper pin");
         result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
         result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);
-        const double wheel = rig.flywheel(m).axial_moment;
-        result.axial_moment = result.axial_moment +
-                              S(std::ldexp(wheel, -result.units.weight_exponent - 2 * result.units.length_exponent));
+        result.axial_moment =
+            result.axial_moment + ldexp(rig.flywheel(m).axial_moment,
+                                        -result.units.weight_exponent - 2 * result.units.length_exponent);
     }
     const Support& held = rig.support();
     const auto length = [&](double x) { return S(std::ldexp(x, -result.units.length_exponent)); };
     const S none(0.0), radius = length(held.radius);
     result.support = {radius, none, none, none, held.radius == 0, held.is_firm()};
     if (!held.is_firm()) {
-        const double stiffness =
-            std::ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
-        result.support.stiffness = ldexp(height, -result.units.length_exponent) * S(stiffness);
+        const S stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        result.support.stiffness = ldexp(height, -result.units.length_exponent) * stiffness;
         result.support.compliance = S(1.0) / result.support.stiffness;
         result.support.carriage = S(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
     }

@@ -128,8 +128,8 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     result.links = rounded<double>(chain.links), result.held = true;
     const auto& [lower, upper] = shape.ends;
     result.turns_freely = lower.radius == 0 && upper.radius == 0;
-    result.stiffness = weight(upper.stiffness), result.carriage = weight(upper.carriage_weight);
-    result.lower_stiffness = weight(lower.stiffness), result.lower_carriage = weight(lower.carriage_weight);
+    result.stiffness = weight(upper.stiffness.high), result.carriage = weight(upper.carriage_weight);
+    result.lower_stiffness = weight(lower.stiffness.high), result.lower_carriage = weight(lower.carriage_weight);
     result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
     result.inclination.assign(shape.inclination.begin(), shape.inclination.end());
     const double H = length(weight(-shape.lower_pull[0])), tau = length(weight(shape.lower_pull[1]));
@@ -191,7 +191,7 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
     const std::vector<double> pull = pulls(links, shape, given.units);
     for (Index m = 0; m < rig.size(); ++m) {
         const auto i = static_cast<std::size_t>(m);
-        const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment;
+        const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
         const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
         Link<double> link = links[i];  // as a body: what turns with it lessened what it resists turning with
         link.cross =

@@ -72,7 +72,7 @@ TEST_CASE("chains on springs, carried round or not: all roots", "[finite][rig]")
                 Flywheel{0.02 * chain.total_weight() * chain.total_length() * std::sqrt(lambda / gravity), 0});
         const Rig rig(chain, {.support = held, .flywheels = wheels});
         const auto found = revchain::steady_shapes(rig, {.conical_height = lambda});
-        CAPTURE(i, size, lambda, held.stiffness, held.radius, held.carriage_weight);
+        CAPTURE(i, size, lambda, held.stiffness.high, held.radius, held.carriage_weight);
         CHECK(found.complete);
         check_shapes(rig, lambda, found, 1, measured);
         scanned += check_by_scan(rig, lambda, found, 2000);
