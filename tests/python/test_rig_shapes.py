@@ -275,7 +275,7 @@ def test_senses_that_are_none(sense):
 def test_pictures_show_the_arm():
     pytest.importorskip("matplotlib")
     shapes = rc.steady_shapes(rigged(bob(), radius=0.25), conical_height=0.2)
-    assert shapes.plot().get_title() == f"{len(shapes)} shapes, proved complete"
+    assert shapes.plot().get_title() == f"{len(shapes)} hanging shapes, proved complete"
     for axes in (shapes.plot(), shapes[0].plot()):
         assert any(list(line.get_xdata()) == [0.0, 0.25] for line in axes.get_lines())
         axes.figure.canvas.draw()

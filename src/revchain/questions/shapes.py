@@ -79,7 +79,7 @@ def steady_shapes(
         `hanging_only` is false, every shape. Straight shapes are left out. Of two mirror images the one with the free end
         at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined link). If
         the support is carried round there are no mirror images; outwards is positive. The order is by half waves, then by
-        inclination of the lowest link. ``complete`` is true if it is proved that none is missing. Inclinations are within
+        inclination of the lowest link. ``complete`` is true if it is proved that none is missing among those asked for. Inclinations are within
         the proved ``error_bound``, mostly 2.2e-16. The list is empty and complete if the height exceeds that of the first
         mode, in any posture.
 
@@ -142,10 +142,11 @@ def steady_shapes(
 
     >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support=rc.Support(radius=1.0))
     >>> rc.steady_shapes(carousel, angular_speed=1.2566)
-    1 shape at 1.25660 rad/s (12.00 rpm), proved complete
+    1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete
     shape  half waves  lowest link (°)  top link (°)  free end: from axis (m)  above support (m)  top tension  error (rad)
         1           1           21.824        21.824                   2.4870            -3.7133       861.76      2.2e-16
     inclinations: to the downward vertical; error: proved bound of every inclination
+    with links above their pins (hanging_only=False) there may be more
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 
@@ -210,7 +211,7 @@ def steady_shapes(
         found = _core.steady_shapes(compiled(place, system), value, most, hanging, shared)
     else:
         found = _core.steady_shapes_at_speed(compiled(place, system), value, g, most, hanging, shared)
-    return shapes_made(found, system, height, speed, g, int(direction))
+    return shapes_made(found, system, height, speed, g, int(direction), hanging)
 
 
 def _weightless(

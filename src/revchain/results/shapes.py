@@ -484,8 +484,9 @@ class SteadyShapes(Results[Any], Moving):
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing; for a held system, no shape of up to `max_half_waves` half waves. "
-        "False if both ends are off the axis: shapes may then leave their plane, and such shapes are not looked for.",
+        "Whether it is proved that no shape is missing: of a chain or rig no hanging shape, or with ``hanging_only=False`` none "
+        "at all; of a held system none of up to `max_half_waves` half waves. False if both ends of a held chain are off the "
+        "axis: shapes may then leave their plane, and such shapes are not looked for.",
         part=True,
     )
     undecided: Field[Floats] = Field(
@@ -494,6 +495,12 @@ class SteadyShapes(Results[Any], Moving):
         part=True,
     )
     cells: Field[int] = Field("Number of parts of the range that were examined.", part=True)
+    hanging_only: Field[bool] = Field(
+        "Whether shapes with a link above its upper pin were left out (of a rig: with other links inverted than those of the "
+        "rig); false for cords and held systems.",
+        lambda s: isinstance(s.system, Chain | Rig),
+        part=True,
+    )
     missing: Field[tuple[int, ...]] = Field(
         "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", part=True
     )
@@ -521,7 +528,7 @@ class SteadyShapes(Results[Any], Moving):
         >>> import revchain as rc
         >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.02).plot()
         >>> ax.get_title()
-        '5 shapes, proved complete'
+        '5 hanging shapes, proved complete'
         """
         from ..plots.shapes import plot_shapes
 
@@ -530,11 +537,23 @@ class SteadyShapes(Results[Any], Moving):
         return axes
 
     def _how_many(self, at: str = "") -> str:
-        number = f"{len(self)} shape{'s' * (len(self) != 1)}{at}"
+        shapes = f"shape{'s' * (len(self) != 1)}"
+        kind = {"": shapes, "hanging": f"hanging {shapes}", "given": f"{shapes} in the rig's posture"}[self._posture()]
+        number = f"{len(self)} {kind}{at}"
         if self.missing:
             waves = f"{', '.join(map(str, self.missing))} half wave{'s' * (list(self.missing) != [1])}"
             number = f"{number}; none {'found ' * (not self.complete)}with {waves}"
         return f"{number}, proved complete" if self.complete else f"{number}; there may be more"
+
+    def _posture(self) -> str:
+        """The posture of the shapes in the list, ``hanging`` or as ``given``; empty if the list is of all postures.
+
+        One link alone cannot stand, and below the first critical speed a chain has no shape in any posture.
+        """
+        chain = isinstance(self.system, Chain)
+        if not self.hanging_only or (chain and self.complete and (len(self.system) == 1 or not len(self))):
+            return ""
+        return "hanging" if chain or not np.any(self.system.inverted) else "given"
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -550,7 +569,10 @@ class SteadyShapes(Results[Any], Moving):
             notes = [kind._note]
         if isinstance(self.system, Held) and not self.system.is_planar:
             notes.append("both ends are off the axis: shapes that leave the plane of the ends are not looked for")
-        names = ("gravity", "angular_speed", "conical_height", "complete", "undecided", "missing")
+        if self._posture():
+            other = "with links above their pins" if self._posture() == "hanging" else "in other postures"
+            notes.append(f"{other} (hanging_only=False) there may be more")
+        names = ("gravity", "angular_speed", "conical_height", "complete", "hanging_only", "undecided", "missing")
         heading = self._how_many(at_speed(self.angular_speed))
         facts = {name: getattr(self, name) for name in names}
         return Sheet("shape", heading, columns, facts, notes, self.complete or isinstance(self.system, Held))
@@ -571,9 +593,16 @@ def table(rows: list[Floats]) -> Floats:
 
 
 def shapes_made(
-    found: _core.SteadyShapes, system: Chain | Rig, height: float, speed: float, gravity: float, direction: int
+    found: _core.SteadyShapes,
+    system: Chain | Rig,
+    height: float,
+    speed: float,
+    gravity: float,
+    direction: int,
+    hanging_only: bool,
 ) -> SteadyShapes:
     """The list of the compiled shapes of a chain or rig."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     items = tuple(SteadyShape._made(shape, direction=direction, **given) for shape in found.shapes)
-    return SteadyShapes._made(found, _items=items, conical_height=height, angular_speed=speed, missing=(), **given)
+    given |= {"conical_height": height, "angular_speed": speed, "hanging_only": hanging_only, "missing": ()}
+    return SteadyShapes._made(found, _items=items, **given)

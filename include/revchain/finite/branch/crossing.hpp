@@ -16,24 +16,29 @@ struct HeightMeasure {
     Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
 };
 
-/// tau of the lowest link.
+/// tau of the lowest link: outwards, or of either sign.
 struct TipInclinationMeasure {
     double wanted;
-    Measured operator()(const BranchPoint& p) const { return {p.state.rise[0] - wanted, p.tangent.rise[0]}; }
+    bool either;
+    Measured operator()(const BranchPoint& p) const {
+        const double sign = either && p.state.rise[0] < 0 ? -1 : 1;
+        return {sign * p.state.rise[0] - wanted, sign * p.tangent.rise[0]};
+    }
 };
 
-/// The free end's offset.
+/// The free end's offset, of either sign.
 struct TipRadiusMeasure {
     const BranchLinks<double>* links;
     double wanted;
     Measured operator()(const BranchPoint& p) const {
-        Measured result{links->radius - wanted, 0};
+        double y = links->radius, slope = 0;
         for (std::size_t m = 0; m < links->size(); ++m) {
             const double a = links->links[m].length;
             const Inclined at = links->inclined(m, p.state.rise[m]);
-            result.value += a * at.sine, result.slope += a * at.slope * p.tangent.rise[m];
+            y += a * at.sine, slope += a * at.slope * p.tangent.rise[m];
         }
-        return result;
+        const double sign = y < 0 ? -1 : 1;
+        return {sign * y - wanted, sign * slope};
     }
 };
 

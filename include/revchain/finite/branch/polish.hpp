@@ -34,7 +34,8 @@ struct GivenHeight : Condition<S> {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere.
+/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere. Of either sign: that
+/// which the link has there.
 template <class S>
 struct GivenTipInclination : Condition<S> {
     S sine, cosine;
@@ -51,13 +52,14 @@ struct GivenTipInclination : Condition<S> {
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = detail::cosine_of(a, d);
-        row[0] = static_cast<double>((cosine + s * sine / c) / a);
-        return {sine * c - s * cosine, 0.0};
+        const S signed_sine = d < S(0) ? -sine : sine;
+        row[0] = static_cast<double>((cosine + s * signed_sine / c) / a);
+        return {signed_sine * c - s * cosine, 0.0};
     }
     double size(const S&) const override { return angle; }
 };
 
-/// The free end's distance from the axis.
+/// The free end's distance from the axis, on the side where it is.
 template <class S>
 struct GivenTipRadius : Condition<S> {
     S wanted;
@@ -65,7 +67,7 @@ struct GivenTipRadius : Condition<S> {
     std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>& y, const S&,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 1.0);
-        return {wanted - y[0], 0.0};
+        return {(y[0] < S(0) ? -wanted : wanted) - y[0], 0.0};
     }
     double size(const S&) const override { return static_cast<double>(wanted); }
 };

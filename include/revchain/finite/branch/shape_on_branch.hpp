@@ -172,7 +172,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                                  : "tip inclination must lie between 0 and pi/2",
                           *given.tip_inclination);
         const double rise = std::asinh(std::tan(angle));
-        const TipInclinationMeasure measure{rise};
+        const TipInclinationMeasure measure{rise, links->is_symmetric()};
         return search(measure, GivenTipInclination<S>(angle), amplitude_of(root, measure, rise));
     }
     if (given.tip_radius) {

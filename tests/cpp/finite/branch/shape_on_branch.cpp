@@ -178,6 +178,45 @@ TEST_CASE("what people ask: tip inclination, tip radius and top tension come bac
     CHECK(same > 100);
 }
 
+TEST_CASE("bodies of any centroid: a shape of a branch is found by the size of its tip inclination and tip radius",
+          "[finite]") {
+    // where l > a the lowest link may lean either way, and the free end be on either side, when the other is positive
+    support::Random random(135);
+    int asked = 0, missed = 0, inwards = 0;
+    const auto has = [](const revchain::ShapesOnBranch& found, const SteadyShape& shape) {
+        return std::any_of(found.shapes.begin(), found.shapes.end(), [&](const SteadyShape& each) {
+            const double same = (each.inclination - shape.inclination).cwiseAbs().maxCoeff();
+            const double mirrored = (each.inclination + shape.inclination).cwiseAbs().maxCoeff();
+            return std::min(same, mirrored) <= 1e-9 * std::max(1.0, each.condition);
+        });
+    };
+    for (int i = 0; i < 400; ++i) {
+        const auto chain = support::chain_of(2 + i % 5, [&](Index) {
+            const double length = random.log_between(0.1, 10.0);
+            return revchain::Link<double>{random.log_between(0.1, 10.0), length, length * random.between(0.05, 1.5),
+                                          random.between(0.0, 1.0)};
+        });
+        const Index mode = 1 + i % std::min<Index>(chain.mode_count(), 4);
+        const double critical = height_of(chain, mode), height = critical * random.between(0.05, 0.95);
+        const auto shape = revchain::steady_shape(chain, {.mode = mode, .conical_height = height});
+        const double tip = std::abs(shape.inclination[0]), radius = std::abs(shape.offset[0]);
+        CAPTURE(i, mode, height / critical, tip, radius);
+        inwards += shape.inclination[0] < 0;
+        asked += 2;
+        const double end = 0.9 * height;
+        const bool by_tip = has(
+            revchain::shapes_on_branch(chain, {.mode = mode, .tip_inclination = tip, .min_conical_height = end}), shape);
+        const bool by_radius =
+            has(revchain::shapes_on_branch(chain, {.mode = mode, .tip_radius = radius, .min_conical_height = end}), shape);
+        CHECK(by_tip);
+        CHECK(by_radius);
+        missed += !by_tip + !by_radius;
+    }
+    CAPTURE(asked, missed, inwards);
+    CHECK(missed == 0);
+    CHECK(inwards > 20);
+}
+
 TEST_CASE("the onset of every branch is the pitchfork's", "[finite]") {
     // one plummet: cos d = lambda/l, sin^2 d = (l^2 - lambda^2)/l^2 -> 2 (1 - lambda/l)
     const auto rods = Chain<double>::uniform_rods(7, 1, 1);
