@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ _PLACE = "revchain.fit"
 _FORM = '{1: (3.21, 0.02)}, {1: "0.5 Hz"} or {1: ["10.9 s", "1 %"]}'
 _SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a combination that is undetermined
 _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
+_EXTREME = 1e100  # an uncertainty over its value, or less than 1 / it, whose square would overflow
 _PART = 1e-6  # smallest part of a datum in a combination
 
 
@@ -317,7 +319,9 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
     elif isinstance(vary, str):
         paths = [vary]
     else:
-        paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
+        paths = []
+        with suppress(TypeError):  # numpy's arrays without an axis
+            paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
     if not paths:
         such = '["length", "links[0].mass"]'
         raise ValueError(f"{_PLACE}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
@@ -373,6 +377,10 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
         raise ValueError(
             f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
             "is known"
+        )
+    if not 1 / _EXTREME <= part <= _EXTREME:
+        raise ValueError(
+            f"{place}: uncertainty must be from {1 / _EXTREME:g} to {_EXTREME:g} times the measured value, got {shown(spread)}"
         )
     return speed, part * speed
 
