@@ -8,7 +8,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,26 @@ settings.register_profile(
 settings.load_profile("revchain")
 
 ULP = 2.0**-52
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """A module without a test, such as one whose only class has the wrong name, fails."""
+    report = yield
+    if isinstance(collector, pytest.Module) and report.passed and not report.result:
+        report.outcome, report.longrepr = "failed", f"{collector.nodeid}: there is no test in this module"
+    return report
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print how many cases of each module ran, and which module ran none."""
+    ran: dict[str, int] = {}
+    for outcome, reports in terminalreporter.stats.items():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                module = Path(report.nodeid.partition("::")[0]).stem
+                ran[module] = ran.get(module, 0) + (outcome in ("passed", "failed", "xfailed", "xpassed"))
+    terminalreporter.write_line("cases: " + ", ".join(f"{module} {count}" for module, count in sorted(ran.items())))
 
 
 @pytest.fixture(scope="session")
