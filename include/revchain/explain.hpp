@@ -27,10 +27,11 @@ struct Explanation {
     std::string text() const;
 };
 
-/// Returns the method that `modes(chain, options)` tries first, from `first`, `count` and `rtol`; `method` is ignored. No
-/// mode is computed. Where that method cannot prove its bound for the links of this chain, `modes` takes the next one;
-/// `Modes::method` names the method that was used. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured
-/// times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
+/// Returns the method that `modes(chain, options)` tries first, from `first`, `count` and `rtol`; `method` is ignored.
+/// No mode is computed. Where that method cannot prove its bound for the links of this chain, `modes` takes the next
+/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error bound; predicted times
+/// were within a factor of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as
+/// `modes` does, and for windows.
 Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
 
 /// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.
