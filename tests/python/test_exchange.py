@@ -547,8 +547,9 @@ def changed(text, draw):
     return text
 
 
-def test_changed_models():
+def test_changed_models(tmp_path, monkeypatch):
     """A model of any numbers is read, or refused in a sentence of ours, without a warning of numpy."""
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a list of its warnings
     models = [(rc.from_mjcf, rc.to_mjcf(system)) for system in (BODIES, *RIGS.values())]
     models += [(rc.from_urdf, rc.to_urdf(system)) for system in (BODIES, RIGS["arm"])] + [(rc.from_mjcf, PLANE)]
     outcomes = {"read": 0, "refused": 0}

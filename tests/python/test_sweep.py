@@ -554,13 +554,13 @@ def test_what_is_damaged_is_computed_again(ended):
 
 def test_one_changed_byte_of_a_chunk():
     """A chunk is read as it was, or its points are computed again, whichever byte of its file is another."""
-    given = study(*LARGE, samples=20)
+    given = study(PLUMMETS, {"gravity": uniform(1.0, 9.0)}, samples=20)
     with pytest.raises(Ended):
         rc.sweep(given, out="a.csv", chunk=10, threads=1, progress=ended_after(20))
     [path, _] = sorted(Path("a.csv.partial").glob("[0-9]*.npz"))
     whole, plan = path.read_bytes(), given._plan("")
     right = Store("a.csv", plan)._chunk(0, 10)
-    for place in range(len(whole)):
+    for place in random.Random(1).sample(range(len(whole)), 400):
         changed = bytearray(whole)
         changed[place] ^= 1 << place % 8
         path.write_bytes(changed)

@@ -125,7 +125,7 @@ def fit(
             f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
             f"got {number.min()}"
         )
-    model = _Model(system, data, number, speed, speed if deviation is None else deviation, g)
+    model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
     return _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
 
 
@@ -134,7 +134,8 @@ class _Model:
 
     def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
         self.system, self.data, self.number, self.gravity = system, data, number, gravity
-        self.measured, self.deviation = speed, np.abs(deviation)
+        self.measured, self.scale = speed, (deviation / np.abs(speed)).min()
+        self.deviation = deviation / self.scale  # the tolerances of the search are for residuals that are parts of a speed
         self.kept: tuple[bytes, Any] = (b"", None)
 
     def values(self, free: Floats) -> Floats:
@@ -261,8 +262,8 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
     system, there = model.at(free)
     values, paths = model.values(free), tuple(datum.path for datum in model.data)
     inner = np.array([_inner(*each) for each in zip(model.data, values, strict=True)])
-    covariance = known.covariance * np.outer(inner, inner)
-    left, freedom = float((model.off(free) ** 2).sum()), len(model.number) - known.rank
+    covariance = known.covariance * np.outer(inner, inner) * model.scale**2
+    left, freedom = float((model.off(free) ** 2).sum()) / model.scale**2, len(model.number) - known.rank
     if deviation is None:
         spread = left / freedom if freedom else math.nan
         covariance, deviation = covariance * spread, np.abs(model.measured) * math.sqrt(spread)
