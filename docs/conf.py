@@ -42,7 +42,7 @@ sphinx_gallery_conf = {
     "examples_dirs": str(ROOT / "examples" / "python"),
     "gallery_dirs": "gallery",
     "filename_pattern": r"/[a-z]\w+\.py$",
-    "ignore_pattern": r"(^|/)(_|draw_)",
+    "ignore_pattern": r"(^|/)draw_",
     "image_scrapers": ("gallery_pictures.scrape",),
     "within_subsection_order": "gallery_pictures.programs_before_experiments",
     "reset_modules": (),

@@ -5,7 +5,8 @@
     header_examples.py OUTPUT.cpp HEADER...
 
 The example of a header is the first run of lines that begin with "///     ", after an empty "///", in its first comment.
-A statement with a comment that begins with a number is an expression with that value, to the last digit written.
+A statement with a comment that begins with a number is an expression with that value, to the last digit written; one that
+begins with true, false or a text in quotes has this value. Each example has one at least.
 """
 
 import re
@@ -41,8 +42,13 @@ def example(text: str) -> list[str]:
 
 
 def checked(line: str) -> str:
-    match = re.fullmatch(r"( *)(\S.*);\s*// (-?\d+(?:\.\d+)?(?:e-?\d+)?)\b.*", line)
-    return f'{match[1]}check_number(static_cast<double>({match[2]}), "{match[3]}");' if match else line
+    match = re.fullmatch(r'( *)(\S.*);\s*// (?:(-?\d+(?:\.\d+)?(?:e-?\d+)?)\b|(true\b|false\b|"[^"]*")).*', line)
+    if not match:
+        return line
+    indent, expression, number, word = match.groups()
+    if word:
+        return f"{indent}CHECK(({expression}) == {word});"
+    return f'{indent}check_number(static_cast<double>({expression}), "{number}");'
 
 
 def main() -> None:

@@ -182,6 +182,12 @@ def check_header(path: Path) -> list[str]:
     return ours
 
 
+def check_test(path: Path) -> None:
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if re.search(r"\bin getattr\(.*, (\{\}|\(\)|\[\])\)", line):
+            complain(path, number, "a loop over nothing, which checks nothing, if the name of the attribute is wrong")
+
+
 def check_cycles(graph: dict[str, list[str]], what: str) -> None:
     done: set[str] = set()
 
@@ -292,6 +298,9 @@ def main() -> int:
     modules = sorted(PYTHON.rglob("*.py"))
     imported = {path.relative_to(PYTHON).with_suffix("").as_posix(): check_python(path) for path in modules}
     check_cycles(imported, "modules import each other")
+
+    for path in sorted((ROOT / "tests" / "python").rglob("*.py")):
+        check_test(path)
 
     files = [p for p in sorted(ROOT.rglob("*")) if p.is_file() and not SKIPPED & set(p.relative_to(ROOT).parts)]
     for path in files:

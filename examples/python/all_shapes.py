@@ -6,15 +6,13 @@ All steady shapes of three point masses at one speed, their branches and their s
 
 Checked: ``tests/python/test_steady_shapes.py`` has the shapes by Newton's method in 40 digits, and the numbers of shapes and
 the speed of the fold as known from elsewhere.
-
-Usage: ``python all_shapes.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, save
 
 SPEED = 4.4  # in units of sqrt(g/a), a the length of a thread
 chain = rc.Chain.uniform_plummets(3, length=3.0)
@@ -55,4 +53,4 @@ for letter, shape in zip("ABCDE", shapes, strict=True):
     panel.annotate(letter, (SPEED, tip), xytext=(5, 4 if letter == "A" else -12), textcoords="offset points")
 curves.set(title="branches, and the five shapes at 4.4 $\\sqrt{g/a}$", xlabel="speed over $\\sqrt{g/a}$")
 curves.set_ylabel("inclination of the lowest thread (°)")
-save(figure)
+save(figure, "all_shapes")

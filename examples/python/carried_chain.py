@@ -9,14 +9,12 @@ whirl speed the free end changes to the other side. Between two whirl speeds the
 on the axis.
 
 Checked: ``tests/python/test_response.py``, against linear algebra in 50 digits.
-
-Usage: ``python carried_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, panels, save
 
 LENGTH, LINKS, HAND = 0.36, 120, 0.01  # m, and the radius of the hand's circle
 chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
@@ -69,7 +67,7 @@ time.plot(moments, swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="a
 time.plot(moments, few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three slowest modes")
 time.set(xlabel="time (s)", ylabel="offset of the free end (m)", title="plucked 0.01 m half way")
 legend_below(time, ncols=1)
-save(figure)
+save(figure, "carried_chain")
 
 # %%
 # The plucked chain swinging.

@@ -7,15 +7,13 @@ stable.
 
 Checked: the rider of 120 kg is the scene ``examples/scenes/chair_o_plane.toml``, with its shape at 12 rpm in 40 digits from
 Lagrange's equations in ``examples/scenes/chair_o_plane.expected.json``. Stability: ``tests/python/test_rig_stability.py``.
-
-Usage: ``python chair_o_plane.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, save
 from revchain.plots.style import legend_outside
 
 CHAIR = 8.0  # kg, without the rider
@@ -53,4 +51,4 @@ for k, mass in enumerate((0, 40, 80, 120, 130)):
 axes.set(xlabel="speed (rpm)", ylabel="offset of the chair from the axis (m)", ylim=(-20, 40))
 axes.set_title("dashed: isolated branch, the chair on the other side of the axis")
 legend_outside(axes)
-save(figure)
+save(figure, "chair_o_plane")

@@ -16,9 +16,9 @@ spring.
 
 import matplotlib
 import numpy as np
-from _picture import legend_below, panels, save
 
 import revchain as rc
+from revchain.plots.programs import legend_below, panels, save
 
 CLEARANCE = "27 deg"
 CLAPPER = 0.6  # pendulum length, m: angles do not depend on it
@@ -57,4 +57,4 @@ print("axle to pin  bell  side      bell (deg)   (pendulum length of the clapper
 for joint, bell in ((0.1, 1.2), (0.1, 2.2), (0.5, 1.2), (0.5, 2.1)):
     blow = first_blow(joint, bell)
     print(f"{joint:11.1f}  {bell:4.1f}  {blow.side:8}  {np.degrees(blow.bell_angle):10.1f}")
-save(figure)
+save(figure, "clapper_chart")

@@ -12,9 +12,9 @@ digits in ``examples/scenes/crane_hook_block.expected.json``.
 """
 
 import numpy as np
-from _picture import panels, save
 
 import revchain as rc
+from revchain.plots.programs import panels, save
 from revchain.plots.style import legend_outside
 
 SLEWING = 0.8  # rad/s
@@ -52,4 +52,4 @@ axes.axhline(SLEWING, color="0.4", linestyle="--", label="slewing")
 axes.axvline(met.value, color="0.4", linestyle=":", label=f"{met.value:.2f} m: keep away")
 axes.set(xlabel="length of rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None), title="2500 kg on slings of 6 m below a hook block of 400 kg")
 legend_outside(axes)
-save(figure)
+save(figure, "crane")

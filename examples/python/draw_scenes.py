@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solve and draw every scene of docs/scenes.md.
 
-python draw_scenes.py [FOLDER]
+python draw_scenes.py writes scene_NAME.svg into the current folder.
 """
 
 from pathlib import Path
 
-from _picture import save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import save
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 NAMES = [

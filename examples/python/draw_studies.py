@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draw the studies of examples/studies: speeds of wheels against spin, a map over two ratios, scatter of a crane's periods.
 
-python draw_studies.py [FOLDER]
+python draw_studies.py writes studies.svg into the current folder.
 """
 
 from pathlib import Path
 
 import numpy as np
-from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, save
 from revchain.plots.style import legend_outside
 
 STUDIES = Path(__file__).resolve().parent.parent / "studies"

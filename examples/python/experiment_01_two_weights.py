@@ -5,14 +5,12 @@
 A chain that whirls, seen from the side, seems to swing. Two weights on a thread, and a watch chain.
 
 Checked: ``tests/python/test_modes.py``, against heights in 50 digits.
-
-Usage: ``python experiment_01_two_weights.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, panels, save, side_view
 
 THREAD = 0.5  # m, each of two, with equal weights
 CHAIN = 0.36  # m
@@ -45,4 +43,4 @@ for number, (name, result, height) in enumerate([("two weights", weights, 2 * TH
         panel.locator_params(axis="x", nbins=3)
 axes[0].set_ylabel("depth below the support (m)")
 figure.suptitle("Whirling chains seen from the side at seven moments of half a turn", fontsize=10)
-save(figure)
+save(figure, "experiment_01_two_weights")

@@ -5,14 +5,12 @@
 A plummet on a thread leaves the vertical only at speeds whose conical height is less than the thread.
 
 Checked: ``tests/cpp/conical_pendulum.cpp``, and ``tests/python/test_closed_forms.py`` with mpmath.
-
-Usage: ``python experiment_02_flying_out.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, panels, save, side_view
 
 LONG, SHORT = 0.5, 0.3  # m, two threads
 
@@ -46,4 +44,4 @@ for thread, style in [(LONG, "-"), (SHORT, "--")]:
     curve.plot(turns, np.degrees(swung.inclination), style, color="black", label=f"thread {thread} m")
 curve.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title="leaves the vertical at a certain speed")
 legend_below(curve, ncols=1)
-save(figure)
+save(figure, "experiment_02_flying_out")

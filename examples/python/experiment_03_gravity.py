@@ -5,14 +5,12 @@
 Gravity from the period of a conical pendulum that is almost vertical, and the error if it is not.
 
 Checked: ``tests/python/test_closed_forms.py`` has the paper's pendulum that beats seconds.
-
-Usage: ``python experiment_03_gravity.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, legend_below, panels, save
 
 THREAD = 1.0  # m, from the support to the middle of the weight
 GRAVITY = 9.80665  # m/s^2, what the functions take where nothing else is said
@@ -48,4 +46,4 @@ axes.fill_between([0, 25], GRAVITY - off, GRAVITY + off, color=COLOURS[0], alpha
 axes.set(xlabel="radius of the circle (cm)", ylabel="g found (m/s²)", xlim=(0, 25), ylim=(9.7, 10.2))
 axes.set_title("Gravity from a conical pendulum of 1 m")
 legend_below(axes, ncols=1)
-save(figure)
+save(figure, "experiment_03_gravity")

@@ -6,15 +6,13 @@ The hand moves the upper end round a small circle. At higher speeds the tip chan
 
 Checked: ``tests/python/test_closed_forms.py`` (plummet), ``tests/python/test_response.py`` (small amplitude) and
 ``tests/python/test_rig_shapes.py`` (every shape of a driven chain).
-
-Usage: ``python experiment_04_twirled_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, branch_of, hang, save, side_view
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, branch_of, hang, save, side_view
 from revchain.plots.style import legend_outside
 
 LENGTH = 0.36  # m, of the chain, and of the thread of a plummet
@@ -104,4 +102,4 @@ for shape in at_any_inclination(3.0):
 figure.legend(*axes["all"].get_legend_handles_labels(), loc="outside lower center", ncols=3)
 side_view(axes["shapes"], "every one at 3 turns a second", bottom=0.38, half_width=0.4)
 axes["shapes"].set_ylabel("depth below the hand (m)")
-save(figure)
+save(figure, "experiment_04_twirled_chain")

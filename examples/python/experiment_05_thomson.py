@@ -5,14 +5,12 @@
 Two weights on one thread, the second at different places: Thomson's four cases of Greenhill's Fig. 4.
 
 Checked: ``tests/python/test_closed_forms.py``, with mpmath.
-
-Usage: ``python experiment_05_thomson.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, panels, save, side_view
 
 THREAD = 1.0  # m, the whole of it
 A = THREAD / 2  # the paper's a; x is how far the upper weight sits above the middle
@@ -48,4 +46,4 @@ for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:
 axes[4].plot([-0.5, -0.5, 0.5, 0.5], 2 * [1 + 0.5**0.5, 1 - 0.5**0.5], "o", color="black", markersize=4)
 axes[4].set(xlabel="place x/a of the upper weight", ylabel="conical height/a", title="W₂ anywhere", ylim=(0, 2))
 legend_below(axes[4], ncols=1)
-save(figure)
+save(figure, "experiment_05_thomson")

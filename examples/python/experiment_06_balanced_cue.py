@@ -5,14 +5,12 @@
 Sticks balanced on a hand that moves in a circle, and an inverted pendulum on a swinging one.
 
 Checked: ``tests/python/test_rig_shapes.py``, inclinations and motions of broomsticks and columns.
-
-Usage: ``python experiment_06_balanced_cue.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, panels, save, side_view
 
 HAND = 0.05  # m, radius of its circle
 TURNS = 1.0  # a second
@@ -83,4 +81,4 @@ hung.annotate("50 g", (upright.offset[0], -upright.height[0]), xytext=(7, 2), te
 hung.annotate("500 g", (upright.offset[1], -upright.height[1]), xytext=(-8, -12), textcoords="offset points", ha="right")
 side_view(hung, f"50 g standing on 500 g,\n{faster} turns/s", bottom=1.05, half_width=0.5)
 hung.set(ylabel="depth below the support (m)", xlim=(-0.15, 0.75))
-save(figure)
+save(figure, "experiment_06_balanced_cue")

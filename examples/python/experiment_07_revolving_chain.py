@@ -6,15 +6,13 @@ A chain of 1 m whirled by the hand at any inclination, and two weights in its pl
 
 Checked: ``tests/cpp/finite/cord/continuous_chain.cpp`` (cord), ``tests/python/test_steady_shapes.py`` (links) and
 ``tests/python/test_closed_forms.py`` (two weights).
-
-Usage: ``python experiment_07_revolving_chain.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, save, side_view
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, save, side_view
 from revchain.plots.style import legend_outside
 
 LENGTH = 1.0  # m
@@ -89,4 +87,4 @@ curve.plot([], [], ":", color="black", label="chain")
 curve.set(xlabel="speed (turns/s)", ylabel="distance of the free end from axis (m)", ylim=(-0.02, 1.02))
 curve.set_title("the free end; colours: half waves")
 legend_below(curve)
-save(figure)
+save(figure, "experiment_07_revolving_chain")

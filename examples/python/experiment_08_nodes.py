@@ -5,14 +5,12 @@
 Where a whirling chain crosses its axis, and where it hangs vertically.
 
 Checked: ``tests/python/test_cord_modes.py``, against mpmath and the numbers of the paper.
-
-Usage: ``python experiment_08_nodes.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, panels, save, side_view
 
 LENGTH = 1.0  # m
 
@@ -41,4 +39,4 @@ for k, panel in enumerate(axes):
     side_view(panel, f"mode {k + 1}\n{cord.frequency[k]:.2f} turns/s", bottom=1.04, top=0.04, half_width=0.2)
 axes[0].set_ylabel("depth below the support (m)")
 figure.suptitle("dots: nodes, mm from the free end; bars: the chain is vertical", fontsize=10)
-save(figure)
+save(figure, "experiment_08_nodes")

@@ -5,14 +5,12 @@
 When the ends of a whirling chain are drawn apart, it keeps its angular momentum and turns faster.
 
 Checked: ``tests/python/test_closed_motions.py`` (without gravity) and ``tests/python/test_held.py`` (with gravity).
-
-Usage: ``python experiment_09_drawn_out.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, legend_below, panels, save
 
 LENGTH, SPAN, TURNS = 2.0, 1.0, 3.0  # m of chain, m between the hands, turns a second at first
 MASS = 0.05  # kg/m, a light chain
@@ -71,4 +69,4 @@ vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
 vertical.set(xlabel="distance from axis (m)", ylabel="height above the lower hand (m)", title="with gravity")
 vertical.set_aspect("equal")
 legend_below(vertical, ncols=3, title="turns/s", handlelength=1, columnspacing=1)
-save(figure)
+save(figure, "experiment_09_drawn_out")

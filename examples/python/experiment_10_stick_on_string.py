@@ -6,15 +6,13 @@ A stick whirled round at the end of a string, near the vertical and at any incli
 
 Checked: ``tests/python/test_closed_forms.py`` (hand at rest), ``tests/python/test_response.py`` and
 ``tests/python/test_rig_shapes.py`` (hand on a circle).
-
-Usage: ``python experiment_10_stick_on_string.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, save, side_view
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, save, side_view
 
 STRING, STICK = 0.4, 0.6  # m
 GYRATION = STICK / 12**0.5  # about the middle of the stick
@@ -90,4 +88,4 @@ for panel, title in [(curve, "hand at rest"), (hand, f"hand on a circle of {HAND
     panel.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title, ylabel="inclination (°)")
 legend_below(curve)
 legend_below(hand)
-save(figure)
+save(figure, "experiment_10_stick_on_string")

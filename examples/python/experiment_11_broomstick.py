@@ -5,14 +5,12 @@
 A broomstick stands upright on a hand that moves to and fro. One point of it stays at rest: which one?
 
 Checked: ``tests/python/test_closed_forms.py`` and ``tests/python/test_rig_shapes.py``.
-
-Usage: ``python experiment_11_broomstick.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, legend_below, panels, save, side_view
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, legend_below, panels, save, side_view
 
 STICK = 1.2  # m, the paper's 2h
 LIKE = dict(centroid=STICK / 2, radius_of_gyration=STICK / 12**0.5)
@@ -58,4 +56,4 @@ curve.plot(swings, rc.conical_pendulum.height(2 * np.pi * swings), "--", color="
 curve.set(xlabel="frequency (swings/s)", ylabel="length of the pendulum (m)", ylim=(0, 2.0))
 curve.set_title("a pendulum of that frequency")
 legend_below(curve, ncols=1)
-save(figure)
+save(figure, "experiment_11_broomstick")

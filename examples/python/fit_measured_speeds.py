@@ -8,14 +8,12 @@ A load of about 2500 kg hangs on slings of 6 m below a hook block of 400 kg. The
 trolley on a spring. Illustrative figures.
 
 Checked: ``tests/python/test_fit.py``, values and covariances against 40 digits and against random samples.
-
-Usage: ``python fit_measured_speeds.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, legend_below, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, legend_below, panels, save
 
 MEASURED = {1: ("10.97 s", "0.03 s"), 2: ("1.608 s", "0.008 s"), 3: ("0.2421 s", "0.0008 s")}
 LOAD, ROPE = "links[0].mass", "links[1].length_in_proportion"
@@ -54,4 +52,4 @@ cloud.plot(24, 2500, "o", color=COLOURS[1], label="as believed")
 cloud.plot(found[ROPE], found[LOAD], "o", color=COLOURS[0], label="fitted")
 cloud.set(title="grey: fits of 400 drawn sets of periods", xlabel="rope (m)", ylabel="load (kg)", ylim=(2450, 2850))
 legend_below(cloud, ncols=1)
-save(figure)
+save(figure, "fit_measured_speeds")

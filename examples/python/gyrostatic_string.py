@@ -9,15 +9,13 @@ Greenhill (1908) section 2: a vibration in a plane is the sum of two circular wa
 Their wavelengths differ, so the plane turns from link to link.
 
 Checked: ``tests/python/test_gyrostatic.py``, against a long row of links driven at one end.
-
-Usage: ``python gyrostatic_string.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, save
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, save
 from revchain.plots.style import legend_outside
 
 MASS, LENGTH, TENSION, RADIUS = 1.5, 0.3, 120.0, 0.29  # kg, m, N, m: a wheel on each link, the cord drawn tight
@@ -59,4 +57,4 @@ waves.set(xlim=(0, 180), ylim=(0, None))
 legend_outside(waves)
 string(5.0).plot_vibration(speed, links=120, ax=plane)
 plane.set_title("a vibration of 3 rad/s along 120 wheels at 5 turns/s")
-save(figure)
+save(figure, "gyrostatic_string")

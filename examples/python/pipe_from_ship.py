@@ -9,14 +9,12 @@ and inertia the full mass with the added mass. Bending stiffness matters only wi
 left out: it limits the motion near resonance. Illustrative figures.
 
 Checked: ``tests/python/test_examples.py`` computes periods and offsets again from matrices written by hand.
-
-Usage: ``python pipe_from_ship.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, hang, panels, save
 
 STEEL, DISPLACED, ADDED = 29.0, 3.8, 22.5  # kg/m of the pipe; added: the water inside and around it that moves with it
 BLOCK = {"mass": 12_000.0, "displaced": 1600.0, "added": 3000.0, "length": 8.0}  # kg and m
@@ -67,4 +65,4 @@ for wave, colour in zip((6.0, 8.0, 13.0), COLOURS, strict=False):
 shape.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 shape.set(xlabel="offset (m)", ylabel="below the ship (m)", ylim=(620, 0), xlim=(-4.5, 3), title=f"600 m, sway {SWAY:g} m")
 shape.legend(title="waves", loc="upper left")
-save(figure)
+save(figure, "pipe_from_ship")

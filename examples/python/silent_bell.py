@@ -11,9 +11,9 @@ above its centre of gravity the bell must be hung for this. Illustrative figures
 Checked: ``tests/cpp/bell.cpp``, ratios against quadruple precision and silent values against the paper's equation.
 """
 
-from _picture import save
 
 import revchain as rc
+from revchain.plots.programs import save
 
 H1, RHO1, A1, W1 = 0.52, 0.08, 0.65, 18.0  # clapper: centroid, radius of gyration, length (m), mass (kg)
 RHO2, A2, W2 = 0.30, 0.15, 500.0  # bell: radius of gyration, axle to the clapper's pin, mass
@@ -36,4 +36,4 @@ louder = bell.with_ratio(1.5)
 for name, value in bell.with_ratio(1.0).items():
     print(f"{name:27} now {bell.present[name]:8.4f}, silent {value:8.4f}, ringing {louder[name]:8.4f}")
 
-save(rc.bell_and_clapper(hung(silent)).plot().figure)
+save(rc.bell_and_clapper(hung(silent)).plot().figure, "silent_bell")

@@ -5,16 +5,14 @@
 A swing carousel with two chairs, one below the other, on an arm: how they fly out, and all other steady shapes.
 
 Checked: ``tests/python/test_rig_shapes.py``, every shape by brute force and by the balance of moments in 50 digits.
-
-Usage: ``python swing_carousel.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, branch_of, save
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, branch_of, save
 from revchain.plots.style import legend_outside
 
 ARM = 0.5  # m
@@ -64,7 +62,7 @@ axes["speeds"].set(
     ylim=(-92, 92),
     yticks=range(-90, 91, 30),
 )
-save(figure)
+save(figure, "swing_carousel")
 
 # %%
 # The shapes turning. Drag the picture to turn the view.

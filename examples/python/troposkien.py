@@ -6,14 +6,12 @@ The blade of a wind turbine with a vertical axis, in the shape of a whirling rop
 included. The dashed form (two straight ends and an arc) is how such blades are made.
 
 Checked: ``tests/python/test_held.py``, against the balance of moments and against integration of the rope with gravity.
-
-Usage: ``python troposkien.py [FOLDER]``
 """
 
 import numpy as np
-from _picture import COLOURS, panels, save
 
 import revchain as rc
+from revchain.plots.programs import COLOURS, panels, save
 
 LENGTH, SPAN, MASS, WIND = 24.0, 17.0, 160.0, 10.0  # m of blade, m of mast, kg of blade, m/s
 
@@ -83,4 +81,4 @@ apart.set(xlabel="distance along the blade (m)", ylabel="distance from the light
 apart.set_title("difference from the rope without gravity")
 apart.set_yscale("log")
 apart.set_ylim(1e-3, 10)
-save(figure)
+save(figure, "troposkien")

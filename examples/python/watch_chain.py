@@ -6,13 +6,11 @@ A watch chain twirled by a string: how close its 120 links are to the continuous
 
 Checked: the heights of the links are in 40 digits in ``examples/scenes/watch_chain.expected.json``. Those of the limit are
 4 L / j², with the zeros j of the Bessel function J₀.
-
-Usage: ``python watch_chain.py [FOLDER]``
 """
 
-from _picture import save
 
 import revchain as rc
+from revchain.plots.programs import save
 
 chain = rc.Chain.uniform_rods(120, length=0.36)  # metres; the weight does not matter
 result = rc.modes(chain, count=5)
@@ -26,7 +24,7 @@ for k, off in enumerate(result.conical_height / continuous.conical_height - 1):
 
 axes = result.plot()
 axes.set_title("A watch chain of 120 links")
-save(axes.figure)
+save(axes.figure, "watch_chain")
 
 # %%
 # The five modes turning. Drag the picture to turn the view.

@@ -9,7 +9,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/rig.hpp"
 
-/// Which method `modes` takes for a tolerance, and what the others would cost.
+/// Which method `modes` tries first for a tolerance, and what the others would cost.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
@@ -27,9 +27,11 @@ struct Explanation {
     std::string text() const;
 };
 
-/// Returns the automatic choice of `modes(chain, options)`, from `first`, `count` and `rtol`; `method` is ignored. No
-/// mode is computed. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured
-/// times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
+/// Returns the method that `modes(chain, options)` tries first, from `first`, `count` and `rtol`; `method` is ignored.
+/// No mode is computed. Where that method cannot prove its bound for the links of this chain, `modes` takes the next
+/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error bound; predicted times
+/// were within a factor of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as
+/// `modes` does, and for windows.
 Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
 
 /// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.

@@ -14,7 +14,7 @@
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain);
 ///     const auto s = revchain::sensitivity(chain, m);
-///     s.weight().value(0, 1);       // d(height of the slowest mode)/d(weight of the upper link)
+///     s.weight().value(0, 1);       // -0.0347969, d(height of the slowest mode)/d(weight of the upper link)
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
 namespace revchain {
 

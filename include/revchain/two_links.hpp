@@ -112,8 +112,9 @@ T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
                        : T(86400) * ((half + root) / over);
 }
 
-/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand:
-/// (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. Accuracy: 5 ulp.
+/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand: (l +
+/// lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. It is 0, and there is no such
+/// motion, where the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
 template <Real T>
 T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);

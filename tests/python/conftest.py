@@ -8,7 +8,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,40 @@ settings.register_profile(
 settings.load_profile("revchain")
 
 ULP = 2.0**-52
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """A module without a test, such as one whose only class has the wrong name, fails."""
+    report = yield
+    if isinstance(collector, pytest.Module) and report.passed and not report.result:
+        report.outcome, report.longrepr = "failed", f"{collector.nodeid}: there is no test in this module"
+    return report
+
+
+def cases(terminalreporter: pytest.TerminalReporter) -> dict[str, int]:
+    """How many cases of each module ran; skipped ones did not."""
+    ran: dict[str, int] = {}
+    for outcome, reports in terminalreporter.stats.items():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                module = Path(report.nodeid.partition("::")[0]).stem
+                ran[module] = ran.get(module, 0) + (outcome in ("passed", "failed", "xfailed", "xpassed"))
+    return dict(sorted(ran.items()))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    ran = cases(terminalreporter)
+    terminalreporter.write_line("cases: " + ", ".join(f"{module} {count}" for module, count in ran.items()))
+    for module in (module for module, count in ran.items() if not count):
+        terminalreporter.write_line(f"{module}: no case ran, all were skipped", red=True)
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """A module of which all cases were skipped fails; not one that needs a package that is not installed."""
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if reporter is not None and 0 in cases(reporter).values():
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
 @pytest.fixture(scope="session")

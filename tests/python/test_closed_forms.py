@@ -398,6 +398,15 @@ STANDING = [((1.0, 0.6, 0.35), (1, 1, 3, 2)), ((2.0, 0.5, 0.5), (1, 0.1, 1, 1))]
 STANDING += [((0.05, 1.0, 0.3), (5, 2, 1, 0.3)), ((30.0, 1.0, 1.0), (1e-3, 1, 1, 1))]
 
 
+def test_a_link_without_inertia_stands_only_below_the_length_of_its_thread():
+    rng = np.random.default_rng(12)
+    for thread, centroid, gyration in 10.0 ** rng.uniform(-3, 3, (300, 3)):
+        height = float(two_links.standing_link(thread, centroid, 0.0))
+        assert height == pytest.approx(max(thread - centroid, 0.0), rel=1e-12, abs=0)
+        assert (two_links.standing_link_shape(thread, centroid, 0.0, 1e-3 * thread) is None) == (height <= 1e-3 * thread)
+        assert two_links.standing_link(thread, centroid, gyration) > height
+
+
 @pytest.mark.parametrize(("link", "pair"), STANDING)
 @pytest.mark.parametrize("share", [1e-4, 0.5, 0.999, 1.001, 7.0])
 def test_standing_figures(link, pair, share):

@@ -9,6 +9,7 @@ import pkgutil
 import pytest
 
 import revchain as rc
+from revchain.results.base import Field
 
 MODULES = [
     importlib.import_module(module.name)
@@ -36,7 +37,7 @@ PUBLIC = dict(public())
 
 
 def test_something_is_public():
-    assert len(PUBLIC) > 150
+    assert len(PUBLIC) > 150 and len(ATTRIBUTES) > 400
 
 
 @pytest.mark.parametrize("name", PUBLIC)
@@ -45,8 +46,6 @@ def test_described(name):
     text = inspect.getdoc(thing)
     assert text is not None
     assert text.splitlines()[0].endswith(".")
-    for field in getattr(thing, "fields", {}).values():  # of results
-        assert field.__doc__.endswith("."), field.name
     sections = {line for line, under in zip(text.splitlines(), text.splitlines()[1:], strict=False) if under.startswith("---")}
     if inspect.isfunction(thing):
         assert ">>> " in text and "Examples" in sections
@@ -55,6 +54,23 @@ def test_described(name):
         for parameter in parameters:
             assert parameter in text.partition("Parameters")[2].partition("Returns")[0], parameter
         assert "Returns" in sections or inspect.signature(thing).return_annotation in (None, "None")
+
+
+def attributes():
+    """(name, object) of every field and property of public classes, also of those that they inherit."""
+    for name, kind in PUBLIC.items():
+        for attribute in dir(kind) if inspect.isclass(kind) else ():
+            member = inspect.getattr_static(kind, attribute)
+            if attribute[0] != "_" and isinstance(member, Field | property):
+                yield f"{name}.{attribute}", member
+
+
+ATTRIBUTES = dict(attributes())
+
+
+@pytest.mark.parametrize("name", ATTRIBUTES)
+def test_attributes_are_described(name):
+    assert inspect.cleandoc(ATTRIBUTES[name].__doc__).endswith(".")
 
 
 @pytest.mark.parametrize("module", [rc, *MODULES], ids=lambda module: module.__name__)

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Models of multibody engines: MuJoCo starts in the steady state and stays there, and reads back what was written."""
 
+import itertools
 import json
+import random
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -240,6 +243,29 @@ def test_names():
     model = started(rc.to_mjcf(named))[0]
     assert [model.body(k).name for k in range(2, 6)] == ["free_end_3", "turntable_2", "hook_1", "hook"]
     assert rc.from_urdf(rc.to_urdf(named)).names == ("hook", "hook_1", "turntable_2", "free_end_3")
+
+
+def names_of(text, kind):
+    return re.findall(rf'<{kind} name="(.*?)"', text)
+
+
+@pytest.mark.parametrize("size", [1, 2, 3])
+def test_no_name_is_given_twice(size):
+    """MuJoCo refuses a body or joint whose name another has; links keep names that no other link has."""
+    words = ["", "a", "a_wheel", "a_pin", "link", "link_1", "link_2", "a_1", "carriage", "a_wheel_", "a_inclination"]
+    bodies = {name: [value] * size for name, value in {"mass": 1.0, "length": 1.0, "centroid": 0.5, "radius_of_gyration": 0.3}.items()}
+    chosen = list(itertools.product(words, repeat=size))
+    for names in random.Random(size).sample(chosen, min(len(chosen), 200)):
+        chain = rc.Chain(**bodies, names=names)
+        wheels = rc.Rig(chain, flywheels=rc.Flywheel(momentum=1.0), support=rc.Support(stiffness=9.0))
+        texts = [(rc.to_mjcf(wheels), "body"), (rc.to_urdf(chain), "link")]
+        for (text, body), kind in itertools.product(texts, (0, "joint")):
+            found = names_of(text, kind or body)
+            assert len(found) == len(set(found)) > size, names
+        found = rc.from_urdf(texts[1][0]).names
+        kept = [name for name in names if name not in ("", "carriage") and names.count(name) == 1]
+        assert size > 1 or names[0] or found is None
+        assert found is None or set(kept) <= set(found)
 
 
 def test_weights_are_masses_times_gravity():
@@ -502,6 +528,43 @@ def test_links_in_space():
         rc.from_mjcf(
             rc.to_mjcf(rc.Chain(mass=1.0, length=1.0)).partition('<body name="link')[0] + "</body></worldbody></mujoco>"
         )
+
+
+NUMBER = re.compile(r'(?<=[" ])-?\d[\d.e+-]*(?=[" ])')
+WILD = ("nan", "inf", "-inf", "0", "-1", "x", "", "5e-324", "1e-155", "1e-16", "1e76", "1e155", "1e200", "-1e200", "1e308", "1e400")
+
+
+def changed(text, draw):
+    """A model in which some numbers, or any letter, are others."""
+    for _ in range(draw.choice((1, 1, 2, 3))):
+        numbers = list(NUMBER.finditer(text))
+        if numbers and draw.random() < 0.9:
+            begin, end = draw.choice(numbers).span()
+            text = text[:begin] + draw.choice(WILD) + text[end:]
+        else:
+            at = draw.randrange(1, len(text))
+            text = text[:at] + draw.choice("<>\"' 0aZ-.e") + text[at + 1 :]
+    return text
+
+
+def test_changed_models(tmp_path, monkeypatch):
+    """A model of any numbers is read, or refused in a sentence of ours, without a warning of numpy."""
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a list of its warnings
+    models = [(rc.from_mjcf, rc.to_mjcf(system)) for system in (BODIES, *RIGS.values())]
+    models += [(rc.from_urdf, rc.to_urdf(system)) for system in (BODIES, RIGS["arm"])] + [(rc.from_mjcf, PLANE)]
+    outcomes = {"read": 0, "refused": 0}
+    for seed in range(300):
+        draw = random.Random(seed)
+        read, text = draw.choice(models)
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Inertia matrix is too close to singular")  # MuJoCo's own
+            try:
+                read(changed(text, draw))
+                outcomes["read"] += 1
+            except ValueError as error:
+                assert str(error).startswith(f"revchain.{read.__name__}: "), seed
+                outcomes["refused"] += 1
+    assert min(outcomes.values()) > 30
 
 
 def test_what_is_no_model(tmp_path):

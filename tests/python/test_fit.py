@@ -282,6 +282,8 @@ def test_where_to_start():
         ({1.5: 0.58}, "length", "measured: each mode number must be a whole number, got 1.5"),
         ({1: (0.58, 0.0)}, "length", r"measured\[1\]: uncertainty must be positive and finite, got 0.0; leave out those of all"),
         ({1: (0.58, "-1 %")}, "length", r"measured\[1\]: uncertainty must be positive and finite, got '-1 %'"),
+        ({1: (0.58, 1e300)}, "length", r"measured\[1\]: uncertainty must be from 1e-100 to 1e\+100 times the measured value, got 1e\+300"),
+        ({1: (0.58, 1e-300)}, "length", r"measured\[1\]: uncertainty must be from 1e-100 to 1e\+100 times the measured value"),
         ({1: -0.58}, "length", r"measured\[1\]: speed must be positive and finite, got -0.58"),
         ({1: math.inf}, "length", r"measured\[1\]: speed must be positive and finite, got inf"),
         ({1: "3 kg"}, "length", r'measured\[1\]: angular_speed must be an angular speed such as "30 rpm", got "3 kg"'),
@@ -292,6 +294,7 @@ def test_where_to_start():
         ({}, "length", "measured must be a dictionary of speeds by mode number such as"),
         ([0.58, 3.9], "length", "measured must be a dictionary"),
         ({1: 0.58}, [], "vary must be a path or a list of paths"),
+        ({1: 0.58}, np.ma.masked, "vary must be a path or a list of paths such as .*, got masked"),
         ({1: 0.58}, "links[0].colour", "vary must be one of .*, got 'links\\[0\\].colour'"),
         ({1: 0.58}, "links[0].weight", 'given by mass: vary "links\\[0\\].mass"'),
         ({1: 0.58}, "links[2].mass", r"links\[2\], and the highest is links\[1\]"),
@@ -306,6 +309,17 @@ def test_where_to_start():
 def test_questions_that_are_none(measured, vary, message):
     with pytest.raises(ValueError, match=f"^revchain.fit: .*{message}"):
         rc.fit(CRANE, measured, vary=vary)
+
+
+def test_uncertainties_of_any_size():
+    """Only their ratios decide; their size is that of the result's own uncertainties."""
+    sizes = [1e-97, 1e-30, 1.0, 1e30, 1e97]
+    found = [rc.fit(CRANE, {1: (0.57, 0.01 * size), 2: (3.9, 0.1 * size)}, vary="length") for size in sizes]
+    for size, fitted in zip(sizes, found, strict=True):
+        assert fitted.value == pytest.approx(found[2].value, rel=1e-9)
+        assert fitted.standard_uncertainty == pytest.approx(found[2].standard_uncertainty * size, rel=1e-6)
+    apart = rc.fit(CRANE, {1: (0.57, 1e-97), 2: (3.9, 1e97)}, vary="length")
+    assert apart.value == pytest.approx(rc.fit(CRANE, {1: 0.57}, vary="length").value, rel=1e-9)
 
 
 @pytest.mark.parametrize(

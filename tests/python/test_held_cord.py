@@ -3,6 +3,7 @@
 
 import json
 import math
+from time import process_time
 
 import mpmath as mp
 import numpy as np
@@ -165,6 +166,20 @@ def test_tuned_at_a_span(system):
     with pytest.raises(ValueError, match="without gravity"):
         light = rc.Held(system, span=1.5, weightless=True)
         rc.tune(light, vary="span", angular_speed=15.0, top_tension=50.0)
+
+
+def test_a_tension_that_no_shape_has():
+    """Less than half of what the ends bear of the weight: refused at once, with the number as it was given."""
+    rope = rc.Held(rc.Cord(2.6, mass=0.15), span=1.2)
+    least = 9.80665 * 0.15 / 2 * (1 + 1.2 / 2.6)
+    for mode in (1, 2, 3):
+        assert rc.steady_shape(rope, mode=mode, top_tension=1.01 * least).tension[-1] == pytest.approx(1.01 * least, rel=1e-9)
+    began = process_time()
+    with pytest.raises(ValueError, match=r"tune: no shape of the branch has this tension at its upper end; .*, got 0\.5$"):
+        rc.tune(rope, vary="length", angular_speed="2 Hz", top_tension="0.5 N")
+    assert process_time() - began < 2
+    with pytest.raises(ValueError, match=r"steady_shape: no shape of the branch has this tension .*, got 1$"):
+        rc.steady_shape(rope, top_tension="1 N")
 
 
 # ---- derivatives

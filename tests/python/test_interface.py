@@ -8,6 +8,7 @@ import math
 import pickle
 import pkgutil
 import pydoc
+import time
 
 import numpy as np
 import pytest
@@ -82,6 +83,11 @@ def test_words_from_the_support_down():
     )
     many = rc.Chain(weight=np.arange(1.0, 101.0), length=1.0).describe()
     assert many == "support: firm; 100 N on 1 m; 99 N on 1 m; 98 N on 1 m; 95 more links; 2 N on 1 m; 1 N on 1 m"
+    data = np.random.default_rng(1).uniform(1.0, 2.0, (4, 30_000))
+    unlike = rc.Chain(mass=data[0], length=data[1], centroid=data[2], radius_of_gyration=data[3])
+    began = time.process_time()
+    assert " m; 29,995 more links; body, " in unlike.describe()
+    assert time.process_time() - began < 2  # the time grows as the number of links
     assert SYSTEMS["rig"].describe() == (
         "support: on a spring of 20 N/m with 0.5 kg, carried round at 0.1 m; 3 times rod, 1 kg, 0.5 m; 1 link inverted; "
         "2 links with momentum; 3 links in still fluid"
@@ -322,6 +328,31 @@ def test_wrong_units(ask, message):
 
 
 # ---- names and speed
+
+
+def test_results_are_not_made_by_hand():
+    kinds = [kind for name in dir(rc) if isinstance(kind := getattr(rc, name), type) and issubclass(kind, Result)]
+    assert len(kinds) > 15
+    for kind in kinds:
+        if "__init__" not in vars(kind):
+            with pytest.raises(TypeError, match=rf"^revchain.{kind.__name__}: is what a question returns"):
+                kind()
+
+
+def test_hasattr_of_every_attribute():
+    """An attribute is there, or it is not; other errors than AttributeError would end `hasattr` and completion."""
+    things = [*SYSTEMS.values(), rc.Support(), rc.Flywheel(momentum=1.0), rc.Displaced(weight=0.1)]
+    things += [rc.modes(each) for each in SYSTEMS.values() if not isinstance(each, rc.Held) or each.span is None]
+    things += [rc.modes(rc.Held(POINTS, tension=60.0)), rc.modes(rc.Held(rc.Cord(1.0), tension=19.0))]
+    bent = [POINTS, SYSTEMS["rig"], rc.Cord(1.0), rc.Held(RODS, span=0.9), rc.Held(rc.Cord(1.0), span=0.6)]
+    for system in bent:
+        found = rc.steady_shapes(system, angular_speed=12.0)
+        things += [found, found[0], rc.branches(system, max_angular_speed=12.0)]
+    things += [rc.tune(POINTS, angular_speed=3.0), rc.explain(POINTS), rc.swing(POINTS, [0.1, 0.05, 0.0], None, [0.0, 1.0])]
+    missing = {f"{type(thing).__name__}.{name}" for thing in things for name in dir(thing) if not hasattr(thing, name)}
+    assert {"CordShape.sensitivity", "HeldCordShape.sensitivity", "Modes.sensitivity", "Chain.weight"} <= missing
+    with pytest.raises(ValueError, match="cut the cord into links"):  # which it was and stays, too
+        things[things.index(found[0])].sensitivity  # noqa: B018
 
 
 def test_public_names():

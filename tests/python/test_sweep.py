@@ -552,6 +552,46 @@ def test_what_is_damaged_is_computed_again(ended):
     same(found, rc.sweep(given))
 
 
+def test_one_changed_byte_of_a_chunk():
+    """A chunk is read as it was, or its points are computed again, whichever byte of its file is another."""
+    given = study(PLUMMETS, {"gravity": uniform(1.0, 9.0)}, samples=20)
+    with pytest.raises(Ended):
+        rc.sweep(given, out="a.csv", chunk=10, threads=1, progress=ended_after(20))
+    [path, _] = sorted(Path("a.csv.partial").glob("[0-9]*.npz"))
+    whole, plan = path.read_bytes(), given._plan("")
+    right = Store("a.csv", plan)._chunk(0, 10)
+    for place in random.Random(1).sample(range(len(whole)), 400):
+        changed = bytearray(whole)
+        changed[place] ^= 1 << place % 8
+        path.write_bytes(changed)
+        store = Store("a.csv", plan)
+        if store._is_whole(0, 10):
+            assert all(np.array_equal(array, right[name], equal_nan=True) for name, array in store._chunk(0, 10).items())
+    path.write_bytes(whole)
+    contents = whole.index(b"PK\1\2")  # the first entry of the list of contents
+    for what, at in (("version", contents + 6), ("encryption", contents + 8)):
+        folder = Path(f"{what}.csv.partial")
+        shutil.copytree(path.parent, folder)
+        (folder / path.name).write_bytes(whole[:at] + bytes([whole[at] ^ 0x41]) + whole[at + 1 :])
+        found = rc.sweep(given, out=f"{what}.csv", chunk=10, threads=1)
+        same(found, rc.sweep(given))
+        assert found.resumed == 10, what
+
+
+@pytest.mark.parametrize("name", [".writing-study.json", ".writing.csv", ".writing-0000000000000-0000000000010.npz"])
+@pytest.mark.parametrize("is_new", [True, False])
+def test_nothing_is_written_through_a_link(name, is_new, ended):
+    """A link in the folder of the chunks is replaced; the file that it names stays."""
+    given, folder = ended
+    if is_new:
+        shutil.rmtree(folder)
+        folder.mkdir()
+    Path("mine.txt").write_text("mine")
+    (folder / name).symlink_to(Path("mine.txt").resolve())
+    same(rc.sweep(given, out="a.csv"), rc.sweep(given))
+    assert Path("mine.txt").read_text() == "mine" and files() == ["a.csv", "mine.txt"]
+
+
 def test_a_folder_of_something_else_is_left_alone():
     given = study(PLUMMETS, {"gravity": words(1.0)})
     Path("a.csv.partial").mkdir()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tuning of everything that people can change, against closed forms and random systems."""
 
+import itertools
 import math
 
 import mpmath as mp
@@ -182,3 +183,26 @@ def test_where_to_look_and_what_was_seen():
 def test_questions_that_are_none(system, given, message):
     with pytest.raises(ValueError, match=f"^revchain.tune: .*{message}"):
         rc.tune(system, angular_speed=2.0, **given)
+
+
+EXTREME = [10.0**power for power in (-300, -200, -150, -100, -30, 30, 100, 150, 200, 300)]
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_no_speed_is_too_extreme_for_an_answer(name):
+    """A value, none, or a sentence; no error of Python's numbers and no warning."""
+    system, path, mode, _, _ = CLOSED[name]
+    for quantity, size in itertools.product(("angular_speed", "conical_height"), EXTREME):
+        try:
+            found = rc.tune(system, vary=path, mode=mode, **{quantity: size})
+            assert (found.status == "found") == (found.value is not None)
+        except ValueError as error:
+            assert str(error).startswith("revchain.tune: "), (quantity, size)
+
+
+@pytest.mark.parametrize("wanted", [1e-160, 1e300])
+def test_a_speed_without_a_conical_height_in_double_precision(wanted):
+    for system in (PAIR, rc.Cord(2.0), rc.Rig(PAIR, support=rc.Support(stiffness=9.0))):
+        for path in ("length", "links[0].length") if system is PAIR else ("length",):
+            with pytest.raises(ValueError, match=r"gravity / angular_speed\*\*2 must be positive and finite, got (inf|0)"):
+                rc.tune(system, vary=path, angular_speed=wanted)

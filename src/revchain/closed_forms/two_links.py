@@ -279,8 +279,8 @@ def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: Ar
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 5 ulp. The height always exists: ``(l + x)(thread - x) = thread * centroid``, section
-        6 (12).
+        Broadcast shape, within 5 ulp: ``(l + x)(thread - x) = thread * centroid``, section 6 (12). It is 0, and there is no
+        such motion, for a link without radius of gyration whose centroid is at the thread's length or above.
 
     Examples
     --------

@@ -82,6 +82,13 @@ class Mechanism:
         """Greatest distance from the axis."""
         return float(self.length.sum()) + self.radius
 
+    def part(self, k: int, what: str) -> str:
+        """The name of a body that belongs to link k; no link has it."""
+        name = f"{self.names[k]}_{what}"
+        while name in self.names:
+            name += "_"
+        return name
+
     def across(self, k: int, least: float) -> float:
         """Moment of inertia of link k with that of a small ball, `least`; the radius comes back from it exactly.
 
@@ -198,12 +205,17 @@ def radius_of_gyration(moment: float, mass: float, added: float = 0.0) -> float:
 
 
 def _names(chain: Chain) -> tuple[str, ...]:
-    """All different, and none that of a part of the support."""
-    taken = set(PARTS)
+    """Names of the links: all different, none that of a part of the support. The first link of a name keeps it."""
     names: list[str] = []
-    for k, given in enumerate(chain.names or [f"link_{k}" for k in range(chain.size)]):
-        names.append(given if given and given not in taken else f"{given or 'link'}_{k}")
-        taken.add(names[-1])
+    given = chain.names or [f"link_{k}" for k in range(chain.size)]
+    taken = {*PARTS, ""}
+    for k, name in enumerate(given):
+        if name in taken:
+            name = f"{name or 'link'}_{k}"
+            while name in taken or name in given:
+                name += "_"
+        names.append(name)
+        taken.add(name)
     return tuple(names)
 
 

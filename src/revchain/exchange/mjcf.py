@@ -162,7 +162,7 @@ def _link(parent: Xml.Element, made: Mechanism, k: int, pin: Any, size: float) -
     if made.mass[k] > 0:
         Xml.SubElement(link, "geom", type="sphere", pos=numbers(*at), size=numbers(ball), mass="0")
     if wheel:
-        disc = _body(link, f"{name}_wheel", at, mass, (0, 0, 0), (half, half, made.moment[k]))
+        disc = _body(link, made.part(k, "wheel"), at, mass, (0, 0, 0), (half, half, made.moment[k]))
         _joint(disc, f"{name}_spin", "hinge", (0, 0, 1))
         Xml.SubElement(disc, "geom", type="cylinder", size=numbers(2 * ball, ball / 3), mass="0")
     return link

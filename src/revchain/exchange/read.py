@@ -116,4 +116,7 @@ def _system(place: str, source: Any, root: str, least: float) -> Chain | Rig:
         model = spec.compile()
     except (ValueError, Xml.ParseError) as error:
         raise ValueError(f"{place}: {error}") from None
-    return Serial(mujoco, model, place, least).system()
+    try:
+        return Serial(mujoco, model, place, least).system()
+    except ValueError as error:  # of a chain that it would make
+        raise ValueError(f"{place}: {str(error).partition(': ')[2]}") from None

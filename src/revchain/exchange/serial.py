@@ -17,6 +17,13 @@ from .mjcf import RATIO
 
 _NEAR = 1e-9  # parts of a length, an axis or a moment by which a model may differ from a straight link
 _FORCES = ("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "dof_frictionloss", "dof_armature")
+_NUMBERS = {
+    "body": ("pos", "quat", "mass", "inertia", "ipos", "iquat"),
+    "jnt": ("pos", "axis", "stiffness"),
+    "geom": ("pos", "quat", "size"),
+    "site": ("pos",),
+}
+_MOST = 1e75  # of a number, so that the product of four is finite
 _MORE = {
     "neq": "equality constraints",
     "ntendon": "tendons",
@@ -47,6 +54,7 @@ class Serial:
         self.hinge, self.slide, self.ball = (
             int(getattr(mujoco.mjtJoint, f"mjJNT_{kind}")) for kind in ("HINGE", "SLIDE", "BALL")
         )
+        self._refuse_wild()
         self.at = mujoco.MjData(model)
         mujoco.mj_kinematics(model, self.at)
         size = float(np.linalg.norm(model.opt.gravity))
@@ -90,6 +98,18 @@ class Serial:
         model = self.model
         known = [model.numeric(k).name for k in range(model.nnumeric)]
         return np.array(model.numeric(name).data if name in known else [])
+
+    def _refuse_wild(self) -> None:
+        """Numbers that are not finite, or whose products would not be."""
+        for kind, fields in _NUMBERS.items():
+            for field in fields:
+                values = getattr(self.model, f"{kind}_{field}")
+                wild = np.argwhere(~(np.abs(values) <= _MOST))
+                if wild.size:
+                    name = self._name("joint" if kind == "jnt" else kind, int(wild[0, 0]))
+                    self._refuse(f"{name}: {field} must be finite and at most {_MOST:g}, got {values[tuple(wild[0])]:g}")
+        if not (np.abs(self.model.opt.gravity) <= _MOST).all():
+            self._refuse(f"gravity must be finite and at most {_MOST:g}, got {self.model.opt.gravity}")
 
     def _refuse(self, why: str) -> NoReturn:
         raise ValueError(f"{self.place}: {why}")

@@ -25,7 +25,7 @@ def explain(
     first: int = 1,
     rtol: float | None = None,
 ) -> Explanation:
-    """Return the method that `modes` would take for these arguments, and the cost of the others.
+    """Return the method that `modes` tries first for these arguments, and the cost of the others.
 
     Parameters
     ----------
@@ -49,7 +49,9 @@ def explain(
 
     Notes
     -----
-    Cost: some microseconds.
+    The choice depends on the size and kind of the chain and on the modes and the tolerance, not on the numbers of each link.
+    Where the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the next
+    one, in most cases bisection. ``Modes.method`` names the method that was used. Cost: some microseconds.
 
     Examples
     --------

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ _PLACE = "revchain.fit"
 _FORM = '{1: (3.21, 0.02)}, {1: "0.5 Hz"} or {1: ["10.9 s", "1 %"]}'
 _SINGULAR = 1e-8  # of the largest singular value: a smaller one belongs to a combination that is undetermined
 _EFFECT = 1e-9  # smallest relative effect on a speed of a relative change of 1 of a datum
+_EXTREME = 1e100  # an uncertainty over its value, or less than 1 / it, whose square would overflow
 _PART = 1e-6  # smallest part of a datum in a combination
 
 
@@ -123,7 +125,7 @@ def fit(
             f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
             f"got {number.min()}"
         )
-    model = _Model(system, data, number, speed, speed if deviation is None else deviation, g)
+    model = _Model(system, data, number, speed, np.abs(speed if deviation is None else deviation), g)
     return _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
 
 
@@ -132,7 +134,8 @@ class _Model:
 
     def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
         self.system, self.data, self.number, self.gravity = system, data, number, gravity
-        self.measured, self.deviation = speed, np.abs(deviation)
+        self.measured, self.scale = speed, (deviation / np.abs(speed)).min()
+        self.deviation = deviation / self.scale  # the tolerances of the search are for residuals that are parts of a speed
         self.kept: tuple[bytes, Any] = (b"", None)
 
     def values(self, free: Floats) -> Floats:
@@ -259,8 +262,8 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
     system, there = model.at(free)
     values, paths = model.values(free), tuple(datum.path for datum in model.data)
     inner = np.array([_inner(*each) for each in zip(model.data, values, strict=True)])
-    covariance = known.covariance * np.outer(inner, inner)
-    left, freedom = float((model.off(free) ** 2).sum()), len(model.number) - known.rank
+    covariance = known.covariance * np.outer(inner, inner) * model.scale**2
+    left, freedom = float((model.off(free) ** 2).sum()) / model.scale**2, len(model.number) - known.rank
     if deviation is None:
         spread = left / freedom if freedom else math.nan
         covariance, deviation = covariance * spread, np.abs(model.measured) * math.sqrt(spread)
@@ -317,7 +320,9 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
     elif isinstance(vary, str):
         paths = [vary]
     else:
-        paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
+        paths = []
+        with suppress(TypeError):  # numpy's arrays without an axis
+            paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
     if not paths:
         such = '["length", "links[0].mass"]'
         raise ValueError(f"{_PLACE}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
@@ -373,6 +378,10 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
         raise ValueError(
             f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
             "is known"
+        )
+    if not 1 / _EXTREME <= part <= _EXTREME:
+        raise ValueError(
+            f"{place}: uncertainty must be from {1 / _EXTREME:g} to {_EXTREME:g} times the measured value, got {shown(spread)}"
         )
     return speed, part * speed
 

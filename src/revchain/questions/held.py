@@ -52,7 +52,13 @@ def held_shape(
             f"of a branch, got {value:g}"
         )
     asked = value / held._force(gravity) if name == "top_tension" else value
-    found = _core.held_shape(held.system._compiled, span, *held._ends(gravity), mode, name, asked, gravity)
+    try:
+        found = _core.held_shape(held.system._compiled, span, *held._ends(gravity), mode, name, asked, gravity)
+    except ValueError as error:
+        if name != "top_tension":
+            raise
+        what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is asked / gravity
+        raise ValueError(f"{place}: {what}; ask branches for the tensions that it has, got {value:g}") from None
     kind: Any = HeldShape if isinstance(held.system, Chain) else HeldCordShape
     shape: HeldShape | HeldCordShape = kind._made(
         found,

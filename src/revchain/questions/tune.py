@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import pairwise
@@ -16,7 +17,7 @@ from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.datum import Datum, read
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, one_positive, real, shown
+from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, height_of, one_positive, real, shown
 from ..systems.rig import Rig
 from .held import held_shape
 from .modes import modes, straight
@@ -154,9 +155,9 @@ def tune(
     if isinstance(system, Held) and not bent:
         straight(_PLACE, system, g)
     datum = read(_PLACE, system, vary, g)
+    height, speed = _height_and_speed(name, value, g)
     if isinstance(system, Chain) and vary != "length":
         return _link(system, datum, number, name, value, g, between)
-    speed = value if name == "angular_speed" else float(np.sqrt(g / value))
     if bent:
         pull = one_positive(_PLACE, "top_tension", top_tension)
         return _searched(datum, speed, g, between, lambda held: _speed_under(held, number, pull, g))
@@ -164,7 +165,7 @@ def tune(
     if isinstance(system, Rig):
         one = _formed(system, datum, number, speed, g)
     elif vary == "length" and not (isinstance(system, Held) and not system.is_plain):  # springs keep their stiffness
-        one = _length(system, datum, number, value if name == "conical_height" else g / value**2, g)
+        one = _length(system, datum, number, height, g)
     if one is None:
         signed = np.array([number if speed > 0 else -number])
 
@@ -176,6 +177,13 @@ def tune(
     if between is not None:
         raise ValueError(f"{_PLACE}: between is for a search, and {vary} has one value; leave it out, got {shown(between)}")
     return one
+
+
+def _height_and_speed(name: str, value: float, gravity: float) -> tuple[float, float]:
+    """The wanted conical height and speed, of which one is given; a ValueError if the other does not fit in a double."""
+    if name == "angular_speed":
+        return height_of(_PLACE, None, abs(value), gravity), value
+    return value, one_positive(_PLACE, "(gravity / conical_height)**0.5", math.sqrt(gravity / value))
 
 
 def _of_either_sign(speed: Any, height: Any) -> tuple[str, float]:
@@ -275,9 +283,12 @@ def _searched(
 ) -> Tuned:
     """The values by bisection between neighbours whose speeds enclose the wanted one."""
 
+    reached: list[float] = []
+
     def found(value: float) -> tuple[float, float]:
         """Speed divided by the wanted one, less 1, and its bound; a ValueError if the system has no such mode."""
         there, bound = speed_of(datum.change(value))
+        reached.append(there)
         return there / speed - 1, bound * there / speed + 2.0**-52
 
     low, high = _range(datum) if between is None else _ends(between, datum)
@@ -305,7 +316,7 @@ def _searched(
                 value, bound = _root(found, left, right, off[left] < 0)
                 values[value] = bound
     nearest = min(values, key=lambda x: abs(_scale(datum, x) - _scale(datum, datum.present)), default=None)
-    heights = gravity / (speed * (1 + np.array([*off.values()]))) ** 2
+    heights = gravity / np.array(reached) ** 2
     return Tuned._made(
         None,
         status="undecided" if nearest is None else "found",

@@ -52,6 +52,10 @@ class Field(Generic[Value]):
         raise AttributeError(f"a {type(result).__name__} cannot be changed: {self.name} was not set")
 
 
+class UnavailableError(AttributeError, ValueError):
+    """The error of a field that some results of a class do not have; for `hasattr` they do not have it."""
+
+
 class Result(Unchangeable):
     """The base of all results: immutable values that can be pickled; two are equal if all their parts are equal.
 
@@ -71,6 +75,9 @@ class Result(Unchangeable):
         cls._fields = {**cls._fields, **own}
         if cls.__module__.startswith("revchain."):  # a class of a caller must not replace one of ours
             Result._kinds[cls.__name__] = cls
+
+    def __init__(self) -> None:
+        raise TypeError(f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; ask the question")
 
     @classmethod
     def _made(cls, core: Any, **parts: Any) -> Self:

@@ -15,7 +15,7 @@ from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
-from .base import Field
+from .base import Field, UnavailableError
 from .held_sensitivity import held_shape_sensitivity
 from .shape_sensitivity import ShapeSensitivity
 from .shapes import Shape, Stability, SteadyShapes, at_speed, force_above, forced, is_driven, judged
@@ -122,7 +122,7 @@ class _Bent(Shape):
 
 
 def _no_sensitivity(shape: Any) -> ShapeSensitivity:
-    raise ValueError(
+    raise UnavailableError(
         f"revchain.{type(shape).__name__}.sensitivity: is for shapes of links; cut the cord into links: cord.chain(100), got a cord"
     )
 
@@ -151,7 +151,7 @@ class CordShape(_Bent):
         lambda s: s._found().error_bound,
         part=True,
     )
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: an AttributeError.", _no_sensitivity)
     _note: ClassVar[str] = "lower end: inclination to the downward vertical there; error: estimated"
     _place_note: ClassVar[str] = "arc lengths from the free end, heights above the support"
 
@@ -424,7 +424,7 @@ class HeldCordShape(_HeldShape):
         """
         driven = is_driven("revchain.HeldCordShape.stability", frame)
         return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: a ValueError.", _no_sensitivity)
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: an AttributeError.", _no_sensitivity)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return offset, height, inclination and tension at distances along the cord.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The method that `modes` takes for a tolerance."""
+"""The method that `modes` tries first for a tolerance."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class MethodEstimate(NamedTuple):
 
 
 class Explanation(Result):
-    """The method that `modes` takes for a tolerance, with the alternatives; returned by `explain`.
+    """The method that `modes` tries first for a tolerance, with the alternatives; returned by `explain`.
 
     Examples
     --------

@@ -15,7 +15,7 @@ from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive, refuse_beyond_memory, refuse_where
 from ..systems.rig import Rig
-from .base import Field, Result
+from .base import Field, Result, UnavailableError
 from .moving import Moving
 from .sheet import Column, Sheet
 
@@ -434,7 +434,8 @@ class OtherModes(Result):
             Column("growth_rate", self.growth_rate, "growth rate (1/s)"),
             Column("error_bound", self.error_bound, "error bound"),
         ]
-        return Sheet("number", f"{len(self)} solution{'s' * (len(self) != 1)} that are not steady motions", columns)
+        what = "1 solution that is not a steady motion" if len(self) == 1 else f"{len(self)} solutions that are not steady motions"
+        return Sheet("number", what, columns)
 
 
 class RigModes(Modes):
@@ -855,7 +856,7 @@ def _sensitivity(modes: Modes) -> Any:
 
         return of_cord(modes)
     if not isinstance(modes.system, Chain):
-        raise ValueError(
+        raise UnavailableError(
             "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum "
             "and ask again"
         )

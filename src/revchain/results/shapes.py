@@ -81,8 +81,8 @@ class Stability(Result):
     )
     external_damping: Field[Floats] = Field(
         "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the growth rate. "
-        "The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. (Without flywheels, a drag "
-        "proportional to mass lowers each growth rate by half the ratio of drag to mass.)",
+        "The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without flywheels, a drag "
+        "proportional to mass lowers each growth rate by half the ratio of drag to mass.",
         part=True,
     )
     growth_rate: Field[float] = Field(

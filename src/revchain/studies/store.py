@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..results.files import OutputError, hdf5_file, naming
+from ..results.storage import WRONG
 from ..systems.extras import require
 from ..systems.numbers import file_path
 from .plan import Plan, Stretch
@@ -110,6 +110,8 @@ class Store:
 
     def _begin(self) -> None:
         """Write the head of a new folder, or read that of an old one."""
+        for path in self.folder.glob(f"{_ASIDE}*"):
+            path.unlink()  # before anything is written there: one may be a link to another file
         head, fingerprint = self.folder / _HEAD, self._plan.fingerprint()
         if not head.exists():
             aside = self.folder / f"{_ASIDE}-{_HEAD}"
@@ -124,9 +126,7 @@ class Store:
             raise self._refused(errno.EEXIST, reason)
         for path in sorted(self.folder.iterdir()):
             found = _CHUNK.fullmatch(path.name)
-            if path.name.startswith(_ASIDE):
-                path.unlink()
-            elif found is not None:
+            if found is not None:
                 start, stop = int(found[1]), int(found[2])
                 reached = self.kept[-1][1] if self.kept else 0
                 if reached <= start < stop <= self._plan.points and self._is_whole(start, stop):
@@ -140,7 +140,7 @@ class Store:
         expected = {block.name: ((stop - start, *block.each), np.dtype(block.kind)) for block in self._plan.stored}
         try:
             found = {name: (array.shape, array.dtype) for name, array in self._chunk(start, stop).items()}
-        except (OSError, ValueError, EOFError, KeyError, BadZipFile):
+        except WRONG:
             return False
         return found == {**expected, "status": ((stop - start,), np.dtype(np.uint8))}
 

@@ -428,11 +428,11 @@ class Chain(System):
         """Descriptions of the links from the support down: equal neighbours together, the middle left out if long."""
         starts = self._groups()
         ends = [*starts[1:], self.size]
-        words = [self._group(start, end - start) for start, end in zip(starts, ends, strict=True)][::-1]
-        if len(words) > _GROUPS:
-            hidden = ends[-4] - starts[2]
-            words = [*words[:3], f"{hidden:,} more links", *words[-2:]]
-        return words
+        groups = list(zip(starts, ends, strict=True))[::-1]
+        if len(groups) <= _GROUPS:
+            return [self._group(*group) for group in groups]
+        upper, lower = ([self._group(*group) for group in some] for some in (groups[:3], groups[-2:]))
+        return [*upper, f"{ends[-4] - starts[2]:,} more links", *lower]
 
     def _groups(self) -> list[int]:
         """Index of the first link of each run of equal links, from the free end up."""
@@ -448,8 +448,8 @@ class Chain(System):
             unlike[:] = True
         return [int(k) for k in np.flatnonzero(unlike)]
 
-    def _group(self, first: int, count: int) -> str:
-        """Description of `count` equal links."""
+    def _group(self, first: int, end: int) -> str:
+        """Description of equal links, from the index `first` to before `end`."""
         core = self._compiled
         numbers = (core.weight, core.length, core.centroid, core.radius_of_gyration)
         heavy, long, centroid, radius = (float(x[first] if x.ndim else x) for x in numbers)
@@ -462,7 +462,7 @@ class Chain(System):
         else:
             what = f"body, {heavy:.6g} {self._unit}, {long:.6g} m"
         named = f"{self._names[first]}: {what}" if self._names is not None else what
-        return f"{count:,} times {named}" if count > 1 else named
+        return f"{end - first:,} times {named}" if end - first > 1 else named
 
     @property
     def _unit(self) -> str:

@@ -41,6 +41,8 @@ inline std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, doub
                                                           int half_waves) {
     HeldCord held;
     const double length = cord.length(), wanted = tension / cord.weight();
+    // The tension falls by weight / length times the depth (both ends are on the axis), and both ends bear the weight.
+    if (2 * wanted <= 1 + span / length) return {};
     const auto first = held.at_height(half_waves, span / length, 0);
     if (!first) return {};
     const auto found = held.curve().first_where(
