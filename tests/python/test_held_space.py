@@ -99,7 +99,7 @@ def test_a_shape_out_of_the_plane_of_two_arms():
     arms = {"lower": Support(radius=0.3042366027099993), "upper": Support(radius=-0.222607681722941)}
     held, speed = rc.Held(chain, span=1.1769338342209616, **arms), 13.14413859626347
     shapes = rc.steady_shapes(held, angular_speed=speed, max_half_waves=2)
-    found = Shooting(held, speed, G).shapes(np.random.default_rng(0), 200)
+    found = Shooting(held, speed, G).shapes(np.random.default_rng(0), 500)
     out = [place for place in found if np.abs(place[:, 1]).max() > 0.1]
     assert len(found) - len(out) == len(shapes) == 2
     assert len(out) == 2  # two mirror images
