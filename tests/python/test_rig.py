@@ -197,3 +197,11 @@ def test_new_scene_names_every_feature(python, tmp_path):
     assert np.any(rig.displaced.mass)
     assert rig.support.stiffness == 200.0
     assert rig.fluid == "turning"
+
+
+@pytest.mark.parametrize("given", [{"mass": 1000.0}, {"weight": 2.5}, {"mass": 1.0, "stiffness": np.inf}])
+def test_a_carriage_needs_a_spring(given):
+    says = r"revchain\.Support: stiffness is missing: what moves sideways needs a support that yields, got (mass|weight) "
+    with pytest.raises(ValueError, match=says):
+        rc.Support(**given)
+    assert rc.Support(mass=0.0) == rc.Support(weight=0.0) == rc.Support()

@@ -8,6 +8,7 @@ import pickle
 import mpmath as mp
 import numpy as np
 import pytest
+import rigs
 from exact import heights_of, stored_links
 from rigs import random_chain, rigged
 
@@ -274,6 +275,35 @@ def test_every_datum_of_a_rig_against_differences_of_its_speeds(fluid, gravity):
     h, rho, a = (np.array(data[name]) for name in ("centroid", "radius_of_gyration", "length"))
     in_proportion = derivative.length + (h * derivative.centroid + rho * derivative.radius_of_gyration) / a
     np.testing.assert_allclose(derivative.length_in_proportion, in_proportion, rtol=1e-13, atol=1e-14)
+
+
+def test_fluid_of_no_weight_has_the_place_given():
+    """The derivative by a displaced weight of 0 is that of fluid there, not at the centroid of the link."""
+    example = Chain(weight=[1, 2], length=[1, 0.5], centroid=[0.6, 0.3], radius_of_gyration=[0.2, 0.1])
+    cases = [(example, np.array([0.8, 0.2]), np.array([0.3, 0.05]))]
+    for seed in range(30):
+        rng = np.random.default_rng([38, seed])
+        chain = random_chain(rng, int(rng.integers(1, 4)))
+        cases.append((chain, chain.length * rng.uniform(0, 1.2, chain.size), chain.length * rng.uniform(0, 0.5, chain.size)))
+    for chain, centroid, gyration in cases:
+        place = {"centroid": centroid, "gyration": gyration}
+        found = rc.modes(rigged(chain, displaced=np.zeros(chain.size), **place)).sensitivity.displaced_mass
+        at_rest = speeds_in_50_digits(rigged(chain))
+        for k in range(chain.size):
+            small = np.where(np.arange(chain.size) == k, 1e-30, 0.0)
+            moved = speeds_in_50_digits(rigged(chain, displaced=small, **place))
+            want = [float((n - m) / mp.mpf(1e-30)) for n, m in zip(moved, at_rest, strict=True)]
+            np.testing.assert_allclose(found[:, k], want, rtol=1e-11, atol=1e-13 * max(map(abs, want)))
+    assert rc.Rig(example, displaced=rc.Displaced(weight=0.0)) == rc.Rig(example)
+
+
+def speeds_in_50_digits(rig):
+    """The speeds of a rig without momentum, slowest first."""
+    with mp.workdps(50):
+        stiff, _, mass = (mp.matrix(x) for x in rigs.pencil(rig))
+        root = mp.cholesky(stiff) ** -1
+        heights = mp.eigsy(root * mass * root.T, eigvals_only=True)
+        return sorted(mp.sqrt(mp.mpf(rigs.G) / height) for height in heights)
 
 
 def test_a_rig_with_nothing_moves_as_its_chain():

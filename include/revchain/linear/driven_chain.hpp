@@ -19,6 +19,7 @@ struct DrivenChain {
     bool turning = false;  ///< whether a stiffness goes with the speed
     Index standing = 0;    ///< elements that stand: so many negative pivots are no modes
     Index idle = 0;        ///< lowest links left out: nothing on them bears, spins or moves
+    double end = 1;        ///< 1 if the moved end is a pin, 0 if it is the place of rest of a spring
 };
 
 inline const Chain<double>& base_chain(const Chain<double>& chain) { return chain; }
@@ -55,7 +56,7 @@ inline DrivenChain driven_chain(const Rig& rig) {
         result.elements.push_back({element});
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig)) result.elements.push_back({*support});
+    if (const auto support = support_element(rig)) result.elements.push_back({*support}), result.end = 0;
     return result;
 }
 
@@ -88,8 +89,10 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
                     pencil::driven_lanes<false, fused, V>(chain.elements, padded, wanted, found, offset);
                 bool sharp = true;
                 for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
-                if (!sharp && chain.turning) pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
-                if (!sharp && !chain.turning) pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
+                if (!sharp && chain.turning)
+                    pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch, chain.end);
+                if (!sharp && !chain.turning)
+                    pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch, chain.end);
                 for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
                 advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
             }

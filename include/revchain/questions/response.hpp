@@ -140,11 +140,13 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
         for (std::size_t i = begin; i < end; ++i) {
             const Index row = left[i];
             std::size_t which = pins.wanted.pins.size();
-            const auto found = pencil::driven(chain.elements, at[static_cast<std::size_t>(row)],
-                                              [&](std::size_t pin, const Wide<double>& y) {
-                                                  if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
-                                                  put(row, --which, y);
-                                              });
+            const auto found = pencil::driven(
+                chain.elements, at[static_cast<std::size_t>(row)],
+                [&](std::size_t pin, const Wide<double>& y) {
+                    if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
+                    put(row, --which, y);
+                },
+                chain.end);
             for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
             store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
             for (const Index column : pins.carried_columns) result.offset(row, column) = radius;

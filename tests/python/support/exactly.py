@@ -281,32 +281,19 @@ class Pencil:
             found.append(list(shapes * part))
         return found
 
-    def whirled(self, offset, velocity, times):
-        """Offsets of what moves with wheels, M z'' - i P z' + K z = 0, by power series."""
-        (k, k1), (p, p1), (m, m1) = self.moving
-
-        def product(diagonal, beside, x):
-            y = [d * v for d, v in zip(diagonal, x, strict=True)]
-            for i, b in enumerate(beside):
-                y[i] += b * x[i + 1]
-                y[i + 1] += b * x[i]
-            return y
-
-        found = []
-        for t in times:
-            with mp.workdps(mp.mp.dps + 120):
-                terms = [[mp.mpc(z) for z in offset], [mp.mpc(z) * t for z in velocity]]  # of t^j / j!
-                total = [x + y for x, y in zip(*terms, strict=True)]
-                for j in range(2, 4000):
-                    turn, pull = product(p, p1, terms[-1]), product(k, k1, terms[-2])
-                    right = [mp.mpc(0, 1) * t * x / j - t * t * y / (j * (j - 1)) for x, y in zip(turn, pull, strict=True)]
-                    term = solved(list(m), list(m1), right)
-                    terms = [terms[1], term]
-                    total = [x + y for x, y in zip(total, term, strict=True)]
-                    if j > 20 and max(abs(x) for x in term) < mp.mpf(10) ** -mp.mp.dps * max(abs(x) for x in total):
-                        break
-                found.append(total)
-        return found
+    def whirled(self, offset, velocity, times, speeds):
+        """Offsets of what moves with wheels, M z'' - i P z' + K z = 0: a sum of whirls, each near one of the speeds."""
+        size, roots, shapes = len(offset), [mp.re(self.root(mp.mpc(n))) for n in speeds], []
+        assert len(roots) == 2 * size
+        for n in roots:
+            (diagonal, beside), y = self.at(n), [mp.mpf(1)]
+            for i in range(size - 1):
+                y.append(-(diagonal[i] * y[i] + (beside[i - 1] * y[i - 1] if i else 0)) / beside[i])
+            shapes.append(y)
+        both = mp.matrix([[y[i] for y in shapes] for i in range(size)] + [[n * y[i] for n, y in zip(roots, shapes, strict=True)] for i in range(size)])
+        part = mp.lu_solve(both, mp.matrix([*offset, *(v / mp.mpc(0, 1) for v in velocity)]))
+        return [[mp.fsum(part[j] * y[i] * mp.expj(n * t) for j, (n, y) in enumerate(zip(roots, shapes, strict=True)))
+                 for i in range(size)] for t in times]  # fmt: skip
 
 
 def solved(diagonal, beside, right):

@@ -23,7 +23,7 @@ struct Driving {
 /// What one moved end does to a string of elements. Offsets are over that of the moved end.
 struct Driven {
     bool decided = false;    ///< else the drive cannot be told from resonance, and nothing but `negative` is meant
-    double error_bound = 0;  ///< of every offset, over the largest, before it is rounded to double
+    double error_bound = 0;  ///< of every offset, over the largest of a pin, before it is rounded to double
     bool reversed = false;   ///< lowest pin against the moved end
     Index negative = 0;      ///< negative pivots, those in doubt left out
     double stiffness = 0;    ///< force at the moved end over its offset, in units of the last element
@@ -53,10 +53,11 @@ struct Follows {
 ///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p,
 ///
 /// and where p vanishes, the pin above being a node, its reciprocal C' = p / ((L - B) p - (L + X)^2) for one link. D
-/// enters each step once: intervals widen as the error itself grows.
+/// enters each step once: intervals widen as the error itself grows. `end` is the offset of the moved end, 1, if that is
+/// a pin of the chain, else 0: errors are over the largest offset of a pin.
 /// Cost: about 1.5 microseconds for each element.
 template <class Offsets>
-Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, const Offsets& offset) {
+Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, const Offsets& offset, double end = 1) {
     using S = Wide<double>;
     using I = Interval<S>;
     const double unit = operation_error<S>();
@@ -114,7 +115,7 @@ Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, con
         below = upper - coupling * ratio;
     }
     I above(S(1.0)), before;
-    double largest = 1, worst = 0;
+    double largest = end, worst = 0;
     bool known = true;
     for (std::size_t m = n; m-- > 0;) {
         const I y = follows[m].ratio * (follows[m].pins == 2 ? before : above);

@@ -89,7 +89,8 @@ template <bool turning, bool fused, class V>
     w.doubt = w.doubt + (inherited + V(4 * unit + 0x1p-80));
     const V own = above + coupled * ratio_size * V(2.0) + V(8 * unit) * (abs(carried.high) + gain * ratio_size);
     if (row != nullptr)
-        *row = {ratio.high, V(1.0) / pivot.high, w.row + local + V(8 * unit) * abs(pivot.high), w.error};
+        *row = {ratio.high, V(1.0) / pivot.high,
+                w.row + local + V(8 * unit) * abs(pivot.high) + coupled * V(1 + 0x1p-40) / ratio_size, w.error};
     w.row = own;
     w.error = V(1 + 0x1p-46) * (gain * (ratio_size * inherited + inverse * coupled) + own);
     w.below = carried;
@@ -166,11 +167,12 @@ template <bool turning, bool fused, class V, class Offsets>
 ///
 ///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i),
 ///
-/// E the error of D, which holds the rows below. What `driven_lanes` adds up, errors of ratios, counts what happens to
+/// E the error of D, which holds the rows below. The error of a coupling enters the row of its lower pin by the offset of
+/// the upper one. `end` as for `driven`. What `driven_lanes` adds up, errors of ratios, counts what happens to
 /// both sides of a node twice, without the signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
 [[gnu::always_inline]] inline void sharpen(const std::vector<DrivenElement>& elements, const Driving* at,
-                                           Driven* result, std::vector<double>& scratch) {
+                                           Driven* result, std::vector<double>& scratch, double end = 1) {
     constexpr std::size_t P = 2, L = V::size, stored = detail::DrivenRow<V>::stored;
     detail::DrivenWalk<V> walks[P];
     for (std::size_t p = 0; p < P; ++p) detail::start(walks[p], at + p * L);
@@ -187,7 +189,7 @@ template <bool turning, bool fused, class V>
     }
     for (std::size_t p = 0; p < P; ++p) {
         const V known = V(4.0) * walks[p].doubt + V(0x1p-48);  // relative, of a ratio squared and of a pivot
-        V y(1.0), largest(1.0), g(0.0), slack(0.0), sum(0.0), worst(0.0);
+        V y(1.0), largest(end), g(0.0), slack(0.0), sum(0.0), worst(0.0);
         for (std::size_t m = n; m-- > 0;) {
             const double* from = scratch.data() + (m * P + p) * stored * L;
             const V ratio = V::load(from), inverse = V::load(from + L), row = V::load(from + 2 * L);
