@@ -73,6 +73,7 @@ void bind_finite(py::module_& module) {
     py::class_<Stability>(module, "Stability", "Linear stability of a steady shape.")
         .def_property_readonly("verdict", [](const Stability& s) { return std::string(to_string(s.verdict)); })
         .def_property_readonly("exponents", each(&Stability::exponents))
+        .def_property_readonly("exponent_error", each(&Stability::exponent_error))
         .def_property_readonly("internal_damping", each(&Stability::internal_damping))
         .def_property_readonly("external_damping", each(&Stability::external_damping))
         .def_readonly("growth_rate", &Stability::growth_rate)

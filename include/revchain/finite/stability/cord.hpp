@@ -86,6 +86,7 @@ class DisturbedCord {
         length << wide_, 0;
         const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(), Y = -along;
         Disturbed d;
+        d.doubt = tension_.maxCoeff();
         const auto weighed = [](const Matrix<double>& left, const Vector<double>& by, const Matrix<double>& right) {
             return Matrix<double>(left.transpose() * by.asDiagonal() * right);
         };
@@ -191,14 +192,17 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     }
     if (result.negative_directions != coarse.negative_directions) result.verdict = Verdict::undecided;
     std::vector<std::complex<double>> kept;
-    std::vector<double> external;
+    std::vector<double> external, error;
     for (std::size_t i = 0; i < result.exponents.size(); ++i) {
         const std::complex<double> s = result.exponents[i];
-        const auto alike = [&](const std::complex<double>& x) { return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9; };
-        if (std::none_of(coarse.exponents.begin(), coarse.exponents.end(), alike)) continue;
+        double off = std::numeric_limits<double>::infinity();
+        for (const auto& x : coarse.exponents) off = std::min(off, std::abs(x - s));
+        if (off > 1e-6 * std::abs(s) + 1e-9) continue;
         kept.push_back(s), external.push_back(result.external_damping[i] / cord.line_weight());
+        error.push_back(std::max(off, result.exponent_error[i]));
     }
     result.exponents = std::move(kept), result.external_damping = std::move(external);
+    result.exponent_error = std::move(error);
     result.internal_damping.assign(result.exponents.size(), std::numeric_limits<double>::quiet_NaN());
     return result;
 }

@@ -7,20 +7,32 @@
 #include <vector>
 
 #include "revchain/finite/balance/links.hpp"
+#include "revchain/numeric/double_double.hpp"
+
+namespace revchain {
+
+// What Eigen's solvers ask of a scalar besides.
+inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
+inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
+
+}  // namespace revchain
 
 namespace revchain::finite {
 
 /// Directions at right angles to the columns of a matrix.
-inline Matrix<double> beside(const Matrix<double>& columns) {
-    const Matrix<double> whole = Eigen::HouseholderQR<Matrix<double>>(columns).householderQ();
+template <class S>
+Matrix<S> beside(const Matrix<S>& columns) {
+    const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
     return whole.rightCols(columns.rows() - columns.cols());
 }
 
-/// A shape as its links, their inclinations, lambda times the pull along each, the offsets of their lower pins (and of
-/// the upper end, if that moves); and what links turn with about their own axes.
+/// A shape as its links, their inclinations, lambda times the pull along each, the offset of the upper end; and what
+/// links turn with about their own axes.
 struct PulledLinks {
-    std::vector<Link<double>> links;
-    std::vector<double> inclination, pull, offset;
+    std::vector<Link<Wide<double>>> links;
+    std::vector<double> inclination, pull;
+    std::vector<double> doubt;  // the error of a pull over that of rounding
+    double upper_offset = 0;
     std::vector<double> momentum, axial;  // lambda n times that along the axis, and the moment of inertia about it
     double stiffness = std::numeric_limits<double>::infinity();  // lambda times that of the support
     double carriage = 0;
@@ -33,115 +45,162 @@ struct PulledLinks {
     explicit PulledLinks(const ChainUnits& of) : units(of) {}
 
     bool yields() const { return !std::isinf(stiffness); }
+    /// Whether the upper end is on a spring and moves no mass.
+    bool top_is_massless() const {
+        return yields() && carriage == 0 && is_zero(links.back().rest) && is_zero(links.back().cross);
+    }
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
     /// Adds a link; one that meets the last in a pin without mass or load stays in line with it, and is one with it.
-    void add(const Link<double>& link, double delta, double pulled, double y, double turning = 0, double about = 0) {
+    void add(const Link<Wide<double>>& link, double delta, double pulled, double off, double turning = 0,
+             double about = 0) {
         if (!links.empty()) {
-            Link<double>& below = links.back();
-            const bool massless = below.rest == 0 && below.cross == 0 && link.moment == 0 && link.cross == 0;
+            Link<Wide<double>>& below = links.back();
+            const bool massless = is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
             const bool plain = turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
             const auto alike = [](double x, double z, double size) { return std::abs(x - z) <= 1e-9 * size; };
             if (massless && plain && alike(delta, inclination.back(), 1) &&
                 alike(pulled, pull.back(), std::abs(pulled))) {
-                below.length += link.length, below.rest = link.rest;
+                below.length = below.length + link.length, below.rest = link.rest;
                 return;
             }
         }
-        links.push_back(link), inclination.push_back(delta), pull.push_back(pulled), offset.push_back(y);
+        links.push_back(link), inclination.push_back(delta), pull.push_back(pulled), doubt.push_back(off);
         momentum.push_back(turning), axial.push_back(about);
     }
 };
 
-/// Links disturbed from a shape by angles q in its plane and offsets y of the pins out of it, time in 1/n:
-///     A q'' - 2 B y' + (diag(a P) - X'MX) q = 0,
-///     M y'' + 2 B' q' + (K(P/a) - M) y = 0,
-/// P lambda times the pull along each link, X q and Z q the pins' motions across and along the axis,
-/// A = X'MX + Z'MZ, B = X'M - diag(p/a) D/2, D y the differences of y over a link, p lambda n times the angular
-/// momentum that a link keeps about its own axis. A support that yields moves by the last q and the last y: to both
-/// stiffnesses it adds lambda E, to M its carriage. So does a lower end on a spring, by the motion of the lowest pin.
-/// Damping adds rates of dissipation: F q', H y' at the pins, drag in proportion to length and velocity in space.
-struct Disturbed {
-    Matrix<double> inertia, coupling, mass;  // A, B, M
-    Matrix<double> in_plane, out_of_plane;   // both stiffnesses times lambda
-    Matrix<double> turned;                   // what is less of the first where links turn with the plane
-    Matrix<double> bending, swivelling;      // F, H
-    Matrix<double> drag_in_plane, drag_coupling, drag_across;
-    Matrix<double> ends;    // how the lower end moves with q, across the axis and along it
-    Vector<double> offset;  // the shape: out of plane, a rotation
+/// Links disturbed from a shape by angles q in its plane and angles b out of it, time in 1/n:
+///     A q'' - 2 B b' + (diag(a P) - X'MX) q = 0,
+///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY,
+/// P lambda times the pull along each link, M the masses of the pins, X q and Z q their motions across and along the
+/// axis, Y b those out of the plane, A = X'MX + Z'MZ, B = X'MY - diag(p)/2, p lambda n times the angular momentum that
+/// a link keeps about its own axis. As all pins below a link move with it, X = U diag(a cos), Y = U diag(a), U upper
+/// triangular of ones, and G = U'MU is known link by link without a difference. A support that yields moves by the
+/// last q and the last b, lengths: to both stiffnesses it adds lambda E, to M its carriage. So does a lower end on a
+/// spring, by the motion of the lowest pin.
+/// Each angle is in a unit in which its stiffness and mass are about 1, so that light links count as much as heavy ones.
+/// Damping adds rates of dissipation: F q', H b' at the pins, drag in proportion to length and velocity in space.
+template <class S>
+struct DisturbedIn {
+    Matrix<S> inertia, coupling, mass;  // A, B, N
+    Matrix<S> in_plane, out_of_plane;   // both stiffnesses times lambda
+    Matrix<S> turned;                   // what is less of the first where links turn with the plane
+    Matrix<S> bending, swivelling;      // F, H
+    Matrix<S> drag_in_plane, drag_coupling, drag_across;
+    Matrix<S> ends;                // how the lower end moves with q, across the axis and along it
+    Vector<S> lower_end;           // how it moves with b
+    Vector<S> stiffness;           // lambda times that of links and support, against q as against b
+    Vector<S> offset;              // the shape: out of plane, a rotation
+    std::vector<Index> massless;   // pins that move no mass, lowest first
+    double doubt = 0;              // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
 
-    Disturbed() = default;
-    explicit Disturbed(const PulledLinks& shape) : turns_freely(shape.turns_freely) {
+    DisturbedIn() = default;
+    explicit DisturbedIn(const PulledLinks& shape) : turns_freely(shape.turns_freely) {
+        using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        Matrix<double> across = Matrix<double>::Zero(pins, pins), along = across, spin = across;
-        mass = in_plane = out_of_plane = turned = bending = drag_across = across;
-        offset = Eigen::Map<const Vector<double>>(shape.offset.data(), pins);
-        for (Index m = 0; m < n; ++m) {
-            const auto i = static_cast<std::size_t>(m);
-            const Link<double>& link = shape.links[i];
-            const double a = link.length, pull = shape.pull[i];
-            const double c = std::cos(shape.inclination[i]), s = std::sin(shape.inclination[i]);
-            across.col(m).head(m + 1).setConstant(a * c);
-            along.col(m).head(m + 1).setConstant(a * s);
-            in_plane(m, m) = pull * a;
-            turned(m, m) = shape.axial[i] * s * s;
-            const auto element = [&](Matrix<double>& to, double lower, double mixed, double upper) {
-                to(m, m) += lower;
-                if (m + 1 < pins) to(m, m + 1) += mixed, to(m + 1, m) += mixed, to(m + 1, m + 1) += upper;
+        const auto link = [&](Index m) -> const Link<Wide<double>>& { return shape.links[static_cast<std::size_t>(m)]; };
+        const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
+        Matrix<S> G(pins, pins), length(pins, pins);
+        Wide<double> below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
+        for (Index m = 0; m < pins; ++m) {  // symmetric sums of masses, and of a third and a sixth of lengths
+            const bool is_link = m < n;
+            const Wide<double> zero(0.0), a = is_link ? link(m).length : zero;
+            const Wide<double> own = is_link ? link(m).moment - link(m).cross : Wide<double>(shape.carriage);
+            const auto fill = [m](Matrix<S>& of, const Wide<double>& self, const Wide<double>& others) {
+                of(m, m) = S(self);
+                of.row(m).tail(of.cols() - m - 1).setConstant(S(others));
+                of.col(m).tail(of.cols() - m - 1).setConstant(S(others));
             };
-            const double at_lower = link.moment - link.cross, at_upper = link.rest - link.cross;
-            element(mass, at_lower, link.cross, at_upper);
-            element(out_of_plane, pull / a - at_lower, -pull / a - link.cross, pull / a - at_upper);
-            element(drag_across, a / 3, a / 6, a / 3);
-            spin(m, m) = shape.momentum[i] / (2 * a);
-            if (m + 1 < pins) spin(m, m + 1) = -spin(m, m);
-            bending(m, m) += m == 0 && !shape.held ? 1 : 2;
-            if (m > 0) bending(m, m - 1) = bending(m - 1, m) = -1;
+            fill(G, below + own, is_link ? below + link(m).moment : zero);
+            fill(length, long_below + a / Wide<double>(3.0), long_below + a / Wide<double>(2.0));
+            if (is_link) below = below + link(m).moment + link(m).rest, long_below = long_below + a;
         }
-        if (shape.yields()) {
-            across.col(n).setOnes();
-            mass(n, n) += shape.carriage, in_plane(n, n) = shape.stiffness;
-            out_of_plane(n, n) += shape.stiffness - shape.carriage;
+        Vector<S> x(pins), y(pins), z(pins), turning = Vector<S>::Zero(pins), unit(pins);
+        offset.resize(pins), stiffness.resize(pins);
+        turned = Matrix<S>::Zero(pins, pins);
+        for (Index m = 0; m < pins; ++m) {
+            const bool is_link = m < n;
+            const S s(is_link ? std::sin(at(shape.inclination, m)) : 0.0);
+            y[m] = is_link ? S(link(m).length) : S(1);
+            x[m] = is_link ? y[m] * S(std::cos(at(shape.inclination, m))) : S(1), z[m] = y[m] * s;
+            stiffness[m] = is_link ? y[m] * S(at(shape.pull, m)) : S(shape.stiffness);
+            offset[m] = is_link ? s : S(shape.upper_offset);
+            const S size = abs(stiffness[m]) + y[m] * y[m] * G(m, m);
+            unit[m] = size > S(0) ? S(1) / sqrt(size) : S(1);
+            x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
+            const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
+            doubt = std::max(doubt, static_cast<double>((is_link ? S(link(m).length) : S(1)) * S(off) * unit[m] * unit[m]));
+            if (!is_link) continue;
+            turned(m, m) = S(at(shape.axial, m)) * s * s * unit[m] * unit[m];
+            turning[m] = S(at(shape.momentum, m)) * unit[m] * unit[m] / S(2);
         }
+        const auto spread = [](const Vector<S>& p, const Matrix<S>& of, const Vector<S>& q) {
+            return Matrix<S>(p.asDiagonal() * of * q.asDiagonal());
+        };
+        const Matrix<S> centrifugal = spread(x, G, x);
+        inertia = centrifugal + spread(z, G, z), coupling = spread(x, G, y), mass = spread(y, G, y);
+        coupling.diagonal() -= turning;
+        in_plane = -centrifugal, out_of_plane = -mass;
+        in_plane.diagonal() += stiffness, out_of_plane.diagonal() += stiffness;
         if (shape.lower_yields()) {
-            mass(0, 0) += shape.lower_carriage, out_of_plane(0, 0) += shape.lower_stiffness - shape.lower_carriage;
-            in_plane += shape.lower_stiffness * across.row(0).transpose() * across.row(0);
+            in_plane += S(shape.lower_stiffness) * x * x.transpose();
+            out_of_plane += S(shape.lower_stiffness) * y * y.transpose();
         }
-        ends.resize(pins, 2);
-        ends << across.row(0).transpose(), along.row(0).transpose();
-        const Matrix<double> swept = mass * across, centrifugal = across.transpose() * swept;
-        coupling = swept.transpose() - spin;
-        inertia = centrifugal + along.transpose() * mass * along;
-        in_plane -= centrifugal;
-        drag_coupling = across.transpose() * drag_across;
-        drag_in_plane = drag_coupling * across + along.transpose() * drag_across * along;
-        swivelling = swivelled(shape, pins);
+        drag_in_plane = spread(x, length, x) + spread(z, length, z);
+        drag_coupling = spread(x, length, y), drag_across = spread(y, length, y);
+        ends.resize(pins, 2), lower_end = y;
+        ends << x, z;
+        bending = Matrix<S>::Zero(pins, pins);
+        for (Index m = 0; m < n; ++m) {
+            bending(m, m) = S(m == 0 && !shape.held ? 1 : 2) * unit[m] * unit[m];
+            if (m > 0) bending(m, m - 1) = bending(m - 1, m) = -unit[m] * unit[m - 1];
+        }
+        swivelling = unit.asDiagonal() * swivelled(shape, pins).template cast<S>() * unit.asDiagonal();
+        for (Index m = 0; m < pins; ++m) {
+            const bool lowest = m == 0 && shape.lower_yields() && shape.lower_carriage > 0;
+            const bool lower = m < n && !(is_zero(link(m).moment) && is_zero(link(m).cross));
+            const bool upper = m > 0 && !(is_zero(link(m - 1).rest) && is_zero(link(m - 1).cross));
+            if (!lowest && !lower && !upper && !(m == n && shape.carriage > 0)) massless.push_back(m);
+        }
     }
 
-    /// Leaves of q the columns of Q and of y those of Y.
-    void keep(const Matrix<double>& Q, const Matrix<double>& Y) {
-        const auto within = [](Matrix<double>& of, const Matrix<double>& left, const Matrix<double>& right) {
+    /// Leaves of q the columns of Q and of b those of Y.
+    void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
+        const auto within = [](Matrix<S>& of, const Matrix<S>& left, const Matrix<S>& right) {
             of = (left.transpose() * of * right).eval();
         };
-        for (Matrix<double>* each : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) within(*each, Q, Q);
-        for (Matrix<double>* each : {&coupling, &drag_coupling}) within(*each, Q, Y);
-        for (Matrix<double>* each : {&mass, &out_of_plane, &swivelling, &drag_across}) within(*each, Y, Y);
+        for (Matrix<S>* each : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) within(*each, Q, Q);
+        for (Matrix<S>* each : {&coupling, &drag_coupling}) within(*each, Q, Y);
+        for (Matrix<S>* each : {&mass, &out_of_plane, &swivelling, &drag_across}) within(*each, Y, Y);
     }
 
-    /// Leaves angles that keep the lower end where it is, and offsets of the free pins; on a spring it moves across the
-    /// axis.
+    /// Leaves angles that keep the lower end where it is; on a spring it moves across the axis.
     void hold_lower_end(bool yields) {
-        const Index pins = offset.size() - 1;
-        if (yields) return keep(beside(ends.col(1)), Matrix<double>::Identity(pins + 1, pins + 1));
-        keep(beside(ends), Matrix<double>::Identity(pins + 1, pins + 1).rightCols(pins));
-        offset = offset.tail(pins).eval();
+        const Index count = offset.size();
+        if (yields) return keep(beside(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
+        const Matrix<S> held = beside(Matrix<S>(lower_end));
+        keep(beside(ends), held);
+        offset = (held.transpose() * offset).eval();
+    }
+
+    /// Leaves out the upper end of a support that yields, where that carries no mass: its spring and the top link turn
+    /// in proportion, as springs in series.
+    void balance_upper_end() {
+        const Index top = offset.size() - 1;
+        Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
+        kept(top, top - 1) =
+            stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));  // both move the pins below alike
+        keep(Matrix<S>::Identity(top + 1, top + 1), kept);
+        offset = offset.head(top).eval();
+        lower_end = (kept.transpose() * lower_end).eval();
     }
 
    private:
-    /// Twice the dissipation of unit damping at the pins by offsets y out of the plane. A link turns across itself at
-    /// D y/a; about itself it turns so that least is dissipated, unless it has a moment of inertia there, as does a
+    /// Twice the dissipation of unit damping at the pins by angles b out of the plane. A link turns across itself at
+    /// b; about itself it turns so that least is dissipated, unless it has a moment of inertia there, as does a
     /// support without torque about the axis: what rotation dissipates is 0.
     static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
         const auto n = static_cast<Index>(shape.links.size());
@@ -156,8 +215,7 @@ struct Disturbed {
             const double c = std::cos(shape.inclination[i]), s = std::sin(shape.inclination[i]);
             const Eigen::Vector2d across(c, s), along(s, -c);
             between(m, [&](Index joint, double sign) {
-                given.col(m).segment<2>(2 * joint) += sign / shape.links[i].length * across;
-                if (m + 1 < pins) given.col(m + 1).segment<2>(2 * joint) -= sign / shape.links[i].length * across;
+                given.col(m).segment<2>(2 * joint) += sign * across;
                 if (shape.axial[i] == 0) left.col(m).segment<2>(2 * joint) = sign * along;
             });
         }
@@ -169,5 +227,7 @@ struct Disturbed {
         return rest.transpose() * rest;
     }
 };
+
+using Disturbed = DisturbedIn<double>;
 
 }  // namespace revchain::finite

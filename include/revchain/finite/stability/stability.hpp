@@ -13,99 +13,218 @@
 namespace revchain {
 namespace finite {
 
-/// Whether the mode of a square of an exponent can be told from every other.
-inline bool is_simple(const Vector<std::complex<double>>& square, Index j) {
-    const double near = 1e-10 * square.cwiseAbs().maxCoeff();
-    return ((square.array() - square[j]).abs() <= near).count() == 1;
+/// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are
+/// alike: negative directions, whether every direction is positive, and whether no sign is within rounding.
+struct EnergySigns {
+    Index negative;
+    bool is_minimum, is_certain;
+};
+inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * static_cast<double>(links) * stiffness,
+                 least = std::min(inside.least, outside.least);
+    return {inside.negative + outside.negative, least > rounding, least < -rounding};
+}
+
+/// p'A q of complex vectors, given by their parts, without a conjugate.
+template <class S>
+std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
+                         Index j) {
+    const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
+    const auto re = p.real.col(j), im = p.imag.col(j);
+    return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
+}
+template <class S>
+double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
+    return std::abs(static_cast<double>(q.real.col(j).dot(A * q.real.col(j)) + q.imag.col(j).dot(A * q.imag.col(j))));
+}
+template <class S>
+std::complex<double> rounded(const std::complex<S>& x) {
+    return {static_cast<double>(x.real()), static_cast<double>(x.imag())};
+}
+
+/// A verdict, and whether an exponent has lost digits: more than three of the largest, or of those about 1.
+struct Judgement {
+    Stability stability;
+    bool is_spoilt = false;
+};
+
+/// The error of s where that of s^2 is known.
+inline double error_of_root(double square, double error) {
+    return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
+}
+
+/// The verdict by squares of exponents and their errors. One grows if its distance from the negative numbers exceeds
+/// its error. One whose square is negative and farther than the errors from every other stays imaginary, as squares
+/// leave the real numbers in pairs.
+inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error) {
+    bool still = true;
+    for (std::size_t j = 0; j < square.size(); ++j) {
+        const double off = square[j].real() > 0 ? std::abs(square[j]) : std::abs(square[j].imag());
+        if (off > error[j]) return Verdict::unstable;
+        still = still && square[j].imag() == 0 && square[j].real() < -error[j];
+        for (std::size_t k = 0; k < j; ++k) still = still && std::abs(square[j] - square[k]) > error[j] + error[k];
+    }
+    return still ? Verdict::spectrally_stable : Verdict::undecided;
 }
 
 /// The verdict on a disturbed shape of so many links. To first order damping c (F, H) changes an exponent by
-///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'M Y - 2 q'B Y)),    Y = s y,
-/// since (q, -y) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
-REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
+///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'N Y - 2 q'B Y)),    Y = s b,
+/// since (q, -b) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
+/// In the same way changes of the matrices move s^2. What is left of q'(...) - b'(...) of a mode, and the rounding of
+/// its terms, give an error of s^2 besides that of the eigenvalue solver; relative changes of masses and pulls give that
+/// by the shape as given. Nothing where rounding leaves a mass matrix indefinite.
+template <class S>
+std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d, const ChainUnits& units) {
+    using std::sqrt;
     const bool free = frame == StabilityFrame::free, rotates = free && d.turns_freely;
-    const Index n = d.in_plane.rows(), links = d.ends.rows();
-    Matrix<double> in_plane = d.in_plane,
-                   others = Matrix<double>::Identity(d.offset.size(), free ? d.offset.size() : 0);
-    Vector<double> b = Vector<double>::Zero(n);
+    const Index n = d.in_plane.rows();
+    Matrix<S> in_plane = d.in_plane, others = Matrix<S>::Identity(d.offset.size(), free ? d.offset.size() : 0);
+    Vector<S> b = Vector<S>::Zero(n);
+    S turning(1);
+    Matrix<S> beside_shape = others;
     if (rotates) {
-        const Vector<double> momentum = d.mass * d.offset;
-        others = beside(momentum);  // offsets at right angles to the rotation, in the masses
-        b = d.coupling * d.offset / std::sqrt(d.offset.dot(momentum));
-        in_plane += 4 * b * b.transpose();
+        const Vector<S> momentum = d.mass * d.offset;
+        others = beside(Matrix<S>(momentum));  // angles at right angles to the rotation, in the masses
+        beside_shape = beside(Matrix<S>(d.offset));
+        turning = sqrt(S(d.offset.dot(momentum)));
+        b = d.coupling * d.offset / turning;
+        in_plane += S(4) * b * b.transpose();
     } else if (!free) {
         in_plane -= d.turned;
     }
-    const Matrix<double> across = others.transpose() * d.out_of_plane * others;
-    const pencil::MirroredModes modes = pencil::mirrored_modes(
-        {d.inertia, d.coupling * others, others.transpose() * d.mass * others, in_plane, across});
+    const pencil::MirroredPencil<S> forms{d.inertia, d.coupling * others, others.transpose() * d.mass * others, in_plane,
+                                          others.transpose() * d.out_of_plane * others};
+    const auto found = pencil::mirrored_modes(forms);
+    if (!found) return std::nullopt;
+    const pencil::MirroredModes<S>& modes = *found;
+    const pencil::ComplexColumns<S>&q = modes.x, &others_of_y = modes.y;
 
-    Stability result;
+    Judgement judgement;
+    Stability& result = judgement.stability;
     result.frame = frame;
     const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
-    Matrix<std::complex<double>> y = others * modes.y;
-    if (rotates) y -= d.offset / std::sqrt(d.offset.dot(d.mass * d.offset)) * (2 * b.transpose() * modes.x);
+    pencil::ComplexColumns<S> Y{others * others_of_y.real, others * others_of_y.imag};
+    if (rotates) {
+        const Vector<S> along = d.offset / turning;
+        Y.real -= S(2) * along * (b.transpose() * q.real), Y.imag -= S(2) * along * (b.transpose() * q.imag);
+    }
+    const auto size = [](const Matrix<S>& A) { return static_cast<double>(A.norm()); };
+    const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M), in_K = size(forms.K),
+                 in_C = size(forms.C);
+    std::vector<std::complex<double>> square;
+    std::vector<double> error;
     struct Mode {
         std::complex<double> exponent;
-        double internal, external;
+        double internal, external, error;
     };
     std::vector<Mode> list;
-    double largest = 0;
     for (Index j = 0; j < modes.square.size(); ++j) {
-        const std::complex<double> square = modes.square[j], s = std::sqrt(square);
-        const Vector<std::complex<double>> q = modes.x.col(j), Y = y.col(j);
-        const auto form = [&](const Matrix<double>& A, const Matrix<double>& M) {
-            const std::complex<double> in = (q.transpose() * A * q).value(), out = (Y.transpose() * M * Y).value();
-            return square * in - out;
+        const std::complex<S> of = modes.square[j];
+        const auto form = [&](const Matrix<S>& A, const Matrix<S>& M) {
+            return of * bilinear(q, A, q, j) - bilinear(Y, M, Y, j);
         };
-        const auto mixed = [&](const Matrix<double>& B) { return (q.transpose() * B * Y).value(); };
-        std::complex<double> norm = 2.0 * (form(d.inertia, d.mass) - 2.0 * mixed(d.coupling));
-        if (!is_simple(modes.square, j)) norm = std::numeric_limits<double>::quiet_NaN();
-        const double inner = -pins * std::real(form(d.bending, d.swivelling) / norm);
-        const double outer =
-            -air * std::real((form(d.drag_in_plane, d.drag_across) - 2.0 * mixed(d.drag_coupling)) / norm);
-        list.push_back({s, inner, outer}), list.push_back({0.0 - s, inner, outer});
+        const std::complex<S> two(S(2));
+        const std::complex<double> norm = rounded(two * (form(d.inertia, d.mass) - two * bilinear(q, d.coupling, Y, j)));
+        const std::complex<double> inner = rounded(form(d.bending, d.swivelling)) / norm;
+        const std::complex<double> outer =
+            rounded(form(d.drag_in_plane, d.drag_across) - two * bilinear(q, d.drag_coupling, Y, j)) / norm;
+
+        const std::complex<double> s2 = rounded(of);
+        const double far = std::abs(s2);
+        const auto sizes = [&](double A, double B, double M, double K, double C, double x, double y) {
+            return far * A * x + K * x + 4 * B * std::sqrt(x * y) + M * y + (far > 0 ? C * y / far : 0.0);
+        };
+        const std::complex<S> left = of * bilinear(q, forms.A, q, j) + bilinear(q, forms.K, q, j) -
+                                     two * two * bilinear(q, forms.B, others_of_y, j) -
+                                     bilinear(others_of_y, forms.M, others_of_y, j) -
+                                     bilinear(others_of_y, forms.C, others_of_y, j) / of;
+        const double rounding = 4 * static_cast<double>(std::numeric_limits<S>::epsilon());
+        const double x = static_cast<double>(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
+        const double y =
+            static_cast<double>(others_of_y.real.col(j).squaredNorm() + others_of_y.imag.col(j).squaredNorm());
+        const double to_square = 2 * far / std::abs(norm);
+        const double alpha = hermitian(q, forms.A, j), mu = hermitian(others_of_y, forms.M, j),
+                     kappa = d.doubt * x + alpha, gamma = d.doubt * y + mu;
+        const double missing = far > 0 ? std::abs(rounded(left)) : 0.0;
+        square.push_back(s2);
+        const double given = far * alpha + kappa + 4 * std::sqrt(alpha * mu) + mu + (far > 0 ? gamma / far : 0.0);
+        error.push_back(modes.error[j] + to_square * (missing + rounding * sizes(in_A, in_B, in_M, in_K, in_C, x, y) +
+                                                      4 * 0x1p-52 * given));
+        const std::complex<double> s = std::sqrt(s2);
+        const double off = error_of_root(far, error.back());
+        list.push_back({s, -pins * inner.real(), -air * outer.real(), off});
+        list.push_back({0.0 - s, -pins * inner.real(), -air * outer.real(), off});
         result.growth_rate = std::max(result.growth_rate, std::abs(s.real()));
-        largest = std::max(largest, std::abs(s));
+        result.margin = std::max(result.margin, off);
+    }
+    double largest = 0;
+    for (std::size_t j = 0; j < square.size(); ++j) {
+        largest = std::max(largest, std::sqrt(std::abs(square[j])));
+        for (std::size_t k = 0; k < square.size(); ++k)  // two that cannot be told from one another have no mode each
+            if (k != j && std::abs(square[j] - square[k]) <=
+                              1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
+                for (const std::size_t i : {2 * j, 2 * j + 1})
+                    list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
+    }
+    for (std::size_t j = 0; j < square.size(); ++j) {
+        const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
+        judgement.is_spoilt |= error_of_root(far, error[j]) > 1e-13 * near;
     }
     std::sort(list.begin(), list.end(), [](const Mode& x, const Mode& z) {
         const auto &s = x.exponent, &t = z.exponent;
         return s.imag() != t.imag() ? s.imag() < t.imag() : s.real() < t.real();
     });
     for (const Mode& mode : list) {
-        result.exponents.push_back(mode.exponent);
+        result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
         result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
     }
-    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
-    const double stiffness =
-        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
-    const double rounding = 1e-14 * static_cast<double>(links) * stiffness;
-    const double least = std::min(inside.least, outside.least);
-    result.negative_directions = inside.negative + outside.negative;
-    result.margin = 1e-7 * largest;  // what two exponents that meet may be torn apart by
-    if (least > rounding)
+    const auto narrow = [](const Matrix<S>& A) { return Matrix<double>(A.template cast<double>()); };
+    const Matrix<double> inside = narrow(in_plane),
+                         across = narrow(beside_shape.transpose() * d.out_of_plane * beside_shape);
+    const Verdict by_squares = verdict_by(square, error);
+    const EnergySigns signs = energy_signs(inside, across, d.ends.rows());
+    result.negative_directions = signs.negative;
+    if (signs.is_minimum)
         result.verdict = Verdict::minimum;
-    else if (result.growth_rate > result.margin)
-        result.verdict = Verdict::unstable;
-    else if (result.growth_rate < 1e-4 * result.margin && least < -rounding)
-        result.verdict = Verdict::spectrally_stable;
-    return result;
+    else if (by_squares == Verdict::unstable || signs.is_certain)
+        result.verdict = by_squares;
+    return judgement;
 }
 
+REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
+    const auto found = judged_in(frame, d, units);
+    return found ? found->stability : Stability();
+}
+
+/// lambda times the pull along each link, and that pull's error over that of rounding.
+struct Pulls {
+    std::vector<double> pull, doubt;
+};
+
 /// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in the given units: the
-/// load resolved along the link. Load over cosine would lose the digits of a link that lies nearly level.
+/// load over the cosine or, where this loses the digits of a link that lies nearly level, the load resolved along the
+/// link, whose sideways part may cancel.
 template <class Shape>
-std::vector<double> pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units,
+Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units,
                           double H = 0, double tau = 0) {
     const auto length = [&](double x) { return std::ldexp(x, -units.length_exponent); };
-    std::vector<double> result;
+    Pulls result;
+    double sizes = std::abs(H);
     for (Index m = 0; m < shape.inclination.size(); ++m) {
         const Link<double>& link = links[static_cast<std::size_t>(m)];
         const double s = std::sin(shape.inclination[m]), c = std::cos(shape.inclination[m]);
-        const double R = H + link.moment * length(shape.offset[m]), V = length(shape.conical_height) * link.pull + tau;
-        H = R + link.rest * length(shape.offset[m + 1]);
-        result.push_back(V * c + (R - link.cross * link.length * s) * s);
+        const double lower = link.moment * length(shape.offset[m]), upper = link.rest * length(shape.offset[m + 1]);
+        const double R = H + lower, V = length(shape.conical_height) * link.pull + tau, turned = link.cross * link.length * s;
+        sizes += std::abs(lower);
+        const double over = V / c, off_over = std::abs(over) * (1 + std::abs(s / c)),
+                     off_along = std::abs(V * c) + (sizes + std::abs(turned)) * std::abs(s);
+        H = R + upper, sizes += std::abs(upper);
+        result.pull.push_back(off_over < off_along ? over : V * c + (R - turned) * s);
+        result.doubt.push_back(std::min(off_over, off_along));
     }
     return result;
 }
@@ -113,11 +232,9 @@ std::vector<double> pulls(const std::vector<Link<double>>& links, const Shape& s
 inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
     PulledLinks result(chain.units);
     const std::vector<Link<double>> links = rounded<double>(chain.links);
-    const std::vector<double> pull = pulls(links, shape, chain.units);
-    for (std::size_t i = 0; i < links.size(); ++i) {
-        const auto m = static_cast<Index>(i);
-        result.add(links[i], shape.inclination[m], pull[i], std::ldexp(shape.offset[m], -chain.units.length_exponent));
-    }
+    const auto [pull, doubt] = pulls(links, shape, chain.units);
+    for (std::size_t i = 0; i < links.size(); ++i)
+        result.add(chain.links[i], shape.inclination[static_cast<Index>(i)], pull[i], doubt[i]);
     return result;
 }
 
@@ -125,7 +242,7 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
-    result.links = rounded<double>(chain.links), result.held = true;
+    result.links = chain.links, result.held = true;
     const auto& [lower, upper] = shape.ends;
     result.turns_freely = lower.radius == 0 && upper.radius == 0;
     result.stiffness = weight(upper.stiffness.high), result.carriage = weight(upper.carriage_weight);
@@ -133,9 +250,9 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
     result.inclination.assign(shape.inclination.begin(), shape.inclination.end());
     const double H = length(weight(-shape.lower_pull[0])), tau = length(weight(shape.lower_pull[1]));
-    result.pull = pulls(result.links, shape, chain.units, H, tau);
-    for (Index m = 0; m < shape.inclination.size() + result.yields(); ++m)
-        result.offset.push_back(length(shape.offset[m]));
+    Pulls found = pulls(rounded<double>(chain.links), shape, chain.units, H, tau);
+    result.pull = std::move(found.pull), result.doubt = std::move(found.doubt);
+    result.upper_offset = length(shape.offset[shape.inclination.size()]);
     return result;
 }
 
@@ -155,17 +272,43 @@ void require_shape_of(const Chain<double>& chain, const Shape& shape) {
     }
 }
 
-inline void require_mass(const Disturbed& d, Index first) {
-    for (Index m = 0; m < d.mass.rows(); ++m)
-        if (!(d.mass.row(m).cwiseAbs().maxCoeff() > 0))
-            revchain::detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + first);
+/// Links disturbed, with what their ends allow.
+template <class S>
+DisturbedIn<S> disturbed_in(const PulledLinks& links) {
+    DisturbedIn<S> d(links);
+    if (links.top_is_massless()) d.balance_upper_end();
+    if (links.held) d.hold_lower_end(links.lower_yields());
+    return d;
 }
 
-inline void require_inertia(const Disturbed& d) {
-    for (const Matrix<double>* inertia : {&d.mass, &d.inertia})
-        if (Eigen::LLT<Matrix<double>>(*inertia).info() != Eigen::Success)
-            revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move",
-                                            d.mass.rows());
+/// Throws InvalidArgument where a pin that moves has no mass, but for an upper end that its spring balances.
+inline void require_mass(const PulledLinks& links, const Disturbed& d) {
+    constexpr std::string_view place = "stability";
+    const auto top = static_cast<Index>(links.links.size());
+    for (const Index pin : d.massless)
+        if (pin > 0 ? pin < top : !links.held || links.lower_yields())
+            revchain::detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
+    if (links.top_is_massless() && links.momentum.back() != 0)
+        revchain::detail::throw_invalid(
+            place, "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
+}
+
+/// The verdict on a shape: in double and, where rounding spoils that, in twice the digits.
+REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links) {
+    constexpr Index most_in_words = 100;  ///< unknowns: half a second
+    const Disturbed d = disturbed_in<double>(links);
+    require_mass(links, d);
+    if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
+        Stability still;
+        still.frame = frame, still.verdict = Verdict::minimum;
+        return still;
+    }
+    auto found = judged_in(frame, d, links.units);
+    if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
+        if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
+    if (!found)
+        revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
+    return found->stability;
 }
 
 }  // namespace finite
@@ -173,7 +316,7 @@ inline void require_inertia(const Disturbed& d) {
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
     finite::require_shape_of(chain, shape);
     const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    return finite::judged(frame, finite::Disturbed(links), links.units);
+    return finite::judged(frame, links);
 }
 
 namespace finite {
@@ -188,19 +331,17 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         result.carriage = static_cast<double>(given.support.carriage);
     }
     const std::vector<Link<double>> links = rounded<double>(given.links);
-    const std::vector<double> pull = pulls(links, shape, given.units);
+    const auto [pull, doubt] = pulls(links, shape, given.units);
     for (Index m = 0; m < rig.size(); ++m) {
         const auto i = static_cast<std::size_t>(m);
         const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
         const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
-        Link<double> link = links[i];  // as a body: what turns with it lessened what it resists turning with
-        link.cross =
-            static_cast<double>(given.given[i].cross - Wide<double>(about / link.length) / given.given[i].length);
-        const double kept = height * static_cast<double>(given.speed * given.given[i].spin);
-        result.add(link, delta, pull[i] + about / link.length, in_lengths(shape.offset[m]),
-                   kept * link.length + about * c, about);
+        Link<Wide<double>> link = given.links[i];  // as a body: what turns with it lessened what it resists turning with
+        link.cross = given.given[i].cross - Wide<double>(about) / (link.length * given.given[i].length);
+        const double kept = height * static_cast<double>(given.speed * given.given[i].spin), a = links[i].length;
+        result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
     }
-    if (result.yields()) result.offset.push_back(in_lengths(shape.offset[rig.size()]));
+    result.upper_offset = in_lengths(shape.offset[rig.size()]);
     return result;
 }
 
@@ -218,35 +359,20 @@ REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed
     if (!free) {
         in_plane -= d.turned;
     } else if (d.turns_freely) {
-        const Matrix<double> others = beside(d.offset);
+        const Matrix<double> others = beside(Matrix<double>(d.offset));
         across = others.transpose() * d.out_of_plane * others;
     } else {
         across = d.out_of_plane;
     }
-    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
-    const double stiffness =
-        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const EnergySigns signs = energy_signs(in_plane, across, d.ends.rows());
     Stability result;
     result.frame = frame;
-    result.negative_directions = inside.negative + outside.negative;
-    if (std::min(inside.least, outside.least) > 1e-14 * static_cast<double>(d.ends.rows()) * stiffness)
+    result.negative_directions = signs.negative;
+    if (signs.is_minimum)
         result.verdict = Verdict::minimum;
     else
         result.growth_rate = std::numeric_limits<double>::quiet_NaN();
     return result;
-}
-
-/// Leaves out the upper end of a support that yields, where that carries no mass: its spring balances the pull on it.
-inline void balance_upper_end(Disturbed& d) {
-    const Index pins = d.mass.rows() - 1;
-    if (d.mass.row(pins).cwiseAbs().maxCoeff() > 0) return;
-    if (d.coupling.col(pins).cwiseAbs().maxCoeff() > 0)
-        revchain::detail::throw_invalid(
-            "stability", "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
-    Matrix<double> kept = Matrix<double>::Identity(pins + 1, pins);
-    kept.row(pins) = -d.out_of_plane.row(pins).head(pins) / d.out_of_plane(pins, pins);
-    d.keep(Matrix<double>::Identity(pins + 1, pins + 1), kept);
-    d.offset = d.offset.head(pins).eval();
 }
 
 }  // namespace finite
@@ -254,17 +380,7 @@ inline void balance_upper_end(Disturbed& d) {
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
     finite::require_shape_of(chain, shape);
     const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    finite::Disturbed d(links);
-    if (links.yields()) finite::balance_upper_end(d);
-    d.hold_lower_end(links.lower_yields());
-    finite::require_mass(d, links.lower_yields() ? 0 : 1);
-    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
-        Stability still;
-        still.frame = frame, still.verdict = Verdict::minimum;
-        return still;
-    }
-    finite::require_inertia(d);
-    return finite::judged(frame, d, links.units);
+    return finite::judged(frame, links);
 }
 
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
@@ -281,12 +397,9 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     const finite::RiggedLinks given = finite::rigged_links(rig, height, options.direction > 0 ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
-    finite::Disturbed d(links);
-    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, d);
-    if (links.yields()) finite::balance_upper_end(d);
-    finite::require_mass(d, 0);
-    finite::require_inertia(d);
-    return finite::judged(options.frame, d, links.units);
+    if (finite::displaces_turning_fluid(rig))
+        return finite::judged_by_energy(options.frame, finite::Disturbed(links));
+    return finite::judged(options.frame, links);
 }
 
 }  // namespace revchain

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <complex>
+#include <optional>
 
 #include "revchain/numeric/scalar.hpp"
 
@@ -11,58 +12,95 @@ namespace revchain::pencil {
 /// A gyroscopic system that motion in a mirror leaves alone,
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
 /// A and M symmetric and positive definite, K and C symmetric. With x, y exp(s t) so is x, -y exp(-s t).
+template <class S>
 struct MirroredPencil {
-    Matrix<double> A, B, M, K, C;
+    Matrix<S> A, B, M, K, C;
 };
 
-/// Its modes: the squares of the exponents s, and as columns x and s y.
+/// Complex columns by their parts.
+template <class S>
+struct ComplexColumns {
+    Matrix<S> real, imag;
+};
+
+/// Its modes: the squares of the exponents s with an estimate of what rounding in the eigenvalue solver may change
+/// them by, and as columns x and s y.
+template <class S>
 struct MirroredModes {
-    Vector<std::complex<double>> square;
-    Matrix<std::complex<double>> x, y;
+    Vector<std::complex<S>> square;
+    Vector<double> error;
+    ComplexColumns<S> x, y;
 };
 
 /// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u = (x, r), v = (p,
 /// -y):
-///     u' = diag(1, C) v,    v' = -S u,    S = [K + 4 B B', -2 B; -2 B', 1],
-/// so that s^2 are the eigenvalues of -diag(1, C) S, half as large as the whole. Where C is positive definite they are
-/// those of a symmetric matrix: real, and no motion grows in oscillations.
+///     u' = diag(1, C) v,    v' = -Q u,    Q = [K + 4 B B', -2 B; -2 B', 1],
+/// so that s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. Where C is positive definite they are
+/// those of a symmetric matrix: real, and no motion grows in oscillations. As Q u is the eigenvector on the left, a
+/// change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|.
 /// Dense, backward stable; a defective s^2 spreads by the square root of rounding, and so does an s next to 0. Cost
-/// some 30 n^3, symmetric 10 n^3, n the number of unknowns x and y.
-inline MirroredModes mirrored_modes(const MirroredPencil& pencil) {
+/// some 30 n^3, symmetric 10 n^3, n the number of unknowns x and y. Nothing where rounding leaves A or M indefinite.
+template <class S>
+std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) {
+    using std::abs, std::sqrt;
     const Index n = pencil.K.rows(), k = pencil.C.rows();
-    const Eigen::LLT<Matrix<double>> root(pencil.A), other(pencil.M);
-    const auto reduced = [](const auto& left, const Matrix<double>& middle, const auto& right) {
-        const Matrix<double> half = left.matrixL().solve(middle);
-        return Matrix<double>(right.matrixL().solve(half.transpose()).transpose());
+    const Eigen::LLT<Matrix<S>> root(pencil.A), other(pencil.M);
+    if (root.info() != Eigen::Success || other.info() != Eigen::Success) return std::nullopt;
+    const auto reduced = [](const auto& left, const Matrix<S>& middle, const auto& right) {
+        const Matrix<S> half = left.matrixL().solve(middle);
+        return Matrix<S>(right.matrixL().solve(half.transpose()).transpose());
     };
-    Matrix<double> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
-    Matrix<double> C = reduced(other, pencil.C, other);
+    Matrix<S> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
+    Matrix<S> C = reduced(other, pencil.C, other);
     // Units of time in which stiffness is about 1, so that the two halves of the state are alike.
-    const auto size = [](const Matrix<double>& X) { return X.size() ? X.cwiseAbs().rowwise().sum().maxCoeff() : 0.0; };
-    const double pace = std::sqrt(std::max({size(K), size(C), std::numeric_limits<double>::min()}));
-    K /= pace * pace, C /= pace * pace, B /= pace;
-    Matrix<double> S(n + k, n + k);
-    S << K + 4 * B * B.transpose(), -2 * B, -2 * B.transpose(), Matrix<double>::Identity(k, k);
-    MirroredModes modes;
-    Matrix<std::complex<double>> u;
-    if (const Eigen::LLT<Matrix<double>> factor(C); factor.info() == Eigen::Success) {
-        Matrix<double> F = Matrix<double>::Identity(n + k, n + k);
-        F.bottomRightCorner(k, k) = factor.matrixL();
-        const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(F.transpose() * S * F);
-        modes.square = -solver.eigenvalues(), u = F * solver.eigenvectors();
-    } else {
-        Matrix<double> T = -S;
-        T.bottomRows(k) = C * T.bottomRows(k);
-        const Eigen::EigenSolver<Matrix<double>> solver(T);
-        modes.square = solver.eigenvalues(), u = solver.eigenvectors();
-    }
-    modes.square *= pace * pace;
-    const auto back = [](const auto& factor, const Matrix<std::complex<double>>& of) {
-        Matrix<std::complex<double>> result(of.rows(), of.cols());
-        result.real() = factor.matrixU().solve(of.real()), result.imag() = factor.matrixU().solve(of.imag());
-        return result;
+    const auto size = [](const Matrix<S>& X) {
+        return X.size() ? static_cast<double>(X.cwiseAbs().rowwise().sum().maxCoeff()) : 0.0;
     };
-    modes.x = back(root, u.topRows(n)), modes.y = back(other, pace * (S.bottomRows(k) * u));
+    const double pace = std::sqrt(std::max({size(K), size(C), std::numeric_limits<double>::min()}));
+    K /= S(pace) * S(pace), C /= S(pace) * S(pace), B /= S(pace);
+    Matrix<S> Q(n + k, n + k);
+    Q << K + S(4) * B * B.transpose(), S(-2) * B, S(-2) * B.transpose(), Matrix<S>::Identity(k, k);
+    const double rounding = 4 * static_cast<double>(std::numeric_limits<S>::epsilon());
+    MirroredModes<S> modes;
+    modes.error.resize(n + k);
+    ComplexColumns<S> u{Matrix<S>(n + k, n + k), Matrix<S>::Zero(n + k, n + k)};
+    if (const Eigen::LLT<Matrix<S>> factor(C); factor.info() == Eigen::Success) {
+        Matrix<S> F = Matrix<S>::Identity(n + k, n + k);
+        F.bottomRightCorner(k, k) = factor.matrixL();
+        const Matrix<S> symmetric = F.transpose() * Q * F;
+        const Eigen::SelfAdjointEigenSolver<Matrix<S>> solver(symmetric);
+        modes.square = Vector<S>(-solver.eigenvalues()).template cast<std::complex<S>>();
+        u.real = F * solver.eigenvectors();
+        modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
+    } else {
+        Matrix<S> T = -Q;
+        T.bottomRows(k) = C * T.bottomRows(k);
+        const Eigen::EigenSolver<Matrix<S>> solver(T);
+        modes.square = solver.eigenvalues();
+        const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: the real part, then the imaginary part
+        for (Index j = 0; j < n + k; ++j) {
+            const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);
+            u.real.col(j) = parts.col(second ? j - 1 : j);
+            if (first) u.imag.col(j) = parts.col(j + 1);
+            if (second) u.imag.col(j) = -parts.col(j);
+        }
+        const Matrix<S> left_real = Q * u.real, left_imag = Q * u.imag;
+        const double whole = rounding * static_cast<double>(T.norm());
+        for (Index j = 0; j < n + k; ++j) {
+            const auto p = u.real.col(j), q = u.imag.col(j), l = left_real.col(j), m = left_imag.col(j);
+            const double sizes = static_cast<double>(
+                sqrt(S((p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm()))));
+            const double product =
+                std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
+            modes.error[j] = whole * sizes / product;
+        }
+    }
+    modes.square *= std::complex<S>(S(pace) * S(pace));
+    modes.error *= pace * pace;
+    const auto back = [](const auto& factor, const Matrix<S>& of) { return Matrix<S>(factor.matrixU().solve(of)); };
+    const Matrix<S> to_y = S(pace) * Q.bottomRows(k);
+    modes.x = {back(root, u.real.topRows(n)), back(root, u.imag.topRows(n))};
+    modes.y = {back(other, to_y * u.real), back(other, to_y * u.imag)};
     return modes;
 }
 
