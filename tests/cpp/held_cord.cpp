@@ -4,6 +4,7 @@
 #include "revchain/cord.hpp"
 #include "support/catch.hpp"
 
+using Catch::Matchers::ContainsSubstring;
 using revchain::Chain;
 using revchain::Cord;
 using revchain::Held;
@@ -221,4 +222,20 @@ TEST_CASE("cord: derivatives of its heights are those of differences") {
             CHECK(s.weight[0] * weight == Approx(-s.tension[0] * tension).epsilon(1e-14));
             CHECK(s.tip_weight[0] == 0);
         }
+}
+
+TEST_CASE("held cord: the tension at the upper end is at least that of the cord which hangs folded") {
+    for (const double span : {0.02, 0.3, 1.2, 1.9}) {
+        const Held<Cord> held(rope, {.span = span});
+        const double least = weight * (1 + span / length) / 2;
+        for (const int mode : {1, 2, 3}) {
+            CAPTURE(span, mode);
+            for (const double over : {1.02, 3.0}) {
+                const auto shape = revchain::steady_shape(held, {.mode = mode, .top_tension = over * least});
+                CHECK(shape.height_times_tension.tail(1)[0] / shape.conical_height == Approx(over * least));
+            }
+            CHECK_THROWS_WITH(revchain::steady_shape(held, {.mode = mode, .top_tension = least * (1 - 1e-12)}),
+                              ContainsSubstring("no shape of the branch has this tension"));
+        }
+    }
 }

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 PALETTE = ("0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000")
 """Colours that can be told apart without seeing red or green (Okabe and Ito 2008)."""
 
-STYLE = {
+STYLE: dict[Any, Any] = {
     "axes.titlesize": "medium",
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -134,7 +134,7 @@ class _Model:
 
     def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
         self.system, self.data, self.number, self.gravity = system, data, number, gravity
-        self.measured, self.scale = speed, (deviation / np.abs(speed)).min()
+        self.measured, self.scale = speed, float((deviation / np.abs(speed)).min())
         self.deviation = deviation / self.scale  # the tolerances of the search are for residuals that are parts of a speed
         self.kept: tuple[bytes, Any] = (b"", None)
 
