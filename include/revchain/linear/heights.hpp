@@ -132,10 +132,9 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
             if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
     if constexpr (std::is_same_v<T, double>)
-        if (!loose)
-            if (auto found = heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()),
-                                              half_way))
-                return std::move(*found);
+        if (auto found =
+                heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()), half_way))
+            return std::move(*found);
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);
