@@ -94,7 +94,8 @@ struct Uncertainty {
 /// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
 /// not as many as the sensitivity's.
 template <Real T>
-Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
+Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
+                           const std::type_identity_t<Vector<T>>& conical_height,
                            const Deviations<T>& deviations);
 
 /// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have either sign. The first
