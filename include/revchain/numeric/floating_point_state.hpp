@@ -3,6 +3,8 @@
 
 #include <cfenv>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain {
 
 /// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are

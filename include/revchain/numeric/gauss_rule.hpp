@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain::detail {
 
 /// Nodes and weights of Gauss's rule on 0 ... 1, exact for polynomials of degree 2 n - 1: Newton's method on the

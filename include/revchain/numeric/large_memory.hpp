@@ -8,6 +8,8 @@
 #include <sys/mman.h>
 #endif
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain::detail {
 
 /// Tells the system that memory just allocated, and not yet written, will all be used: from 4 MB on in pages of 2 MB,

@@ -16,6 +16,8 @@
 #include <numbers>
 #include <type_traits>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain {
 
 using Index = Eigen::Index;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain::analytic::detail {
 
 /// Value of a GSL function of one argument, by its `_e` form. GSL's default error handler ends the process, also at

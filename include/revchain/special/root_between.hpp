@@ -11,6 +11,8 @@
 #include <new>
 #include <optional>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain::analytic::detail {
 
 /// A zero of `f` between `low` and `high` to the last digit of the argument, by Brent's method (GSL). Empty where f has

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "revchain/numeric/compiler.hpp"
+
 namespace revchain::finite {
 
 /// A point of a branch, or a direction along one: of each link tau, tan delta = sinh tau, and log lambda. tau is the

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "revchain/numeric/compiler.hpp"
+
 /// Loops of a fixed few turns that GCC leaves loops at -O3 (a factor of two). Without optimisation it warns instead.
 #if defined(__OPTIMIZE__)
 #define REVCHAIN_UNROLL _Pragma("GCC unroll 8")
