@@ -218,7 +218,7 @@ Chain<T> Chain<T>::as_tapered(double exponent) const {
         if (!(near(x.weight, y.weight) && near(x.length, y.length) && near(x.centroid, y.centroid) &&
               near(static_cast<T>(x.gyration_ratio), static_cast<T>(y.gyration_ratio))))
             detail::throw_invalid("Chain::as_tapered",
-                                  "links[" + std::to_string(m) + "] is not as Chain::tapered makes it with the exponent",
+                                  "links[" + std::to_string(m) + "] is not as Chain::tapered makes it with exponent",
                                   exponent);
     }
     Chain chain(*this);

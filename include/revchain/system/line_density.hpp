@@ -109,7 +109,7 @@ class LineDensity {
                     positive = positive && polynomial(piece.factor, std::cos(std::numbers::pi * i / degree)) >=
                                                -10 * rounding * size;
             if (!positive)
-                detail::throw_invalid("LineDensity", "weight per length must be positive and finite on the piece from " +
+                detail::throw_invalid("LineDensity", "weight per length must be positive and finite from " +
                                                          detail::in_digits(begin) + " to " +
                                                          detail::in_digits(end(piece)));
             at = end(piece);
