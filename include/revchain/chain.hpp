@@ -22,7 +22,7 @@
 ///
 /// `plummet`, `uniform_rod` and `compound_pendulum` (system/link.hpp) make links. Lengths may be in any unit, and so
 /// may weights: speeds depend on their ratios alone. Numbers are kept exactly as given. Greenhill (1908) section 8.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by them is exact, and
 /// keeps every recursion in range whatever the user's units.

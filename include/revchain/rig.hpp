@@ -23,7 +23,7 @@
 /// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
 /// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`, `branches`, `stability`, `response` and
 /// `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {

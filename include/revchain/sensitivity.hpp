@@ -16,7 +16,7 @@
 ///     const auto s = revchain::sensitivity(chain, m);
 ///     s.weight().value(0, 1);       // d(height of the slowest mode)/d(weight of the upper link)
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data of a link. While one of them changes, all other data of this link and of all links are constant. `length`
 /// moves the lower pin: the centroid and the radius of gyration do not change. `length_in_proportion` changes both in
@@ -142,7 +142,7 @@ double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity 
 }  // namespace revchain
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 extern template Sensitivity<float> sensitivity(const Chain<float>&, const Modes<float>&);
 extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const Vector<float>&,
                                                const Deviations<float>&);

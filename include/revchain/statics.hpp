@@ -15,7 +15,7 @@
 ///     m.conical_height[0];                                                           // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The graphical construction of a steady shape, Figs. 3 and 5, as data. Links are listed lowest first, pins free end
 /// first; each row is a point (x from the axis, z upwards).

@@ -15,7 +15,7 @@
 #include "revchain/pencil/twisted.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A height in the units of the chain's pencils; the bound is relative to the exact height, and proved.
 template <Real T>

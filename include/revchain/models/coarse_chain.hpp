@@ -10,7 +10,7 @@
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/grouped.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
 /// would without inertia. That lowers every conical height, and by no more than the largest height that a group has

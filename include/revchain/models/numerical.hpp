@@ -9,7 +9,7 @@
 /// The four numerical methods of `modes` (docs/design.md), each as a model. All bounds are proved. `solve` is a
 /// template, so that an include alone compiles no method.
 /// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 namespace detail {
 inline revchain::detail::HeightsOptions<double> options_for(const Question& question) {

@@ -58,7 +58,7 @@
 #define REVCHAIN_JOIN(set, fma, kind) REVCHAIN_JOINED(set, fma, kind)
 #define REVCHAIN_BUILD REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND)
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
 /// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The size of the SIMD registers that code is compiled for, and whether it may fuse products with sums.
 template <std::size_t Bytes, bool Fused>

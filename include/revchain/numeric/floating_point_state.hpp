@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are
 /// valid results ("nothing proved").

@@ -18,7 +18,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 using Index = Eigen::Index;
 

@@ -8,7 +8,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/sensitivity.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

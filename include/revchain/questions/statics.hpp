@@ -8,7 +8,7 @@
 #include "revchain/paper/two_links.hpp"
 #include "revchain/statics.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 inline void check_shape(std::string_view where, const Chain<double>& chain, const SteadyShape& shape) {

@@ -9,7 +9,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain::analytic::detail {
+namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
 /// Value of a GSL function of one argument, by its `_e` form. GSL's default error handler ends the process, also at
 /// underflow and overflow, and it belongs to the program, so it is not changed here. Callers must keep to arguments

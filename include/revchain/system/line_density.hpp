@@ -9,7 +9,7 @@
 
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///

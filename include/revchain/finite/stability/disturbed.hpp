@@ -8,7 +8,7 @@
 
 #include "revchain/finite/balance/links.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Directions at right angles to the columns of a matrix.
 inline Matrix<double> beside(const Matrix<double>& columns) {

@@ -10,7 +10,7 @@
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
 
 /// Whether the mode of a square of an exponent can be told from every other.

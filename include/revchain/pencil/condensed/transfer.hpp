@@ -13,7 +13,7 @@
 #define REVCHAIN_UNROLL
 #endif
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin, as polynomials in
 /// z = -mu = -1/lambda:
