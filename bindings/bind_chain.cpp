@@ -156,13 +156,9 @@ Chain set_state(const py::tuple& state) {
         const Index common = std::min(gyration.is_scalar() ? size : stored, a.is_scalar() ? size : Index(a.stored()));
         gyration = combined(common, ratio, gyration, a);
     }
-    std::optional<double> taper;
-    if (state.size() == 8) taper = state[7].cast<double>();
-    if (taper && !Chain::is_taper(*taper))
-        throw_invalid("Chain", "this is not the state of a chain; its exponent must be above -1 and at most 1000",
-                      *taper);
-    return Chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
-                 std::move(gyration), taper);
+    const Chain chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
+                      std::move(gyration));
+    return state.size() == 8 ? chain.as_tapered(state[7].cast<double>()) : chain;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "revchain/numeric/status.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 template <>
 inline std::string in_digits(const double& value) {

@@ -16,7 +16,7 @@
 ///         .chains = 2, .size = 3, .weight = {weight, 3, 1}, .length = {&length}};
 ///     const auto heights = revchain::conical_heights(batch);     // a row for each chain, the slowest mode first
 ///     heights(1, 0);                                             // 0.518978 m
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// One quantity of all links of all chains: that of link m (lowest first) of chain c at data[c chain_stride + m
 /// link_stride]. A stride of 0 repeats a number.
@@ -73,7 +73,7 @@ Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options
 }  // namespace revchain
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 extern template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
 extern template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);

@@ -18,7 +18,7 @@
 ///     revchain::bell_and_clapper_with_ratio(chain, 1.0)[4];  // 0.0855615 m: with this joint the bell is silent
 ///
 /// Greenhill (1908) §8 (13)-(16).
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data of a bell and its clapper. The paper's suffix 1 is the clapper, 2 the bell. `joint` is a2, the distance
 /// from the bell's axle to the clapper's pin.

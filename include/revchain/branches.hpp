@@ -26,7 +26,7 @@
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back (at a fold) and pass one
 /// speed several times. An isolated branch is born in a fold and never reaches the vertical.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 struct BranchSystem;

@@ -14,7 +14,7 @@
 ///
 /// Greenhill (1908) §2: "the system is seen to deal a double blow". In contact with the buffer the carriages swing as
 /// two plummets do. Units: any consistent set.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data. Both carriages run with `speed`, with the coupling unloaded.
 struct Carriages {

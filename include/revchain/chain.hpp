@@ -22,7 +22,7 @@
 ///
 /// `plummet`, `uniform_rod` and `compound_pendulum` (system/link.hpp) make links. Lengths may be in any unit, and so
 /// may weights: speeds depend on their ratios alone. Numbers are kept exactly as given. Greenhill (1908) section 8.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by them is exact, and
 /// keeps every recursion in range whatever the user's units.
@@ -46,16 +46,13 @@ class Chain {
         : Chain(static_cast<Index>(links.size()), column(links, &Link<T>::weight), column(links, &Link<T>::length),
                 column(links, &Link<T>::centroid), column(links, &Link<T>::gyration_ratio)) {}
 
-    /// `size` links from columns, each of `size` numbers or one. `taper` is the exponent of links that `tapered` made;
-    /// it is not checked.
-    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio,
-          std::optional<double> taper = std::nullopt)
+    /// `size` links from columns, each of `size` numbers or one.
+    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio)
         : size_(size),
           weight_(std::move(weight)),
           length_(std::move(length)),
           centroid_(std::move(centroid)),
-          gyration_ratio_(std::move(gyration_ratio)),
-          taper_(taper) {
+          gyration_ratio_(std::move(gyration_ratio)) {
         check();
     }
 
@@ -87,13 +84,18 @@ class Chain {
                 place,
                 "the weight of the lowest link is too small for this scalar; use fewer links or a smaller exponent",
                 exponent);
-        return Chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio),
-                     exponent);
+        Chain chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio));
+        chain.taper_ = exponent;
+        return chain;
     }
+    /// The same chain with its `taper`, which links read from a file do not have: the exponent from which `tapered`
+    /// made them. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp. Cost: that of
+    /// `tapered`.
+    Chain as_tapered(double exponent) const;
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
-    /// The exponent of the line density of a chain that `tapered` made, or of a copy of it; no value for other chains.
+    /// The exponent of the line density of a chain that `tapered` or `as_tapered` made; no value for other chains.
     std::optional<double> taper() const { return taper_; }
 
     Index size() const { return size_; }
@@ -201,6 +203,28 @@ T least_size(const Column<T>& column, const T& given) {
 }
 
 }  // namespace detail
+
+template <Real T>
+Chain<T> Chain<T>::as_tapered(double exponent) const {
+    using std::abs;
+    const Chain cut = tapered(size_, total_length_, exponent, total_weight_);
+    // Where there are no words to spare, the weights found from above carry a rounding of every link.
+    const T ulps = std::is_same_v<Wide<T>, T> ? T(4) + T(2) * T(size_) : T(4);
+    const auto near = [&](const T& x, const T& y) {
+        return abs(x - y) <= ulps * epsilon<T>() * abs(y) + ulps * std::numeric_limits<T>::denorm_min();
+    };
+    for (Index m = 0; m < std::max(distinct_links(), cut.distinct_links()); ++m) {
+        const Link<T> x = link(m), y = cut.link(m);
+        if (!(near(x.weight, y.weight) && near(x.length, y.length) && near(x.centroid, y.centroid) &&
+              near(static_cast<T>(x.gyration_ratio), static_cast<T>(y.gyration_ratio))))
+            detail::throw_invalid("Chain::as_tapered",
+                                  "links[" + std::to_string(m) + "] is not as Chain::tapered makes it with exponent",
+                                  exponent);
+    }
+    Chain chain(*this);
+    chain.taper_ = exponent;
+    return chain;
+}
 
 /// One pass over each column in loops that compilers vectorise. Links are read one by one only if that finds a fault.
 template <Real T>

@@ -17,7 +17,7 @@
 ///
 /// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a centroid that is not
 /// positive, a radius of gyration that is negative, and numbers that are not finite.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A rigid link.
 template <Real T>

@@ -32,7 +32,7 @@
 /// finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends see `Held` (held.hpp).
 /// The closed forms: special/heavy_chain.hpp, special/tapered_chain.hpp, special/tip_mass.hpp.
 /// Greenhill (1908) section 4.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first. For a cord held straight at
 /// both ends, the lower end takes the place of the free end.

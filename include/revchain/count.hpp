@@ -11,7 +11,7 @@
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     revchain::count_modes(chain, {.angular_speed = 5.0});   // 1
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// low < conical height <= high. `low` may be 0 and `high` infinite.
 template <Real T>

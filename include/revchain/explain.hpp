@@ -15,7 +15,7 @@
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
 ///     e.methods[e.chosen].name;    // "continuous chain"
 ///     e.text();                    // a table: every method with its error bound and its time, or why it cannot serve
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The methods for some modes, each with what is known of it before it is used, and the one chosen.
 struct Explanation {

@@ -14,7 +14,7 @@
 ///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
 /// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, other units any consistent set.
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.
 struct Governor {

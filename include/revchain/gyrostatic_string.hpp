@@ -22,7 +22,7 @@
 ///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
 /// All functions are O(1). They throw InvalidArgument unless weight, length, tension and gravity are positive and all
 /// numbers finite, and for a negative radius of gyration.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A row of equal links.
 template <Real T>

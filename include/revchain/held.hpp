@@ -29,7 +29,7 @@
 /// Links and arrays begin at the lower end, which would be free if the chain or cord hung. Speeds of a chain held
 /// straight are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of
 /// `stability`.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// How the two ends are held: give either `span` or `tension`.
 struct HeldBy {

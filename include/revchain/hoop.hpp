@@ -10,7 +10,7 @@
 ///
 /// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that has this weight. Units: any consistent
 /// set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument unless every argument is positive and finite.
-namespace revchain::hoop {
+namespace revchain::inline REVCHAIN_BUILD::hoop {
 
 /// h = v^2 / g of a rim that runs with speed v; the same for every radius. §5 (6)
 template <Real T>

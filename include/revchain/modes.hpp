@@ -25,7 +25,7 @@
 ///
 /// Greenhill (1908) section 8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung from a fixed
 /// point is the natural angular frequency of its plane swing.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// How conical heights are found.
 enum class ModesMethod {
@@ -134,7 +134,7 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 }  // namespace revchain
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
 extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
 extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);

@@ -11,7 +11,7 @@
 ///
 /// Greenhill (1908) §8 (21) with sec delta = 1. The library solves element pencils (`modes`); this one is coded
 /// separately as an independent check.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A y = lambda B y in the offsets y_0 ... y_{N-1} of the pins, free end first.
 template <Real T>

@@ -16,7 +16,7 @@
 ///     r.offset(0, 0);       // 0.0145272 m: the free end at 2 rad/s, on the side of the support
 ///     r.reversed[1];        // 1: at 5 rad/s it is opposite to the support
 ///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The speeds of the support, how far it moves, and which pins are wanted.
 struct ResponseOptions {

@@ -25,7 +25,7 @@
 /// given. Stiffness and momentum are double words: with masses for weights, newtons are divided by gravity without
 /// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. The questions about a rig: `modes` (rig_modes.hpp),
 /// `steady_shapes`, `branches`, `stability`, `response` and `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {

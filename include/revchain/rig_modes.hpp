@@ -18,7 +18,7 @@
 ///     m.forward.angular_speed[0];      // 3.72206 rad/s, the slowest mode
 ///     m.forward.speed_error_bound[0];  // its relative error is at most 2.3e-16: proved
 ///     m.forward.shape(0);              // offsets of the pins, free end first
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Whirl modes of a rig in one direction of rotation, slowest first. Mode k of `available` is at index k - first.
 struct WhirlModes {

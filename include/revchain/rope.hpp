@@ -16,7 +16,7 @@
 ///
 /// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical height, and
 /// a tension is given as the length h of rope that has this weight. The shape depends on lambda h alone.
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of a skipping rope. Give exactly two of these: span, length, slack, sag, and the pair of tension and
 /// angular speed. With two of the first four, tension or angular speed may be given as well. Give slack where span and

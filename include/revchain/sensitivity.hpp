@@ -16,7 +16,7 @@
 ///     const auto s = revchain::sensitivity(chain, m);
 ///     s.weight().value(0, 1);       // -0.0347969, d(height of the slowest mode)/d(weight of the upper link)
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data of a link. While one of them changes, all other data of this link and of all links are constant. `length`
 /// moves the lower pin: the centroid and the radius of gyration do not change. `length_in_proportion` changes both in
@@ -94,7 +94,8 @@ struct Uncertainty {
 /// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
 /// not as many as the sensitivity's.
 template <Real T>
-Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
+Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
+                           const std::type_identity_t<Vector<T>>& conical_height,
                            const Deviations<T>& deviations);
 
 /// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have either sign. The first
@@ -141,7 +142,7 @@ double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity 
 }  // namespace revchain
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 extern template Sensitivity<float> sensitivity(const Chain<float>&, const Modes<float>&);
 extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const Vector<float>&,
                                                const Deviations<float>&);

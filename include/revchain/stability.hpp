@@ -15,7 +15,7 @@
 ///     const auto s = revchain::stability(chain, found.shapes[0]);
 ///     s.verdict == revchain::Verdict::minimum;   // true
 ///     s.exponents.back().imag();                 // 1.32288: it swings with 1.32288 times the turning speed
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
 struct HeldShape;    // revchain/held.hpp

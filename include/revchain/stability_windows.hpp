@@ -15,7 +15,7 @@
 ///     windows[0].verdict == revchain::Verdict::spectrally_stable;    // true, from the vertical on
 ///     windows[1].verdict == revchain::Verdict::unstable;             // true: faster than that
 ///     windows[1].height_from;                                        // 0.135704 m: the conical height of the edge
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A part of a branch in which all sampled shapes have the same verdict.
 struct StabilityWindow {

@@ -15,7 +15,7 @@
 ///     m.conical_height[0];                                                           // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The graphical construction of a steady shape, Figs. 3 and 5, as data. Links are listed lowest first, pins free end
 /// first; each row is a point (x from the axis, z upwards).
@@ -66,7 +66,8 @@ struct FunicularPolygon {
 /// Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
 /// weights are positive, places increase, and all numbers, also the results, are finite.
 template <Real T>
-FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
+FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
+                                      const std::type_identity_t<Vector<T>>& place, const T& horizontal_tension,
                                       const T& first_height = T(0), const T& last_height = T(0));
 
 /// Small transverse oscillations of weights on a string, slowest first.
@@ -90,7 +91,8 @@ struct TransverseModes {
 /// `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless there are weights, all positive,
 /// places increase, and all numbers, also the heights, are finite.
 template <Real T>
-TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension);
+TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
+                                    const std::type_identity_t<Vector<T>>& place, const T& tension);
 
 }  // namespace revchain
 

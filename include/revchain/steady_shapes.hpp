@@ -15,7 +15,7 @@
 ///     found.complete;                          // true: proved, there are no others
 ///     found.shapes[0].inclination;             // rad, lowest link first
 ///     found.shapes[0].error_bound;             // of every inclination, rad: proved
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// One steady shape of a whirling chain, links lowest first, pins free end first, in the units of the chain.
 struct SteadyShape {

@@ -18,7 +18,7 @@
 ///     const auto s = revchain::swing(chain, {.offset = start, .time = {0.0, 0.5, 1.0}});
 ///     s.offset(2, 0);                          // where the free end is after one second, m
 ///     s.angular_frequency[0];                  // 3.80868 rad/s, as of `modes`
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The start of the chain, and the times of the results.
 struct SwingOptions {

@@ -18,7 +18,7 @@
 ///                                           .angular_speed = 3.0});
 ///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The mode, the height or speed that it is to have, the datum to change, and the range of its values.
 struct TuneOptions {

@@ -25,7 +25,7 @@
 /// heights consists of the roots of lambda^2 - sum lambda + product = 0, computed without a difference of nearly equal
 /// numbers; no product leaves the range of T. All heights are O(1). Functions throw InvalidArgument for lengths and
 /// weights that are not positive and finite.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two conical heights, the larger one (the slower mode) first.
 template <Real T>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/questions/batch.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
 template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/models/for_modes.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 REVCHAIN_ANSWER_BY(CoarseChain);
 REVCHAIN_ANSWER_BY(SinglePrecision);
 REVCHAIN_ANSWER_BY(Aberth);

@@ -2,7 +2,7 @@
 #include "revchain/questions/sensitivity.hpp"
 #include "revchain/questions/rig_sensitivity.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 template Sensitivity<float> sensitivity(const Chain<float>&, const Modes<float>&);
 template Uncertainty<float> uncertainty(const Sensitivity<float>&, const Vector<float>&, const Deviations<float>&);
 template Sensitivity<double> sensitivity(const Chain<double>&, const Modes<double>&);

@@ -45,8 +45,8 @@ build core core -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
 if grep -qi gsl core/build.ninja; then fail 'GSL is on the command lines of a consumer of the core'; fi
 if ninja -C core -t deps | grep -q '/gsl/'; then fail 'a header of GSL was read for the core'; fi
 nm -C core/consumer >symbols
-grep -q 'revchain::Chain' symbols || fail 'the consumer of the core has no chain in it'
-if grep -qE 'revchain::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols; then
+grep -q 'revchain::for_[a-z0-9_]*::Chain' symbols || fail 'the consumer of the core has no chain in it'
+if grep -qE 'revchain::for_[a-z0-9_]*::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols; then
   fail 'a program of plain chains carries what chains can be rigged with'
 fi
 
@@ -58,6 +58,21 @@ if [[ ${1-} != --quick ]]; then
   quietly cmake --build with_library
   quietly cmake --install with_library --prefix "$work/with_library_installed"
   build compiled core -DCMAKE_PREFIX_PATH="$work/with_library_installed" -DLIBRARY=compiled
+
+  say 'three builds of the library in one program, under the address sanitizer, linked in two orders'
+  build mixed mixed -DCMAKE_PREFIX_PATH="$work/with_library_installed"
+  mixed/other_order || fail 'three builds of the library, linked in another order, give wrong numbers'
+  for part in native plain linked; do
+    nm "mixed/CMakeFiles/$part.dir/answers.cpp.o" | sed -n 's/.* [VWu] \(.*8revchain.*\)/\1/p' | sort >"weak_$part"
+    [[ -s weak_$part ]] || fail "no inline functions of the library in $part"
+  done
+  if grep -q for_sse2E weak_native; then fail 'this machine has no other instruction set than the least'; fi
+  if [[ -n $(cat weak_* | sort | uniq -d) ]]; then
+    cat weak_* | sort | uniq -d | c++filt | head
+    fail 'functions that were compiled differently have the same name'
+  fi
+  if cmake --build mixed --target misfit >log 2>&1; then fail 'code for this processor linked with code for every one'; fi
+  grep -qE 'undefined reference to .*revchain::for_[a-z0-9_]*::modes<double>' log || { cat log; fail 'no name says why'; }
 fi
 
 say 'a plain checkout installs with Eigen alone, no Catch2 on the machine; BUILD_TESTING=OFF builds no tests'

@@ -36,8 +36,9 @@ def test_the_exponent_is_remembered_and_forgotten(tmp_path):
     assert told.taper is None
     state = chain._compiled.__getstate__()
     assert len(state) == 8 and len(told._compiled.__getstate__()) == 7
-    with pytest.raises(ValueError, match="its exponent must be above -1"):
-        rc.Chain._from_state(((*state[:7], -1.0), False, None))
+    for wrong, says in ((-1.0, "exponent must be above -1"), (7.0, r"links\[0\] is not as Chain::tapered makes it")):
+        with pytest.raises(ValueError, match=says):
+            rc.Chain._from_state(((*state[:7], wrong), False, None))
 
 
 @pytest.mark.parametrize("exponent", [-0.95, -0.3, 0.5, 1.0, 6.0, 30.0])

@@ -11,7 +11,7 @@
 #include "revchain/special/taut_cord.hpp"
 #include "revchain/special/tip_mass.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

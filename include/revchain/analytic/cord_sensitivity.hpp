@@ -5,7 +5,7 @@
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/questions/held_tension.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -8,7 +8,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A start of a cord as polynomials of x = sqrt(s / length): values and slopes (by x) at the nodes of Gauss's rule, on
 /// panels that are halved until a polynomial of degree 15 gives the function to 1e-13 of its largest value, also at the

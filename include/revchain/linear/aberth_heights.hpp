@@ -8,7 +8,7 @@
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/spectrum/aberth.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A spring that holds the support of a chain sideways, and the weight of what moves with it, in `chain.units()`.
 struct SpringOnTop {

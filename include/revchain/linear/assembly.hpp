@@ -11,7 +11,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The small-amplitude pencil of a chain in `Wide<T>`, weights in units of 2^units.weight_exponent (and of the pencil's
 /// own units) and heights in units of 2^units.length_exponent.

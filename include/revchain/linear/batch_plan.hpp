@@ -11,7 +11,7 @@
 
 #include "revchain/chain.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 // revchain/batch.hpp
 template <Real T>
@@ -21,7 +21,7 @@ struct ChainBatch;
 
 }  // namespace revchain
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// "chain 17" (counted from 0), "chain (4, 2)" where the batch has several axes.
 template <Real T>

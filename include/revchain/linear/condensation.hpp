@@ -9,7 +9,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
 inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials

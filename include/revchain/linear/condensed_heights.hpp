@@ -5,7 +5,7 @@
 #include "revchain/linear/heights.hpp"
 #include "revchain/pencil/bisection.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Where condensed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than
 /// the blocks of all (flat: within 20 % from 150 to 400 links).

@@ -8,7 +8,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Distances of the lower pins of links from the free end, along the chain.
 template <Real T>

@@ -7,7 +7,7 @@
 #include "revchain/pencil/forced/lanes.hpp"
 #include "revchain/simd/pack.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using pencil::Driving;
 

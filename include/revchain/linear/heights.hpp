@@ -15,7 +15,7 @@
 #include "revchain/pencil/twisted.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A height in the units of the chain's pencils; the bound is relative to the exact height, and proved.
 template <Real T>
@@ -132,10 +132,9 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
             if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
     if constexpr (std::is_same_v<T, double>)
-        if (!loose)
-            if (auto found = heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()),
-                                              half_way))
-                return std::move(*found);
+        if (auto found =
+                heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()), half_way))
+            return std::move(*found);
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);

@@ -7,7 +7,7 @@
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/spectrum/interpolated.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Heights of many modes at once; nothing for chains that `pencil::all_eigenvalues` cannot serve.
 /// Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.

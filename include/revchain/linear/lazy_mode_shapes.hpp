@@ -9,7 +9,7 @@
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Shapes of k modes of a chain of N links, with or without what follows from them.
 template <Real T>

@@ -6,7 +6,7 @@
 #include "revchain/linear/pencils.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// One mode to the digits of `Wide<T>`, in the units of its pencils, and how far it may be from the exact one.
 template <Real T>

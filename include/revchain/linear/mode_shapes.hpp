@@ -12,7 +12,7 @@
 #include "revchain/pencil/proved_roots.hpp"
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 template <Real T>
 ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details = true) {

@@ -4,7 +4,7 @@
 #include "revchain/linear/rig_roots.hpp"
 #include "revchain/linear/rig_shapes.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The modes of a rig in one sense of rotation, for those who need few of them: what branches begin at. Their numbers,
 /// heights and shapes are those of `modes`.

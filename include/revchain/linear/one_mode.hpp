@@ -5,7 +5,7 @@
 
 /// One mode of a chain by counts alone. It compiles in a third of the time of `modes`, which holds every method, and
 /// costs the same for a chain of some hundred links.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
 template <Real T>

@@ -4,7 +4,7 @@
 #include "revchain/linear/assembly.hpp"
 #include "revchain/pencil/sturm.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The pencil of a chain in `Wide<T>` and rounded to T, heights in units of 2^length_exponent.
 template <Real T>

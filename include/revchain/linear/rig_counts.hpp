@@ -13,7 +13,7 @@
 #include "revchain/pencil/signed_twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 

@@ -6,7 +6,7 @@
 #include "revchain/pencil/signed.hpp"
 #include "revchain/rig.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A link of a rig, or what yields at its support: stiffness at rest, and momentum over the square of the length as
 /// `spin`: times a speed it is stiffness.

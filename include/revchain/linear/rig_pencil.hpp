@@ -7,7 +7,7 @@
 #include "revchain/linear/rig_elements.hpp"
 #include "revchain/numeric/interval.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Signs of a quadratic form on the motions that carry no inertia.
 struct MasslessForm {

@@ -12,7 +12,7 @@
 #include "revchain/pencil/complex/spectrum.hpp"
 
 /// The roots of a rig's pencil in each sense of rotation, by number.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The roots of one sense: by counts, which are proved without any root being found.
 struct CountedSense {

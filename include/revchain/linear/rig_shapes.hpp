@@ -10,7 +10,7 @@
 #include "revchain/linear/rig_counts.hpp"
 
 /// The part of `rig_modes` that finds shapes.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Finds shapes of rigged chains from the roots of their modes.
 class RigShapeFinder {

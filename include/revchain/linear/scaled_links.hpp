@@ -5,7 +5,7 @@
 
 #include "revchain/chain.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A link in the units of its chain's pencil; `below` is the weight hung below it.
 template <class N>

@@ -4,7 +4,7 @@
 #include "revchain/models/model.hpp"
 #include "revchain/two_links.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// One link, or two: a length, or the roots of a quadratic. Greenhill (1908) §1, §2 (5), §6 (11), §8 (12), (14).
 /// Error bound 8 ulp, measured 2.6 (tests/cpp/models/models.cpp). Cost 10 ns.

@@ -10,7 +10,7 @@
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/grouped.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
 /// would without inertia. That lowers every conical height, and by no more than the largest height that a group has
@@ -34,7 +34,7 @@ struct CoarseChain {
     double cost(const ChainKind& kind, const Question& question) const {
         const double attempts = 1 + std::clamp(kind.growth / 30, 0.0, 0.5);
         return 6e-7 + attempts * 1.5e-8 * detail::real(kind.size) +
-               groups(kind, question) * detail::loose_cost(0.2 * detail::goal(question), question.count, 7e-9);
+               detail::loose_cost(groups(kind, question), 0.2 * detail::goal(question), question.count, 7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         const auto plain = plain_pencil(chain);

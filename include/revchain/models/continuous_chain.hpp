@@ -8,7 +8,7 @@
 #include "revchain/models/straight_links.hpp"
 #include "revchain/numeric/zero_of_j0.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). The error bound follows
 /// from the limit of N links, with J = J_1(j). For plummets it is (1/2)/N and the terms of order 1/N^2. For rods

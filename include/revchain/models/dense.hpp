@@ -6,7 +6,7 @@
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The textbook method, for comparison: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes.
 /// Assembling adds neighbouring stiffnesses, which loses the slowest modes of long or unlike chains; counts on the

@@ -6,7 +6,7 @@
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/system/converted.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// Bisection in double-double, for tolerances below the precision of double. `Answer::conical_height_low` is the low
 /// word of each height. Bounds are proved. The smallest is 1e-28; they grow with N.

@@ -4,7 +4,7 @@
 #include "revchain/models/model.hpp"
 #include "revchain/numeric/zero_of_j0.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N. Tricomi's expansion of them
 /// (DLMF 18.16(v)), with j = j_{0,k} and nu = 4 N + 2, is taken four terms farther,

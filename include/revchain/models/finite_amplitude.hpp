@@ -4,7 +4,7 @@
 #include "revchain/branches.hpp"
 #include "revchain/models/model.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The conical height at which the shape that grows out of a mode has its lowest link at a given inclination: the exact
 /// equations, along the branch. Bounds are estimates: twice the error of the shape's inclinations over the inclination

@@ -9,7 +9,7 @@
 #include "revchain/models/select.hpp"
 #include "revchain/models/tapered_chain.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The models among which `modes` chooses; where no tolerance is given, among those whose bounds are proved. The last
 /// always answers.
@@ -27,7 +27,7 @@ Question question_of(const ModeRange& range, const Options& options) {
 }  // namespace revchain::models
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 #define REVCHAIN_ANSWER_BY(model) \
     template Answer answer_by(const models::model&, const Chain<double>&, const ChainKind&, const Question&)
 extern REVCHAIN_ANSWER_BY(CoarseChain);

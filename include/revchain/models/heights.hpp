@@ -5,7 +5,7 @@
 #include "revchain/models/finite_amplitude.hpp"
 #include "revchain/models/for_modes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
 /// that are not small and for tolerances below what a double holds. The last always answers.

@@ -14,7 +14,7 @@
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The modes whose conical heights are wanted, and the relative tolerance of each height; 0: full accuracy.
 struct Question {

@@ -9,7 +9,7 @@
 /// The four numerical methods of `modes` (docs/design.md), each as a model. All bounds are proved. `solve` is a
 /// template, so that an include alone compiles no method.
 /// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 namespace detail {
 inline revchain::detail::HeightsOptions<double> options_for(const Question& question) {
@@ -38,12 +38,12 @@ inline Answer answered(const Chain<double>& chain, const std::optional<revchain:
 /// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
 inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
-/// Seconds for each link of bisection without double words: passes over all links for each digit, and one proof for
-/// each mode.
-inline double loose_cost(double rtol, Index count, double pass) {
+/// Seconds of bisection without double words: passes over all links for each digit, and one proof for each mode. To
+/// begin a pass costs as much as six links.
+inline double loose_cost(double links, double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
-    return 6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits);
+    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));
 }
 }  // namespace detail
 
@@ -61,8 +61,7 @@ struct SinglePrecision {
         return std::max(detail::goal(question), 1e-8 * (100 + detail::real(kind.size)));
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 2.5e-7 + 2e-7 * detail::real(question.count) +
-               detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
+        return detail::loose_cost(detail::real(kind.size), error_bound(kind, question), question.count, 5.7e-9);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
@@ -72,23 +71,21 @@ struct SinglePrecision {
     }
 };
 
-/// Counts until every mode has an interval of its own; then to a loose tolerance more counts, or to 2 ulp Rayleigh
-/// quotients of eight shapes at a time: any chain, any modes.
+/// Counts until every mode has an interval of its own. Then, where the tolerance makes that cheaper, more counts; else
+/// Rayleigh quotients of eight shapes at a time, to 2 ulp. Any chain, any modes.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
     static constexpr bool is_proved = true;
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind& kind, const Question& question) const {
-        return is_loose(kind, question) ? detail::goal(question) : detail::full_accuracy;
+        return counts_pay(kind, question) ? detail::goal(question) : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        const double count = detail::real(question.count);
-        if (!is_loose(kind, question)) return full_cost(kind, question);
-        // A tolerance next to full accuracy takes as many counts as that takes steps in all.
-        return std::min(
-            full_cost(kind, question),
-            3e-7 + 2e-7 * count + detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9));
+        return counts_pay(kind, question) ? loose_cost(kind, question) : full_cost(kind, question);
+    }
+    static double loose_cost(const ChainKind& kind, const Question& question) {
+        return detail::loose_cost(detail::real(kind.size), question.rtol, question.count, 8.5e-9);
     }
     static double full_cost(const ChainKind& kind, const Question& question) {
         const double count = detail::real(question.count), links = detail::real(kind.size);
@@ -99,18 +96,20 @@ struct Bisection {
         return 1.5e-6 + links * (brackets + eight * std::ceil(count / 8)) * beyond_cache;
     }
     template <std::same_as<double> T>
-    Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
+    Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
-        return detail::answered(chain,
-                                revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question),
-                                                                       detail::options_for(question)));
+        auto options = detail::options_for(question);
+        if (!counts_pay(kind, question)) options.rtol.reset();
+        return detail::answered(chain, revchain::detail::heights_by_bisection(
+                                           chain, assembled, detail::range_of(question), options));
     }
 
    private:
     static constexpr Index most_in_lanes = revchain::detail::most_in_lanes;
-    /// Whether counts in double suffice. No more digits than asked for are then computed.
-    static bool is_loose(const ChainKind& kind, const Question& question) {
-        return detail::goal(question) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
+    /// Whether counts in double prove the tolerance, of nearly all chains, and cost less than full accuracy does.
+    static bool counts_pay(const ChainKind& kind, const Question& question) {
+        return question.rtol > 4096 * std::numeric_limits<double>::epsilon() * detail::real(kind.size) &&
+               loose_cost(kind, question) < full_cost(kind, question);
     }
 };
 
@@ -198,8 +197,8 @@ struct Interpolated {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double n = detail::real(kind.size), count = detail::real(question.count);
-        if (question.rtol >= loose) return 2.5e-5 + n * (5e-7 + 2.5e-9 * count);
-        return 1.2e-5 + 3.6e-7 * n + count * (1.4e-6 + 2.9e-9 * n);
+        const double full = 1.2e-5 + 3.6e-7 * n + count * (1.4e-6 + 2.9e-9 * n);
+        return question.rtol >= loose ? std::min(full, 2.5e-5 + n * (5e-7 + 2.5e-9 * count)) : full;
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {

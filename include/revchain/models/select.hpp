@@ -12,7 +12,7 @@
 #include "revchain/models/model.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A model's properties for one question, before it is solved.
 struct Estimate {

@@ -15,7 +15,7 @@
 /// j = j_{p,k}. c is (L^2/12) int S y''^2 / int S y'^2, S the tension: what linear finite elements lose. d is of the
 /// next order: 1/N^2, at a free end with little weight log N/N^2 (p = 0) and N^-(2+p) (p < 0). 0 <= d <= `next_order`
 /// is measured.
-namespace revchain::models::detail {
+namespace revchain::inline REVCHAIN_BUILD::models::detail {
 
 /// c, to some 13 digits: the sum I = (J_n^2 + 2 (J_{n+1}^2 + J_{n+2}^2 + ...))/(2 n), n = p + 2, by Miller's
 /// recurrence, which needs no scale. Cost: 3 ns for each of j - p + 9 cbrt(j) + 12 steps.

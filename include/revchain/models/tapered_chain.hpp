@@ -7,7 +7,7 @@
 #include "revchain/models/straight_links.hpp"
 #include "revchain/numeric/zeros_of_j.hpp"
 
-namespace revchain::models {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// Chains made by `Chain::tapered`: the height of the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k},
 /// Greenhill (1908) §4, less what straight links take away, to the order 1/N^2 (straight_links.hpp). Error bound: half

@@ -4,7 +4,7 @@
 #include "revchain/models/dense.hpp"
 #include "revchain/models/heights.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// `height_models` and, for comparison, `models::Dense`, which takes seconds to compile.
 /// `select(height_models_with_dense, ...)`, `solve(...)`, `solve_by(...)`.

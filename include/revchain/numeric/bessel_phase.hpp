@@ -7,7 +7,7 @@
 
 #include "revchain/numeric/double_double.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using TwoDoubles = DoubleWord<double>;
 

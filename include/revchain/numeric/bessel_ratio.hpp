@@ -6,7 +6,7 @@
 
 #include "revchain/numeric/bessel_phase.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The number of orders above `order` at which Miller's recurrence begins; it leaves out at most 1e-20.
 inline Index steps_above(double order, double z) {

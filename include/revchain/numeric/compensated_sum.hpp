@@ -3,7 +3,7 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Sum of numbers, or of packs lane by lane, in two words: the second is the sum of the rounding errors of the first.
 /// Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.

@@ -17,7 +17,48 @@
 #define REVCHAIN_INLINED
 #endif
 
-namespace revchain::detail {
+// Defined where an instruction set is to be chosen at run time: the flags do not name the largest one already.
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
+    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#define REVCHAIN_SEVERAL_TARGETS
+#endif
+
+// REVCHAIN_BUILD is the inline namespace that everything of the library lies in. It says how the code was compiled:
+// for_avx2_fma, for_sse2_and_above. A linker takes one definition of an inline function for a whole program; code that
+// was compiled otherwise therefore has other names, and a program that was compiled for AVX2 does not link with a
+// library that was not. Flags without a macro of their own, such as -ffp-contract, do not show.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define REVCHAIN_BUILD_SET avx512
+#elif defined(__AVX512F__)
+#define REVCHAIN_BUILD_SET avx512f
+#elif defined(__AVX2__)
+#define REVCHAIN_BUILD_SET avx2
+#elif defined(__AVX__)
+#define REVCHAIN_BUILD_SET avx
+#elif defined(__SSE4_1__)
+#define REVCHAIN_BUILD_SET sse4
+#elif defined(__x86_64__)
+#define REVCHAIN_BUILD_SET sse2
+#else
+#define REVCHAIN_BUILD_SET any_processor
+#endif
+#if defined(__FP_FAST_FMA) || defined(__FMA__)
+#define REVCHAIN_BUILD_FMA _fma
+#else
+#define REVCHAIN_BUILD_FMA
+#endif
+#if defined(REVCHAIN_SEVERAL_TARGETS)
+#define REVCHAIN_BUILD_KIND _and_above
+#elif defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
+#define REVCHAIN_BUILD_KIND _no_vectors
+#else
+#define REVCHAIN_BUILD_KIND
+#endif
+#define REVCHAIN_JOINED(set, fma, kind) for_##set##fma##kind
+#define REVCHAIN_JOIN(set, fma, kind) REVCHAIN_JOINED(set, fma, kind)
+#define REVCHAIN_BUILD REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND)
+
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
 /// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines

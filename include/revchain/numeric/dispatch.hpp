@@ -5,13 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-// Defined where an instruction set is to be chosen at run time: the flags do not name the largest one already.
-#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
-    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
-#define REVCHAIN_SEVERAL_TARGETS
-#endif
-
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The size of the SIMD registers that code is compiled for, and whether it may fuse products with sums.
 template <std::size_t Bytes, bool Fused>

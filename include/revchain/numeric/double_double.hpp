@@ -6,7 +6,7 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two doubles as a scalar of its own, 106 bits: `Chain<DoubleDouble>`, `modes`, ... at about 32 digits.
 ///

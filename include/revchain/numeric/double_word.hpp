@@ -9,7 +9,7 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/word.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T.
 ///

@@ -3,7 +3,9 @@
 
 #include <cfenv>
 
-namespace revchain {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are
 /// valid results ("nothing proved").

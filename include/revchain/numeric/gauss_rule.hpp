@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace revchain::detail {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Nodes and weights of Gauss's rule on 0 ... 1, exact for polynomials of degree 2 n - 1: Newton's method on the
 /// Legendre polynomials.

@@ -11,7 +11,7 @@
 /// without directed rounding, with or without contraction. Libraries that switch the rounding mode (Boost.Numeric.
 /// Interval) need -frounding-math in the program that includes them, which a header-only library cannot ask for. Where
 /// the digit and a half that widening costs matters, wider numbers are used.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
 /// T may be a pack: then each lane holds an interval (simd/interval_lanes.hpp).

@@ -8,7 +8,9 @@
 #include <sys/mman.h>
 #endif
 
-namespace revchain::detail {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Tells the system that memory just allocated, and not yet written, will all be used: from 4 MB on in pages of 2 MB,
 /// where Linux has them. Handing out a million numbers in pages of 4 kB takes longer than copying them.

@@ -18,7 +18,7 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// How many threads `parallel_for` uses where the thread that made this object calls it, while the object lives. A
 /// question makes one from its option `threads`; 0 means one for each processor. Without one the number is 1, as it is

@@ -6,7 +6,7 @@
 
 #include "revchain/numeric/scalar.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A product or quotient held as a fraction times a power of two: no intermediate result overflows or underflows.
 /// Accuracy: half an ulp for each factor after the first, and for each sum.

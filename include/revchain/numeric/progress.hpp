@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// State that a long computation shares with another thread: its progress, and whether it should stop.
 class Progress {

@@ -14,8 +14,11 @@
 #include <concepts>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
-namespace revchain {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD {
 
 using Index = Eigen::Index;
 
@@ -58,15 +61,18 @@ concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>
     T(0.5);
 };
 
+// The next two, which results hold, get their memory from `malloc`, whatever the compiler's flags. How Eigen's other
+// matrices get theirs depends on the instruction set: code with other flags cannot free it. Eigen converts them.
+
 /// A column of numbers.
 template <class T>
-using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
 /// A table of numbers, one row per item (row-major, as numpy has it).
 template <class T>
-using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
-/// A square matrix.
+/// A square matrix, inside the library only.
 template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -8,7 +8,7 @@
 
 #include "revchain/numeric/scalar.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A wrong call. The message has function, rule and value: "revchain::Chain: links[2]: length must be positive, got
 /// -0.5". The arguments are left unchanged. (In Python: ValueError.)

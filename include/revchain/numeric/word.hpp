@@ -10,7 +10,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 /// Specialised for packs, in simd/pack.hpp.

@@ -7,7 +7,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The zero of a function that grows through it once between `low` and `high`: Newton's method, held within the bracket
 /// by halving. `value_and_slope(x)` returns a pair. It serves all scalars, unlike root finders of other libraries.

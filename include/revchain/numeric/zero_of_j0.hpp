@@ -8,7 +8,7 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

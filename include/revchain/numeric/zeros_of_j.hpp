@@ -7,7 +7,7 @@
 #include "revchain/numeric/bessel_ratio.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Positive zeros of J_order for real order > -1, by number from 1.
 /// Far out the phase series is solved. Nearer: Segura's iteration (doi:10.1137/090747762), which stays between the

@@ -3,7 +3,7 @@
 
 #include "revchain/bell.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// G(r) = h1 r^2 - [(m + 1) l1 - m l2 - a2] r - (m + 1) a2 = 0 gives the ratios of inclinations of the modes: §8 (14)

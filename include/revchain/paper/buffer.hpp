@@ -9,7 +9,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/two_links.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 inline CarriageState BufferImpact::Phase::at(double t) const {
     CarriageState s{centre + drift * t, centre + drift * t, drift, drift, 0};

@@ -5,7 +5,7 @@
 #include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/system/link.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>
 struct JointedLinks;  // two_links.hpp

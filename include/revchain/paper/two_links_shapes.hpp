@@ -27,7 +27,7 @@
 /// For jointed links the distance a2 between the pins of the upper link is not the l2 in sec d2. Then a2 replaces l2 in
 /// front of (1 - cos^2 d2), the bracket is 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at
 /// B - s l1 : l1 - B = (s (a2/l2)^2)^(1/4) : 1, and the rest holds unchanged.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>
 struct PairShape;  // two_links.hpp

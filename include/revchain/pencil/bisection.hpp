@@ -7,7 +7,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/sturm.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// lower < eigenvalue <= upper, by count; `isolated` when no other eigenvalue shares the bracket.
 template <Real T>

@@ -6,7 +6,7 @@
 #include "revchain/pencil/bisection.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// An eigenvalue with a bound on its relative error that is proved by two counts (infinite: nothing could be proved).
 template <Real T>

@@ -7,7 +7,7 @@
 
 #include "revchain/pencil/element.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// K and M assembled into square matrices, the held pin left out: the form that loses the slowest modes.
 template <Real T>

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// One element between two neighbouring pins (lower, upper) of the pencil  lambda K - M:
 ///

@@ -10,7 +10,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
 /// One pencil at several x at once, a lane each: stiffnesses, and forces left over in twice the digits.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Whether all elements are point masses at their lower pins.
 template <class S>

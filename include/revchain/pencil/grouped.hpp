@@ -3,7 +3,7 @@
 
 #include "revchain/pencil/element.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A pencil of fewer elements whose eigenvalues, descending as they are, bracket those of the whole:
 ///

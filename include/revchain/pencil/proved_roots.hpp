@@ -11,7 +11,7 @@
 #include "revchain/pencil/quotient_lanes.hpp"
 
 /// Some or all roots of a pencil to the last digit, each with a proof, eight at a time.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A root, and how far it may be from the exact one; infinitely far where that was not proved.
 template <std::floating_point T>

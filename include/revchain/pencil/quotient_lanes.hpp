@@ -15,7 +15,7 @@
 
 /// Roots of several modes at once from Rayleigh quotients of their twisted vectors. A root is a height or, of a pencil
 /// with spins, x.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Roots and how sure they are.
 template <std::floating_point T>

@@ -8,7 +8,7 @@
 
 #include "revchain/pencil/sturm.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Bounds on the absolute errors of an element's numbers.
 template <Real M>

@@ -5,7 +5,7 @@
 #include "revchain/pencil/twisted.hpp"
 
 /// Vectors of a family Q(x) with numbers of any sign, and what follows from them. See twisted.hpp.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// y with Q(x) y = 0 at an eigenvalue, offsets of pins 0 ... N, the held pin last (0); the largest is 1 in size, the
 /// free end positive (by the signs of ratios, which outlast offsets that underflow).

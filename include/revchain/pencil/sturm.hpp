@@ -10,7 +10,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// How many shifts one pass over the elements serves. The recursion waits on one division per element; eight shifts
 /// fill that wait: in packs they cost what one costs, 7 ns a link.

@@ -8,7 +8,7 @@
 
 #include "revchain/pencil/element.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 

@@ -13,7 +13,7 @@
 
 /// Eigenvectors of several modes at once: twisted factorizations in plain arithmetic, one mode a lane, and one
 /// correction from forces left over that are evaluated in twice the digits.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// How many modes are found at once.
 inline constexpr std::size_t shape_lanes = 8;

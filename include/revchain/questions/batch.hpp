@@ -10,7 +10,7 @@
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/questions/batch_workers.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -10,7 +10,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/pencil/batch/spectrum.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// One chain by itself, by `modes`: any valid chain, every height proved.
 template <Real T>

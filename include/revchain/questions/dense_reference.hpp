@@ -10,7 +10,7 @@
 
 /// Modes by two formulations that share no step with `modes`. They are slow and less accurate, and serve as its
 /// references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

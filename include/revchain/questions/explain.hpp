@@ -13,7 +13,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/mode_range.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -10,7 +10,7 @@
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

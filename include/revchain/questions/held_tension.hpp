@@ -6,7 +6,7 @@
 #include "revchain/chain.hpp"
 #include "revchain/system/cord.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
 class Held;

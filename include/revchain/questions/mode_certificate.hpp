@@ -8,7 +8,7 @@
 #include "revchain/pencil/sturm.hpp"
 
 /// The certificates that modes carry where the option `certify` is set.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 template <Real T>
 Certificate<T> room_for_certificate(Index count) {

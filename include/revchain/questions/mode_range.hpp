@@ -7,7 +7,7 @@
 #include "revchain/count.hpp"
 
 /// Which modes the options of a question mean.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Modes found where no count is given and there are as many.
 inline constexpr Index default_count = 10;

@@ -12,7 +12,7 @@
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/system/converted.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -9,7 +9,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/response.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

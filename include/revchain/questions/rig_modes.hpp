@@ -16,7 +16,7 @@
 // after the modes of chains, which need it before their templates are used
 #include "revchain/questions/mode_certificate.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -7,7 +7,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/sensitivity.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -16,7 +16,7 @@
 #include "revchain/rig_modes.hpp"
 #include "revchain/swing.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

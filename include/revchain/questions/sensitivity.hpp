@@ -8,7 +8,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/sensitivity.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
@@ -128,7 +128,8 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
 }
 
 template <Real T>
-Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
+Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
+                           const std::type_identity_t<Vector<T>>& conical_height,
                            const Deviations<T>& deviations) {
     using std::abs;
     using std::isfinite;

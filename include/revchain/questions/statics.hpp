@@ -8,7 +8,7 @@
 #include "revchain/paper/two_links.hpp"
 #include "revchain/statics.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 inline void check_shape(std::string_view where, const Chain<double>& chain, const SteadyShape& shape) {
@@ -78,7 +78,8 @@ inline Chain<double> transferred_to_axis(const Chain<double>& chain, const Stead
 }
 
 template <Real T>
-FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
+FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
+                                      const std::type_identity_t<Vector<T>>& place, const T& horizontal_tension,
                                       const T& first_height, const T& last_height) {
     using std::hypot, std::isfinite;
     constexpr std::string_view where = "funicular_polygon";
@@ -113,7 +114,8 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
 }
 
 template <Real T>
-TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension) {
+TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
+                                    const std::type_identity_t<Vector<T>>& place, const T& tension) {
     using std::isfinite, std::ldexp;
     constexpr std::string_view where = "transverse_modes";
     const Index n = weight.size();

@@ -15,7 +15,7 @@
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/system/converted.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

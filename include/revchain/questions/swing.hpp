@@ -6,7 +6,7 @@
 #include "revchain/questions/superposed.hpp"
 #include "revchain/swing.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& options) {
     constexpr std::string_view place = "swing";

@@ -13,7 +13,7 @@
 #include "revchain/questions/tune_candidates.hpp"
 #include "revchain/tune.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -11,7 +11,7 @@
 
 /// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the
 /// chain has a given conical height, of whichever mode.
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline double datum_of(const Link<double>& link, Datum datum) {
     switch (datum) {

@@ -6,7 +6,7 @@
 
 /// Intervals side by side: one in each lane of two packs. As those of numbers (numeric/interval.hpp), without a branch
 /// that depends on them; where nothing is known in a lane, its ends are NaN.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

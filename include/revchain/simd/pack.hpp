@@ -14,7 +14,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // what concerns packs handed to functions: they never are, see below
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// How many numbers a pack holds unless told otherwise, on every machine: four doubles fill one register of AVX2, two
 /// of SSE2.

@@ -12,7 +12,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors never leave a translation unit
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Whole numbers as large as T.
 template <class T>

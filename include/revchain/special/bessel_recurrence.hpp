@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/bessel_ratio.hpp"
 
-namespace revchain::analytic::detail {
+namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
 using revchain::detail::bessel_ratio;
 using revchain::detail::PhaseSeries;

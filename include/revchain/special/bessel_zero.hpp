@@ -7,7 +7,7 @@
 #include "revchain/special/bessel_recurrence.hpp"
 #include "revchain/special/gsl.hpp"
 
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 using revchain::zero_of_j0;  // numeric/zero_of_j0.hpp
 using revchain::ZerosOfJ;    // numeric/zeros_of_j.hpp

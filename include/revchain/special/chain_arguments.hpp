@@ -4,7 +4,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain::analytic::detail {
+namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
 /// Throws InvalidArgument unless the mode or count called `name` is at least 1 and the length positive and finite.
 inline void check(std::string_view where, std::string_view name, Index number, double length) {

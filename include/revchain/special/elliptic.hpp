@@ -10,7 +10,7 @@
 /// Elliptic integrals and functions of a modulus kappa and its complement kappa' = sqrt(1 - kappa^2), each accurate to
 /// its last digit. Near kappa = 1 all results depend on kappa', which cannot be computed from kappa. GSL takes kappa^2
 /// only and silently loses all accuracy there (bench/elliptic.cpp).
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 namespace detail {
 using revchain::detail::require_finite;

@@ -5,7 +5,7 @@
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/special/incomplete_elliptic.hpp"
 
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
 
 inline constexpr std::string_view governor_motion = "analytic::GovernorMotion";

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace revchain::analytic::detail {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
 /// Value of a GSL function of one argument, by its `_e` form. GSL's default error handler ends the process, also at
 /// underflow and overflow, and it belongs to the program, so it is not changed here. Callers must keep to arguments

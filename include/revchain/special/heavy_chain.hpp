@@ -9,7 +9,7 @@
 /// the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or amplitude
 /// that is not positive and finite, and x outside [0, length]. With a particle at the free end: special/tip_mass.hpp;
 /// of varying density: special/tapered_chain.hpp.
-namespace revchain::analytic::heavy_chain {
+namespace revchain::inline REVCHAIN_BUILD::analytic::heavy_chain {
 
 namespace detail {
 using analytic::detail::check;

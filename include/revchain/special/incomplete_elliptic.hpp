@@ -7,7 +7,7 @@
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/special/jacobi.hpp"
 
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 namespace detail {
 

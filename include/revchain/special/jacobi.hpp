@@ -3,7 +3,7 @@
 
 #include "revchain/special/elliptic.hpp"
 
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// Jacobi's functions at one argument u.
 struct JacobiValues {

@@ -11,7 +11,9 @@
 #include <new>
 #include <optional>
 
-namespace revchain::analytic::detail {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
 /// A zero of `f` between `low` and `high` to the last digit of the argument, by Brent's method (GSL). Empty where f has
 /// the same sign at both ends or is NaN there. f must not throw.

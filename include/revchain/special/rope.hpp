@@ -11,7 +11,7 @@
 #include "revchain/special/incomplete_elliptic.hpp"
 #include "revchain/special/root_between.hpp"
 
-namespace revchain::analytic {
+namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
 
 /// Lengths of half a half wave over half its span.

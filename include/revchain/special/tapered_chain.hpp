@@ -9,7 +9,7 @@
 /// 0 is the uniform chain, 1 one that thickens upwards; from 0 down to -1 the mass gathers at the free end.
 /// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, an exponent
 /// not above -1 or above 1e4, and x outside [0, length]. Accuracies hold for exponents from -0.99 to 100.
-namespace revchain::analytic::tapered_chain {
+namespace revchain::inline REVCHAIN_BUILD::analytic::tapered_chain {
 
 namespace detail {
 inline void check(std::string_view where, std::string_view name, Index number, double length, double exponent) {

@@ -14,7 +14,7 @@
 /// every mode has exactly one height. Far out it is that of a string under the mean tension.
 /// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, a tension
 /// below 1e-20 lengths or above 1e250, and x outside [0, length].
-namespace revchain::analytic::taut_cord {
+namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 
 namespace detail {
 

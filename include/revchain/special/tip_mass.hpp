@@ -21,7 +21,7 @@
 /// every mode has exactly one height.
 /// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, a tip that is
 /// negative or above 1e250 lengths, and x outside [0, length].
-namespace revchain::analytic::tip_mass {
+namespace revchain::inline REVCHAIN_BUILD::analytic::tip_mass {
 
 namespace detail {
 

@@ -10,7 +10,7 @@
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A quantity of every link: one number each, or a single number that serves all links and is stored once. Copies share
 /// the numbers, which never change.

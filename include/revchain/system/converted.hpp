@@ -3,7 +3,7 @@
 
 #include "revchain/chain.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

@@ -9,7 +9,7 @@
 
 #include "revchain/system/line_density.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Weight per length of a cord, s the distance from the free end: the exponent p of s^p; a function of s; or such a
 /// function as polynomials, which several cords may share.

@@ -9,7 +9,7 @@
 /// Two joined bodies are computed in two words. Weight and centroid are then rounded once, as every link stores them,
 /// and (rho/a)^2 stays in two words. Conical heights are those of the exact body within 3 ulp, measured
 /// (tests/cpp/system/edit.cpp). Cost O(N).
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 

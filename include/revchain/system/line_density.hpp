@@ -9,7 +9,7 @@
 
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
@@ -41,10 +41,11 @@ class LineDensity {
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
         sum_up();
     }
-    /// From the pieces of another one, as a file keeps them: contiguous from 0 to `length`. `below` is found again.
+    /// From the pieces of another one, as a file keeps them. `below` is found again. Throws InvalidArgument for pieces
+    /// that are not contiguous from 0 to `length`, and for a density that is not positive and finite on them.
     LineDensity(double length, std::vector<Piece> pieces) : length_(length), pieces_(std::move(pieces)) {
         detail::require_positive("LineDensity", "length", length);
-        if (pieces_.empty()) detail::throw_invalid("LineDensity", "there must be at least one piece");
+        check_pieces();
         sum_up();
     }
 
@@ -90,6 +91,32 @@ class LineDensity {
     }
 
    private:
+    void check_pieces() const {
+        const double gap = 4 * std::numeric_limits<double>::epsilon() * length_;
+        double at = 0;
+        for (const Piece& piece : pieces_) {
+            const double begin = piece.middle - piece.half;
+            if (!(piece.half > 0 && std::abs(begin - at) <= gap))
+                detail::throw_invalid(
+                    "LineDensity", "a piece must begin where the one before ends, at " + detail::in_digits(at), begin);
+            double size = 0;
+            for (const double c : piece.factor) size += std::abs(c);
+            bool positive = size > 0 && std::isfinite(size);
+            if (piece.power != 0)
+                positive = positive && at == 0 && piece.factor[0] > 0 && piece.power > -1 && std::isfinite(piece.power);
+            else  // but for rounding
+                for (int i = 0; i <= degree; ++i)
+                    positive = positive && polynomial(piece.factor, std::cos(std::numbers::pi * i / degree)) >=
+                                               -10 * rounding * size;
+            if (!positive)
+                detail::throw_invalid("LineDensity", "weight per length must be positive and finite from " +
+                                                         detail::in_digits(begin) + " to " +
+                                                         detail::in_digits(end(piece)));
+            at = end(piece);
+        }
+        if (!(std::abs(at - length_) <= gap))
+            detail::throw_invalid("LineDensity", "the pieces must end at the length " + detail::in_digits(length_), at);
+    }
     void sum_up() {
         if (pieces_.front().power == 0) at_tip_ = about(0);
         for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);

@@ -7,7 +7,7 @@
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// One link of a chain: a rigid body with an upper and a lower pin. Greenhill (1908) §8.
 /// Units: any consistent set; weights enter only by their ratios. `Chain` checks the numbers.

@@ -9,7 +9,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain::detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Columns of the links of a tapered chain, for `Chain`, lowest first.
 template <Real T>

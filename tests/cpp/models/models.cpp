@@ -287,6 +287,35 @@ TEST_CASE("bounds found are no larger than those foreseen, of every model") {
     CHECK(least < 1e-9);  // some give more than they are asked for
 }
 
+TEST_CASE("a tolerance costs no more than none") {
+    Random random(71);
+    Index asked = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Index size = static_cast<Index>(std::exp(random.between(1, 6)));
+        const Chain<double> chain = random_chain(random, size);
+        const ChainKind kind(chain);
+        const Index count = std::min<Index>(3 + static_cast<Index>(random.between(0, 40)), size);
+        const Index first = 1 + static_cast<Index>(random.between(0, static_cast<double>(size - count)));
+        const double rtol = std::pow(10.0, random.between(-15, -1));
+        const Question full{first, count}, loose{first, count, rtol};
+        CAPTURE(size, first, count, rtol);
+        // of no model, as predicted
+        const auto exactly = select(models::for_modes, kind, full).estimates;
+        const auto loosely = select(models::for_modes, kind, loose).estimates;
+        for (std::size_t m = 0; m < exactly.size(); ++m)
+            if (exactly[m].fit.applies && exactly[m].error_bound <= models::detail::full_accuracy) {
+                CAPTURE(exactly[m].name);
+                CHECK(loosely[m].cost <= exactly[m].cost);
+            }
+        // Three modes and more: full accuracy costs less than the counts that this tolerance takes.
+        if (count < 3 || !(rtol < 1e-6)) continue;
+        const auto found = modes(chain, {.first = first, .count = count, .rtol = rtol, .method = ModesMethod::bisection});
+        CHECK(found.error_bound.maxCoeff() <= models::detail::full_accuracy);
+        ++asked;
+    }
+    CHECK(asked > 100);
+}
+
 TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
     const auto rods = Chain<double>::uniform_rods(100'000);
     const Choice quick = select(rods, {.count = 3, .rtol = 5e-16}, 1e-6);

@@ -6,7 +6,7 @@
 /// The scalar equation of one link, t the tangent of its inclination and s its sine:
 ///     lambda pull t + length cross s(t) = R.
 /// `stiffness` is lambda pull, `turning` is length cross.
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 template <class S>
 bool is_zero(const S& x) {

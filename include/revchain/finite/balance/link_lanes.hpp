@@ -8,7 +8,7 @@
 
 /// The equation of one link for several loads at once: what finite/balance/taylor.hpp needs of
 /// finite/balance/link_equation.hpp, for packs.
-namespace revchain::finite::detail {
+namespace revchain::inline REVCHAIN_BUILD::finite::detail {
 
 /// `any` and `if_less` for numbers, so that one text serves numbers and packs.
 inline bool any(bool yes) { return yes; }

@@ -7,7 +7,7 @@
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/interval.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its
 /// upper pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent

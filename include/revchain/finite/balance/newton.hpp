@@ -3,7 +3,7 @@
 
 #include "revchain/finite/balance/support_end.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A steady shape as offsets of the pins, free end first, the support's 0 last.
 template <class S>

@@ -5,7 +5,7 @@
 
 #include "revchain/finite/balance/links.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What the upward sweep has to end in. A chain: its topmost pin is on the axis. All of it is known when compiling.
 struct OnAxis {

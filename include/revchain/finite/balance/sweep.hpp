@@ -4,7 +4,7 @@
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/balance/support_end.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Result of the upward sweep: the offset of the topmost pin, and H, which is lambda times the sideways pull on it.
 template <class F>

@@ -9,7 +9,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Derivatives to the second order of a function of D numbers: what they stay within over a cell of those numbers, and
 /// the slopes at the cell's centre. T is a number or a pack of numbers, of a cell in each lane.

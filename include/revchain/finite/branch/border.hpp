@@ -3,7 +3,7 @@
 
 #include "revchain/finite/balance/links.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The balance of a whole chain and one condition beside it, linear in the changes d of the links' sideways reaches
 /// a sin delta and the change h of log lambda:

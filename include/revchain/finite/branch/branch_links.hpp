@@ -6,7 +6,7 @@
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A link at a tau: tangent, sine, secant; the slope of the sine along tau, and of the tangent along the sine.
 struct Inclined {

@@ -8,7 +8,7 @@
 #include "revchain/finite/branch/trace.hpp"
 #include "revchain/numeric/compiled.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size())

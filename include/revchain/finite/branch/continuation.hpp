@@ -4,7 +4,7 @@
 #include "revchain/finite/branch/corrector.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Follows one branch of steady shapes by its arc, through folds.
 ///

@@ -7,7 +7,7 @@
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/state.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Mean square of the tau and the square of log lambda: what arc is measured by.
 inline double inner(const BranchState& x, const BranchState& y) {

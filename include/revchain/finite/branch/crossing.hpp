@@ -3,7 +3,7 @@
 
 #include "revchain/finite/branch/continuation.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A number told of every point of a branch, less what it is to be, and its slope along the arc.
 struct Measured {

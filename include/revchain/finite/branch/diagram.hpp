@@ -10,7 +10,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
 /// it comes back or down to `log_end`.
@@ -335,7 +335,7 @@ Branches diagram_of(const System& system, const BranchesOptions& options) {
 
 }  // namespace revchain::finite
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOptions& options) {
     return finite::diagram_of(chain, options);

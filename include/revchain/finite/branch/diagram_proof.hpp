@@ -9,7 +9,7 @@
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A cell of such points.
 struct Rectangle {

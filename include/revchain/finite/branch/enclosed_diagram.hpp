@@ -6,7 +6,7 @@
 #include "revchain/finite/branch/state.hpp"
 #include "revchain/finite/shapes/list.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of the diagram: x = lambda times the tangent of the lowest link, and lambda.
 struct DiagramPoint {

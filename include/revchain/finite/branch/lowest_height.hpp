@@ -3,7 +3,7 @@
 
 #include "revchain/conical_pendulum.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The conical height down to which to follow branches, given as it is or as a speed.
 template <class Options>

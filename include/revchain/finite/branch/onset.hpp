@@ -8,7 +8,7 @@
 #include "revchain/linear/modes_of_one_sense.hpp"
 #include "revchain/linear/one_mode.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The branch near the vertical, to leading order in its amplitude: with phi the mode, lambda_k its height,
 ///     y = A phi,   lambda = lambda_k/(1 + A^2 curvature),   curvature = sum sigma d^4/a^3 / (2 sum sigma d^2/a).

@@ -5,7 +5,7 @@
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/corrector.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// One condition on the shape and the height, in double-double, that is solved together with the balance of forces. It
 /// knows its derivatives along the links' reaches a sin delta and along log lambda.

@@ -5,7 +5,7 @@
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A shape that Newton's method found at a height, with what `verified` proves of it at heights within `within`.
 inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>& height, const Interval<Far>& within,

@@ -8,7 +8,7 @@
 #include "revchain/finite/branch/shape_at.hpp"
 #include "revchain/finite/branch/trace.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Looks along a branch for a number measured there.
 template <class Found, class Measure>

@@ -3,7 +3,9 @@
 
 #include <vector>
 
-namespace revchain::finite {
+#include "revchain/numeric/compiler.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of a branch, or a direction along one: of each link tau, tan delta = sinh tau, and log lambda. tau is the
 /// inclination where that is small and, as the link nears the horizontal, the logarithm of its tangent: branches are

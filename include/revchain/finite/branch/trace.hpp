@@ -6,7 +6,7 @@
 #include "revchain/finite/branch/onset.hpp"
 #include "revchain/finite/branch/shape_at.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Appends a point, with what is told of it, to a branch. Numbers are those of `described`.
 template <class Branch>

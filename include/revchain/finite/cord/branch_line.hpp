@@ -4,7 +4,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Moment of inertia and potential energy of a path up to the support, by parts: with the axis at the support,
 ///     sum of weight times eta^2 = integral of u^2/T,   sum of weight times height above the support = - that of V^2/T.

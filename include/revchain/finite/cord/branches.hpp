@@ -4,7 +4,7 @@
 #include "revchain/branches.hpp"
 #include "revchain/finite/cord/branch_line.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A branch of steady shapes of a cord, point by point along its arc s, in the units of the cord:
 /// ds^2 = dtau^2 + d(log conical height)^2, where tan(inclination of the free end) = sinh(tau).

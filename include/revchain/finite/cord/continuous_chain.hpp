@@ -38,7 +38,7 @@
 /// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true where sqrt(rho/V) is
 /// known to be convex, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and
 /// `complete` is false.
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// The shapes found, and whether there are more.
 struct CordShapes {

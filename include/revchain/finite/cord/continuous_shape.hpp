@@ -6,7 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/cord/path.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A place on a whirling chain, in the units of the chain.
 struct CordPlace {

@@ -3,7 +3,7 @@
 
 #include "revchain/finite/cord/branches.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Branches of a cord and scanned lists of its shapes brought together.
 class CordDiagram {

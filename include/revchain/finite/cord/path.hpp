@@ -7,7 +7,7 @@
 #include "revchain/finite/cord/path_series.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A path from the free end upwards, whose offset there is given: where it crosses the axis, and how that changes with
 /// the offset. Two crossings have one turn (u = 0) between them, and (eta, u) passes through the four quadrants in one

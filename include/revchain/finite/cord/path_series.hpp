@@ -8,7 +8,7 @@
 
 #include "revchain/system/line_density.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A place of a whirling chain, lengths over the conical height lambda: sigma the distance from the free end, eta the
 /// offset from the axis, xi the height above the free end; and u, the pull across the axis over that of a length lambda

@@ -3,7 +3,7 @@
 
 #include "revchain/finite/cord/branches.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Shapes of one branch of a cord at which a number is as given, in the order of the arc.
 struct CordShapesOnBranch {

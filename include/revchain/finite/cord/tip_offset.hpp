@@ -3,7 +3,7 @@
 
 #include "revchain/finite/cord/path.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What is known of how the place s of one crossing depends on the offset eta_0 of the free end: s(0), and elsewhere
 /// s - s(0) = c eta_0^2/(1 + b eta_0), which is quadratic and then linear, as the chain is.

@@ -6,7 +6,7 @@
 
 #include "revchain/finite/held/sweep.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A chain held at both ends, its ends and what it has to meet, in intervals; and bounds of all its shapes.
 class HeldBounds {

@@ -3,7 +3,7 @@
 
 #include "revchain/finite/held/held.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Why a branch ends: at the greatest speed again; where a link is slack or turns over; where a chain between ends off
 /// the axis hangs as at rest; where a cord hangs folded along the axis; or after 3000 steps.

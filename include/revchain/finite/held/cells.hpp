@@ -3,7 +3,7 @@
 
 #include "revchain/finite/held/bounds.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What all chains that begin in a cell have in common. If shapes have mirror images, offsets are over the sine of the
 /// lowest link's angle, so that a chain along the axis is none of them.

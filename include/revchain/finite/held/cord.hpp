@@ -9,7 +9,7 @@
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/system/cord.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// A place on a cord held at both ends.
 struct HeldCordPlace {

@@ -4,7 +4,7 @@
 #include "revchain/finite/held/branch.hpp"
 #include "revchain/finite/held/cord.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 using HeldCordBranch = HeldBranchOf<HeldCordShape>;
 

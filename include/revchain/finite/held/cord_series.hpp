@@ -4,7 +4,7 @@
 #include "revchain/finite/cord/path_series.hpp"
 #include "revchain/finite/held/sweep.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A place of a uniform cord held at both ends, lengths over the cord's: arc from the lower end, offset y, height z,
 /// and lambda times the force that pulls upwards, over the weight: u across the axis (the way offsets are counted), V

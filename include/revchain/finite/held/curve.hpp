@@ -6,7 +6,7 @@
 #include "revchain/finite/held/sweep.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A state of something held at both ends, in double: forces at the lower end, and how far apart the ends are.
 struct HeldState {

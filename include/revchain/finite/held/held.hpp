@@ -7,7 +7,7 @@
 #include "revchain/finite/held/taut.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// Shapes of a chain held at both ends.
 struct HeldShapes {

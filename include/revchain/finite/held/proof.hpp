@@ -3,7 +3,7 @@
 
 #include "revchain/finite/held/sweep.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 namespace detail {
 

@@ -8,7 +8,7 @@
 #include "revchain/finite/held/cells.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A cell that holds one shape and no other: of the lowest link's pull and tangent, about the shape.
 struct HeldRoot {

@@ -5,7 +5,7 @@
 #include "revchain/finite/held/curve.hpp"
 #include "revchain/rig.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 /// One steady shape of a chain whose two ends are held: links lowest first, pins from the lower end up, in
 /// the units of the chain.

@@ -7,7 +7,7 @@
 #include "revchain/finite/held/sweep.hpp"
 #include "revchain/rig.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What holds the two ends, and the height at which springs are taken: that of the shape if none is given.
 struct HeldSupports {

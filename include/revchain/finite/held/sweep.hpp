@@ -6,7 +6,7 @@
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/balance/support_end.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Lambda times the force that holds the lower end of a chain held at both ends, across the axis and along it; the
 /// conical height lambda = g/n^2 itself, 0 without gravity; and the part that there is of how the ends are held: with 0

@@ -4,7 +4,7 @@
 #include "revchain/finite/held/supports.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
 
 /// Small offsets of a chain held at both ends, tau = lambda times the tension at the lower end, `along`: the pencil of

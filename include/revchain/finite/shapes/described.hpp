@@ -6,7 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/balance/newton.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
 

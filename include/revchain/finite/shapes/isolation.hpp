@@ -7,7 +7,7 @@
 #include "revchain/finite/balance/taylor.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Where the tangent of the lowest link lies at a steady shape: in low ... high, once and nowhere twice.
 template <class T>

@@ -3,7 +3,7 @@
 
 #include "revchain/finite/shapes/tangent_box.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// KrawczykList of the balance in one posture, each in a box that holds no other; mirror images are one.
 template <Real T, class End = OnAxis>

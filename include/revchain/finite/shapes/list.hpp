@@ -17,7 +17,7 @@
 #include "revchain/numeric/parallel.hpp"
 
 /// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
 /// chain reaches.  y0 = lambda t + (a X/moment) s.

@@ -3,7 +3,7 @@
 
 #include "revchain/finite/balance/link_equation.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A stretch of tangents along which R grows or falls throughout. Where stiffness +- turning > 0 there is but one, the
 /// whole; else R falls in the middle and grows to its right and left, and meets at the joints

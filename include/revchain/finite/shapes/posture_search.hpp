@@ -5,7 +5,7 @@
 #include "revchain/finite/shapes/krawczyk_list.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A range of tangents of the lowest link, along one choice of branches, that could not be decided.
 template <class T>

@@ -4,7 +4,7 @@
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/rig.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a,
 /// H what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.

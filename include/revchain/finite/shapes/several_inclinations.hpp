@@ -4,7 +4,7 @@
 #include "revchain/finite/balance/newton.hpp"
 #include "revchain/finite/shapes/posture_search.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A shape and how far it may be from the true one.
 struct Settled {

@@ -12,7 +12,7 @@
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 

@@ -8,7 +8,7 @@
 #include "revchain/finite/balance/support_end.hpp"
 #include "revchain/finite/shapes/monotone_branch.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Tangents of all links, each within an interval.
 template <class T>

@@ -5,7 +5,7 @@
 
 #include "revchain/finite/shapes/described.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What is proved of a shape that Newton's method found.
 struct Verified {

@@ -9,7 +9,7 @@
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/stability.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);  // finite/stability/stability.hpp
 
@@ -209,7 +209,7 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
 
 }  // namespace revchain::finite
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 inline Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame) {
     return finite::judged(frame, cord, shape);

@@ -17,7 +17,7 @@ inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 }  // namespace revchain
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Directions at right angles to the columns of a matrix.
 template <class S>

@@ -10,7 +10,7 @@
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
 
 /// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are

@@ -7,7 +7,7 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/stability_windows.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 

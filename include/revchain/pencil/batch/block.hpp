@@ -7,7 +7,7 @@
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/simd/pack.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Chains in one block; each kind of processor takes them in registers of its own width.
 inline constexpr std::ptrdiff_t block_lanes = 16;

@@ -3,7 +3,7 @@
 
 #include "revchain/pencil/batch/block.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Plummets: force F above and offset y of each pin for a free end at offset 1, with mu = 1/lambda,
 ///

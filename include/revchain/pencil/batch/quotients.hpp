@@ -3,7 +3,7 @@
 
 #include "revchain/pencil/batch/block.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 

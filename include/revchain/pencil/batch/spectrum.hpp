@@ -8,7 +8,7 @@
 #include "revchain/pencil/batch/quotients.hpp"
 #include "revchain/pencil/batch/zeros.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Where the first approximations come from. With the recurrence alone all modes of 10 links took 2.5 times as long, of
 /// 16 3 times.

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A complex number of two double words; std::complex is for the built-in scalars alone.
 struct ComplexWord {

@@ -7,7 +7,7 @@
 
 #include "revchain/numeric/scalar.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A gyroscopic system that motion in a mirror leaves alone,
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,

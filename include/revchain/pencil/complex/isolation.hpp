@@ -9,7 +9,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
 /// Values of det Q with error bounds, and distances between approximate roots: with them all roots are proved at once.
-namespace revchain::pencil::detail {
+namespace revchain::inline REVCHAIN_BUILD::pencil::detail {
 
 inline constexpr std::size_t value_lanes = most_doubles;
 

@@ -16,7 +16,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
 /// All roots of det Q(x) at once, in double, eight and more in the lanes of a pack: starts that prove nothing.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A complex number in each lane.
 template <class V>

@@ -8,7 +8,7 @@
 #include "revchain/pencil/complex/isolation.hpp"
 
 /// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign: what counts cannot number.
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// An x, how far (in the plane) the exact one may be from it, and whether that is proved.
 struct EnclosedRoot {

@@ -7,7 +7,7 @@
 
 #include "revchain/pencil/condensed/pencil.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A run of links condensed so far: its transfer in T, the three numbers that matter most in `Wide<T>` too, and what
 /// all roundings and truncations on the way have changed (docs/accuracy.md, "Blocks").

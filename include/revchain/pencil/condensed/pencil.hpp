@@ -11,7 +11,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A run of links condensed to its two end pins, exactly up to rounding and truncation: a spring between the pins and a
 /// mass at each, all depending on mu = 1/lambda. With z = -mu and t = 1 + b1 z + b2 z^2 + ... they are

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "revchain/numeric/compiler.hpp"
+
 /// Loops of a fixed few turns that GCC leaves loops at -O3 (a factor of two). Without optimisation it warns instead.
 #if defined(__OPTIMIZE__)
 #define REVCHAIN_UNROLL _Pragma("GCC unroll 8")
@@ -11,7 +13,7 @@
 #define REVCHAIN_UNROLL
 #endif
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin, as polynomials in
 /// z = -mu = -1/lambda:

@@ -6,7 +6,7 @@
 #include "revchain/numeric/interval.hpp"
 #include "revchain/pencil/signed.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// An element between two neighbouring pins of  height K - M  whose end is moved from outside: stiffness
 /// height k + spin s, spin within two operations of what is meant.

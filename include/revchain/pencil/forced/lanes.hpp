@@ -5,7 +5,7 @@
 
 #include "revchain/pencil/forced/elements.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Which pins are wanted, and room for what leads from one of them to the next.
 struct DrivenPins {

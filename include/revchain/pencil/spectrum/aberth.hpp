@@ -8,7 +8,7 @@
 
 #include "revchain/pencil/spectrum/aberth_walks.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Eigenvalues lambda, descending, and a bound on the relative error of each.
 struct AberthSpectrum {

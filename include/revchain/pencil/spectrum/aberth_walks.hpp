@@ -10,7 +10,7 @@
 /// All eigenvalues of a small pencil of lumped links, four of them to a pack: what is done link by link.
 /// Walks of their own beside those of quotient.hpp, which cut long chains into legs and keep all they need on the heap:
 /// all modes of 10 plummets take 0.7 microseconds here and 19 there, of 40 11 and 44, of 100 49 and 134.
-namespace revchain::pencil::aberth {
+namespace revchain::inline REVCHAIN_BUILD::pencil::aberth {
 
 /// The largest chain served; its numbers stand on the stack.
 inline constexpr std::size_t most_links = 128;

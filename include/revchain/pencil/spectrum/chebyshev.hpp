@@ -8,7 +8,7 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/simd/pack.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// A polynomial on [-1, 1] by its Chebyshev coefficients.
 struct Chebyshev {

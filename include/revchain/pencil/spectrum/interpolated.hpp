@@ -8,7 +8,7 @@
 #include "revchain/pencil/spectrum/window.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-namespace revchain::pencil {
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace spectrum {
 

@@ -7,7 +7,7 @@
 
 #include "revchain/pencil/element.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
 /// and the mass -X that only the difference of the two offsets feels. A link's own inertia is

@@ -6,7 +6,7 @@
 #include "revchain/pencil/spectrum/lumped_chain.hpp"
 #include "revchain/simd/pack.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// What a twisted vector at a shift mu = 1/lambda gives.
 struct Quotient {

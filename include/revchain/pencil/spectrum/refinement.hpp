@@ -3,7 +3,7 @@
 
 #include "revchain/pencil/spectrum/quotient.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// What a twisted vector at a shift mu gives beyond what doubles hold: see `Quotient`.
 struct FineQuotient {

@@ -7,7 +7,7 @@
 #include "revchain/pencil/spectrum/lumped_chain.hpp"
 #include "revchain/simd/pack.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// The characteristic polynomial at a shift, value * 2^exponent, and the number of eigenvalues mu below the shift.
 struct Sample {

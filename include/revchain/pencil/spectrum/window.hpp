@@ -4,7 +4,7 @@
 #include "revchain/pencil/spectrum/chebyshev.hpp"
 #include "revchain/pencil/spectrum/samples.hpp"
 
-namespace revchain::pencil::spectrum {
+namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// The eigenvalues mu number first ... last - 1 (from 0, ascending) lie in [lower, upper), by counts in double.
 struct Window {

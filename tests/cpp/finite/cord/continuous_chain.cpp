@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/catch.hpp"
+#include "support/chains.hpp"
 #include "support/table.hpp"
 
 using revchain::Cord;
@@ -225,6 +226,35 @@ TEST_CASE("a density made again from its pieces is the same", "[finite]") {
         }
     }
     CHECK_THROWS_AS(LineDensity(1.0, {}), revchain::InvalidArgument);
+}
+
+TEST_CASE("pieces that are no density are refused", "[finite]") {
+    using revchain::InvalidArgument;
+    using Pieces = std::vector<LineDensity::Piece>;
+    support::Random random(7);
+    for (int i = 0; i < 300; ++i) {
+        const double power = i % 2 == 0 ? 0 : random.between(-0.9, 3), length = std::exp(random.between(-9, 9));
+        const double jump = random.between(0.1, 0.9) * length, height = random.between(0, 5);
+        const LineDensity density([=](double s) { return (1 + (s > jump ? height : 0)) * std::pow(s / length, power); },
+                                  length);
+        const Pieces& pieces = density.pieces();
+        REQUIRE(LineDensity(length, pieces).total() == density.total());
+        const auto at = static_cast<std::size_t>(random.between(0, static_cast<double>(pieces.size())));
+        const auto refused = [&](const auto& change) {
+            Pieces changed = pieces;
+            change(changed, changed[at]);
+            CHECK_THROWS_AS(LineDensity(length, changed), InvalidArgument);
+        };
+        CAPTURE(power, length, at, pieces.size());
+        refused([](Pieces&, auto& piece) { piece.half = -piece.half; });
+        refused([&](Pieces&, auto& piece) { piece.middle += 1e-3 * length; });
+        refused([](Pieces&, auto& piece) { piece.factor[0] = -piece.factor[0]; });
+        if (pieces[at].power == 0) refused([](Pieces&, auto& piece) { piece.factor[1] += 100 * piece.factor[0]; });
+        refused([](Pieces&, auto& piece) { piece.factor[3] = std::nan(""); });
+        refused([](Pieces&, auto& piece) { piece.power = -1; });
+        refused([&](Pieces& changed, auto&) { changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(at)); });
+        CHECK_THROWS_AS(LineDensity(length * 1.01, pieces), InvalidArgument);
+    }
 }
 
 TEST_CASE("critical heights of a chain with a tip mass, of a power law, of two halves", "[finite]") {
