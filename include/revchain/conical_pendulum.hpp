@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "revchain/numeric/double_word.hpp"
@@ -119,6 +121,19 @@ double height_given(std::string_view place, const Options& options) {
                                                  : conical_pendulum::height(*options.angular_speed, options.gravity);
     require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);
     return height;
+}
+
+/// Throws InvalidArgument: at the speed or the height that options give, mode `mode` has not left the vertical, which
+/// it does at the height `critical`. The message is in the quantity that was given.
+template <class Options>
+[[noreturn]] void throw_too_slow(std::string_view place, Index mode, double critical, double height,
+                                 const Options& options) {
+    const std::string there = ", where mode " + std::to_string(mode) + " leaves the vertical";
+    if (!options.angular_speed)
+        throw_rule(place, "conical height", "less than " + in_digits(critical) + there, height);
+    const double speed = conical_pendulum::angular_speed(critical, options.gravity);
+    throw_rule(place, "angular speed", "greater than " + in_digits(speed) + " rad/s" + there,
+               std::abs(*options.angular_speed));
 }
 
 }  // namespace detail

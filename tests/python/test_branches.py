@@ -250,8 +250,11 @@ def test_shapes_that_are_not_there(given, message):
 def test_wrong_calls():
     chain = plummets(3)
     first = rc.modes(chain).conical_height[0]
-    with pytest.raises(ValueError, match="mode 1 leaves the vertical at the conical height"):
+    with pytest.raises(ValueError, match=r"conical height must be less than [\d.]+, where mode 1 leaves the vertical, got"):
         rc.steady_shape(chain, mode=1, conical_height=first)
+    for slow in (chain, rc.Cord(1.0)):  # in the quantity that was given
+        with pytest.raises(ValueError, match=r"angular speed must be greater than [\d.]+ rad/s, where mode 1 .*, got 1$"):
+            rc.steady_shape(slow, mode=1, angular_speed=1.0)
     with pytest.raises(ValueError, match="frame must be"):
         rc.branch(chain, 1, min_conical_height=0.1).stability_windows(frame="fixed")
     with pytest.raises(ValueError, match="tolerance must be positive"):

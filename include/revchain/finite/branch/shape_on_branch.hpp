@@ -235,11 +235,7 @@ Found search_branch(const System& system, const Options& given) {
                                 });
     const S height = height_given(place, given);
     const double near = static_cast<double>(height);
-    if (falls && !(near < root.height))
-        throw_invalid(place,
-                      "mode " + std::to_string(given.mode) + " leaves the vertical at the conical height " +
-                          in_digits(root.height) + " and has no shape at one that is not less (it turns too slowly)",
-                      near);
+    if (falls && !(near < root.height)) revchain::detail::throw_too_slow(place, given.mode, root.height, near, given);
     const double wanted = std::log(near * unit);
     return run(HeightMeasure{wanted}, GivenHeight<S>(height * S(unit)),
                root.onset ? amplitude_at(*root.system, *root.onset, height * S(unit)) : 0.0,

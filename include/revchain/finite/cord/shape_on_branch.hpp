@@ -37,12 +37,7 @@ class WantedOnLine {
                                            : conical_pendulum::height(*given.angular_speed, given.gravity);
             require_positive(place, given.conical_height ? "conical height" : "gravity / angular speed^2", height_);
             if (!(height_ < critical))
-                throw_invalid(place,
-                              "mode " + std::to_string(line.crossing()) +
-                                  " leaves the vertical at the conical height " +
-                                  revchain::detail::in_digits(critical) +
-                                  " and has no shape at one that is not less (it turns too slowly)",
-                              height_);
+                revchain::detail::throw_too_slow(place, line.crossing(), critical, height_, given);
             kind_ = Kind::height, wanted_ = std::log(height_);
         } else if (given.tip_inclination) {
             if (!(*given.tip_inclination > 0 && *given.tip_inclination < std::numbers::pi / 2))

@@ -9,7 +9,7 @@
 #include "revchain/finite/balance/links.hpp"
 #include "revchain/numeric/double_double.hpp"
 
-namespace revchain {
+namespace revchain::inline REVCHAIN_BUILD {
 
 // What Eigen's solvers ask of a scalar besides.
 inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
