@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/finite/stability/cord.hpp"
 
 #include <pybind11/functional.h>
@@ -108,9 +109,8 @@ void bind_cord(py::module_& module) {
     module.def(
         "cord_stability",
         [](const Cord& cord, const revchain::CordShape& shape, bool driven) {
-            const py::gil_scoped_release release;
             const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return revchain::stability(cord, shape, frame);
+            return aside(nullptr, [=] { return revchain::stability(cord, shape, frame); });
         },
         "cord"_a, "shape"_a, "driven"_a);
 }

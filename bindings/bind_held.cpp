@@ -149,9 +149,8 @@ void bind_held(py::module_& module) {
     module.def(
         "held_stability",
         [](const revchain::Cord& cord, const HeldCordShape& shape, bool driven) {
-            const py::gil_scoped_release release;
             const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return revchain::stability(cord, shape, frame);
+            return aside(nullptr, [=] { return revchain::stability(cord, shape, frame); });
         },
         "cord"_a, "shape"_a, "driven"_a);
     module.def(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Branches of steady shapes of cords, inverse questions, stability and swing: against integration in 22 digits, laws of
 // energy, and ever more links.
+#include <random>
+
 #include "revchain/branches.hpp"
 #include "revchain/cord.hpp"
 #include "revchain/swing.hpp"
@@ -29,7 +31,7 @@ Cord beads() {
 /// A cord of weight 1 and length 1, whose density goes like s^p, as links of equal length.
 Chain<double> links_of(Index count, double p, double tip) {
     const auto rods =
-        p == 0 ? Chain<double>::uniform_rods(count, 1.0, 1.0) : Chain<double>::tapered(count, p, 1.0, 1.0);
+        p == 0 ? Chain<double>::uniform_rods(count, 1.0, 1.0) : Chain<double>::tapered(count, 1.0, p, 1.0);
     std::vector<revchain::Link<double>> links;
     for (Index m = 0; m < count; ++m) links.push_back(rods.link(m));
     revchain::Link<double>& lowest = links.front();  // with the particle at its lower end, as one body
@@ -226,6 +228,68 @@ TEST_CASE("cord: exponents are the limit of those of N links, and converge as 1/
     const auto driven = revchain::stability(uniform, shapes[0], StabilityFrame::driven);
     CHECK(driven.verdict == revchain::Verdict::minimum);
     CHECK_THROWS_AS(revchain::stability(Cord(2.0), shapes[0]), revchain::InvalidArgument);
+}
+
+TEST_CASE("cord: the slowest exponents of any power are those of N links") {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<> any(0, 1);
+    for (int i = 0; i < 9; ++i) {
+        const double p = 3.5 * any(random) - 0.5, tip = i % 3 == 0 ? any(random) : 0.0;
+        const int mode = 1 + i % 3;
+        const Cord cord(1.0, {.density = p, .tip_weight = tip});
+        const double critical = revchain::modes(cord, {.first = mode, .count = 1}).conical_height[0];
+        const double height = (0.3 + 0.6 * any(random)) * critical;
+        CAPTURE(p, tip, mode, height);
+        const auto slowest = [](const revchain::Stability& s) {
+            std::vector<std::complex<double>> upper;
+            for (const auto& x : s.exponents)
+                if (x.imag() > -1e-9 && x.real() > -1e-9) upper.push_back(x);
+            std::sort(upper.begin(), upper.end(),
+                      [](const auto& x, const auto& y) { return std::abs(x) < std::abs(y); });
+            return upper;
+        };
+        const auto apart = [](const std::complex<double>& s, const std::vector<std::complex<double>>& from) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const auto& x : from) least = std::min(least, std::abs(x - s));
+            return least;
+        };
+        const auto shape = revchain::steady_shape(cord, {.mode = mode, .conical_height = height});
+        const auto limit = slowest(revchain::stability(cord, shape));
+        std::array<std::vector<std::complex<double>>, 2> linked;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto chain = links_of(24 << k, p, tip);
+            linked[k] = slowest(
+                revchain::stability(chain, revchain::steady_shape(chain, {.mode = mode, .conical_height = height})));
+        }
+        REQUIRE(limit.size() >= 6);
+        for (std::size_t k = 0; k < 6; ++k) {
+            CAPTURE(k, limit[k], linked[0][k], linked[1][k]);
+            const double moved = apart(linked[1][k], linked[0]);
+            CHECK(apart(limit[k], linked[1]) <= moved + 1e-3 * std::abs(limit[k]));  // a third of it at order 2
+        }
+    }
+}
+
+TEST_CASE("cord: the exponents that are listed have none between them") {
+    // here the free end, where the density is a root, needs an integral of its own
+    const Cord cord(1.913709480229319, {.weight = 2.8310588882513597, .density = 0.5});
+    const auto found =
+        revchain::stability(cord, revchain::steady_shape(cord, {.mode = 2, .angular_speed = 11.02126420501079}));
+    std::vector<double> turning;
+    for (const auto& s : found.exponents)
+        if (s.imag() > 0) turning.push_back(s.imag());
+    REQUIRE(turning.size() > 10);
+    // Richardson's extrapolation of chains of 60 and 120 links
+    for (const auto& [k, linked] : {std::pair(0, 0.60324125), std::pair(1, 0.60733235), std::pair(2, 0.80415949)})
+        CHECK(std::abs(turning[static_cast<std::size_t>(k)] - linked) < 1e-6);
+    const auto sparse = links_of(40, 0.5, 0.0);
+    const Cord one(1.0, {.density = 0.5});
+    const auto limit = revchain::stability(one, revchain::steady_shape(one, {.mode = 2, .conical_height = 0.05}));
+    const auto chain = revchain::stability(sparse, revchain::steady_shape(sparse, {.mode = 2, .conical_height = 0.05}));
+    const auto below = [](const revchain::Stability& s, double most) {
+        return std::count_if(s.exponents.begin(), s.exponents.end(), [&](const auto& x) { return std::abs(x) < most; });
+    };
+    for (const double most : {1.0, 2.0, 3.0}) CHECK(below(limit, most) == below(chain, most));
 }
 
 TEST_CASE("cord: it swings as ever more links do") {

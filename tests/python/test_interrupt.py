@@ -16,6 +16,8 @@ CALLS = {
     "steady_shapes": "rc.steady_shapes(rc.Chain.uniform_plummets(12), conical_height=1e-3, hanging_only=False)",
     "stability": "shape.stability()",
     "stability of a held shape": "held.stability()",
+    "stability of a cord": "wavy.stability()",
+    "stability of a held cord": "held_wavy.stability()",
     "stability_windows": "branch.stability_windows()",
     "branch": "rc.branch(rods, 1, min_conical_height=1e-9, max_step=1e-3, max_points=1_000_000)",
     "branches": "rc.branches(rc.Chain.uniform_plummets(8), min_conical_height=0.01)",
@@ -52,6 +54,8 @@ rods, large, many = rc.Chain.uniform_rods(2000, length=3.0), rc.Chain.uniform_ro
 loop = rc.Chain.uniform_rods(300, length=1.0)
 shape = rc.steady_shapes(loop, conical_height=0.5)[0]
 held = rc.steady_shapes(rc.Held(loop, span=0.5), conical_height=0.1, prove=False)[0]
+wavy = rc.steady_shape(rc.Cord(1.0), mode=12, conical_height=1e-3)
+held_wavy = rc.steady_shapes(rc.Held(rc.Cord(1.0), span=0.5), conical_height=1e-3, max_half_waves=12)[-1]
 rope = rc.Held(rc.Cord(0.678, weight=1.0), tension=0.861)
 impact = rc.BufferImpact(front_mass=1, rear_mass=50, buffer_stiffness=1, coupling_stiffness=2, speed=1)
 branch = rc.branch(rc.Chain.uniform_rods(60, length=1.0), 1, min_conical_height=0.2)

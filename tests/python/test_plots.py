@@ -78,6 +78,17 @@ def test_a_long_chain_is_thinned_and_keeps_its_extremes():
         assert (signs[1:] != signs[:-1]).sum() == mode - 1
 
 
+@pytest.mark.parametrize("tip", [0.01, 0.5, 20.0])
+def test_every_mode_is_as_wide_as_its_column(tip):
+    """Shapes are 1 at the free end; below a heavy tip a cord is hundreds of times as far out in between."""
+    system = rc.Cord(2.0, mass=0.5, tip_mass=tip)
+    for modes in (rc.modes(system, 4), rc.modes(system.chain(40), 4)):
+        axes = modes.plot()
+        for number in range(1, 5):
+            curve = next(line for line in axes.lines if line.get_label() == f"mode {number}").get_xdata()
+            assert np.abs(curve - number * SPACING).max() == pytest.approx(1)
+
+
 def test_pins_are_dots_where_they_are_few():
     few = rc.modes(rc.Chain.uniform_plummets(5)).plot(modes=[1])
     assert next(line for line in few.lines if line.get_label() == "mode 1").get_marker() == "o"

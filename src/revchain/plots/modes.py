@@ -315,6 +315,7 @@ def _speed_label(name: str, speed: float) -> str:
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:
     shape, system = modes.shape[row], straight.system
+    shape = shape / np.abs(shape).max()  # that of a cord with a tip may be largest anywhere
     colour = f"C{(int(modes.number[row]) - 1) % 10}"
     if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
         colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD

@@ -197,8 +197,8 @@ class CordShape(_Bent):
         Returns
         -------
         Stability
-            ``exponents`` are the slowest of infinitely many, those on which two discretisations agree to 1e-6; most are
-            correct to 1e-9. ``margin`` covers their difference in the growth rate; if they differ in more, the verdict is
+            ``exponents`` are the slowest of infinitely many, up to the first on which two discretisations do not agree to
+            1e-6; most are correct to 1e-9. None is left out between them. ``margin`` covers their difference in the growth rate; if they differ in more, the verdict is
             ``'undecided'``. ``internal_damping`` is NaN, because a flexible cord has no bending stiffness.
 
         Raises

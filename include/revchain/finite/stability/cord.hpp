@@ -17,15 +17,19 @@ Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& uni
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;  ///< arcs between which inclination and tension are smooth, ascending
+    std::vector<double> steps;   ///< arcs between which inclination and tension are smooth, ascending
+    std::vector<double> pieces;  ///< and those between which the density is; none where it is uniform
     std::function<std::array<double, 2>(double)> at;      ///< arc to inclination and lambda times the tension
     std::function<double(double)> density, weight_below;  ///< of the arc
     bool is_held = false;                                 ///< the lower end, too, on the axis
 };
 
 inline CordProfile profile_of(const CordShape& shape) {
-    CordProfile profile{shape.support_arc, shape.kind.tip, shape.half_waves, {}, {}, {}, {}};
+    CordProfile profile{shape.support_arc, shape.kind.tip, shape.half_waves, {}, {}, {}, {}, {}};
     for (const Path::Step& step : shape.steps) profile.steps.push_back(step.start.arc);
+    if (shape.density)
+        for (const LineDensity::Piece& piece : shape.density->pieces())
+            profile.pieces.push_back((piece.middle + piece.half) / shape.conical_height);
     profile.at = [&shape](double arc) {
         const CordPlace place = shape(std::min(arc * shape.conical_height, shape.length));
         return std::array{place.inclination, place.tension / (shape.conical_height * shape.kind.line_weight)};
@@ -36,7 +40,7 @@ inline CordProfile profile_of(const CordShape& shape) {
 }
 
 inline CordProfile profile_of(const HeldCordShape& shape) {
-    CordProfile profile{1, 0, shape.half_waves, {}, {}, {}, {}, true};
+    CordProfile profile{1, 0, shape.half_waves, {}, {}, {}, {}, {}, true};
     for (const HeldCordState& step : shape.steps) profile.steps.push_back(step.arc);
     profile.at = [&shape](double arc) {
         const HeldCordPlace place = shape(std::min(arc * shape.length, shape.length));
@@ -55,54 +59,56 @@ inline CordProfile profile_of(const HeldCordShape& shape) {
 ///     - 1/2 integral of T (a^2 + b^2)    (here ' by time).
 /// A lower end that is held allows those a and b only that leave it where it is.
 /// a and b are polynomials on panels, given at the nodes of Gauss's rule, and need not be continuous, as no derivative
-/// of them occurs: a chain of links is the case of one node a panel. Integrals by Gauss's rule: the order is twice the
-/// number of nodes where the shape is smooth.
+/// of them occurs: a chain of links is the case of one node a panel. Integrals by Gauss's rule, on panels and, where
+/// the density is in pieces, on each piece of a panel: next to a free end it may go like a power of the arc. The order
+/// is twice the number of nodes where the shape is smooth.
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)
-        : shape_(shape), rule_(revchain::detail::gauss_rule(nodes)), inner_(nodes, nodes) {
+        : shape_(shape), nodes_(nodes), rule_(revchain::detail::gauss_rule(nodes)) {
         const std::vector<double> ends = panel_ends();
-        integrate_polynomials();
         const auto panels = static_cast<Index>(ends.size()) - 1, n = panels * nodes;
-        arc_.resize(n), wide_.resize(n), cosine_.resize(n), sine_.resize(n), tension_.resize(n), mass_.resize(n);
+        for (Vector<double>* v : {&wide_, &cosine_, &sine_}) v->resize(n);
         for (Index p = 0; p < panels; ++p)
             add_panel(p, ends[static_cast<std::size_t>(p)], ends[static_cast<std::size_t>(p) + 1]);
     }
 
     Disturbed disturbed() const {
-        const Index n = arc_.size();
-        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // so that the basis is orthonormal
-        Matrix<double> along = Matrix<double>::Zero(n + 1, n);  // integral from a node to the support; last: all
-        const Index nodes = inner_.rows();
-        for (Index j = 0; j < n; ++j) {
-            const Index panel = j / nodes;
-            along.col(j).head(panel * nodes).setConstant(wide_[j] * scale[j]);
-            along(n, j) = wide_[j] * scale[j];
-            const double width = wide_[j] / rule_[static_cast<std::size_t>(j % nodes)].second;
-            along.col(j).segment(panel * nodes, nodes) = width * scale[j] * inner_.col(j % nodes);
-        }
-        Vector<double> mass(n + 1), length(n + 1);
-        mass << mass_, shape_.tip;
-        length << wide_, 0;
-        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(), Y = -along;
         Disturbed d;
-        d.doubt = tension_.maxCoeff();
+        const Index n = wide_.size(), m = static_cast<Index>(points_.size());
+        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // so that the basis is orthonormal
+        Matrix<double> value = Matrix<double>::Zero(m, n);
+        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integral from a point to the support; last: all
+        Vector<double> mass(m + 1), length(m + 1), tension(m);
+        for (Index i = 0; i < m; ++i) {
+            const Point& point = points_[static_cast<std::size_t>(i)];
+            const Index first = point.panel * nodes_, above = first + nodes_;
+            const auto own = scale.segment(first, nodes_);
+            value.row(i).segment(first, nodes_) = lagrange(point.at).cwiseProduct(own);
+            along.row(i).segment(first, nodes_) = point.panel_width * integrals(point.at).cwiseProduct(own);
+            along.row(i).tail(n - above) = wide_.cwiseProduct(scale).tail(n - above);
+            mass[i] = point.mass, length[i] = point.wide, tension[i] = point.wide * point.tension;
+            d.doubt = std::max(d.doubt, point.tension);
+        }
+        along.row(m) = wide_.cwiseProduct(scale);
+        mass[m] = shape_.tip, length[m] = 0;
+        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(), Y = -along;
         const auto weighed = [](const Matrix<double>& left, const Vector<double>& by, const Matrix<double>& right) {
             return Matrix<double>(left.transpose() * by.asDiagonal() * right);
         };
-        const Matrix<double> across = weighed(X, mass, X);
+        const Matrix<double> across = weighed(X, mass, X), pulled = weighed(value, tension, value);
         d.inertia = across + weighed(Z, mass, Z);
         d.coupling = weighed(X, mass, Y), d.mass = weighed(Y, mass, Y);
-        d.in_plane = Matrix<double>(tension_.asDiagonal()) - across;
-        d.out_of_plane = Matrix<double>(tension_.asDiagonal()) - d.mass;
+        d.in_plane = pulled - across;
+        d.out_of_plane = pulled - d.mass;
         d.turned = d.bending = d.swivelling = Matrix<double>::Zero(n, n);
         d.drag_across = weighed(Y, length, Y), d.drag_coupling = weighed(X, length, Y);
         d.drag_in_plane = weighed(X, length, X) + weighed(Z, length, Z);
         d.ends = Matrix<double>::Zero(n, 2);
         d.offset = -sine_.cwiseQuotient(scale);
         if (shape_.is_held) {
-            d.ends << X.row(n).transpose(), Z.row(n).transpose();
-            const Matrix<double> out = beside(Y.row(n).transpose());
+            d.ends << X.row(m).transpose(), Z.row(m).transpose();
+            const Matrix<double> out = beside(Y.row(m).transpose());
             d.keep(beside(d.ends), out);
             d.offset = (out.transpose() * d.offset).eval();
         }
@@ -128,47 +134,81 @@ class DisturbedCord {
             if (at - ends.back() > longest / 2 || std::abs(angle - last) > 0.4) add_up_to(at, angle);
         }
         add_up_to(length, inclination(length));
+        add_jumps(ends);
         return ends;
     }
-    /// inner(m, j): integral of the j-th Lagrange polynomial of the nodes from node m to 1.
-    void integrate_polynomials() {
-        const Index n = inner_.rows();
-        const auto node = [&](Index i) { return rule_[static_cast<std::size_t>(i)].first; };
-        for (Index m = 0; m < n; ++m)
-            for (Index j = 0; j < n; ++j) {
-                double sum = 0;
-                for (const auto& [t, weight] : rule_) {
-                    const double x = node(m) + (1 - node(m)) * t;
-                    double value = 1;
-                    for (Index k = 0; k < n; ++k)
-                        if (k != j) value *= (x - node(k)) / (node(j) - node(k));
-                    sum += weight * value;
-                }
-                inner_(m, j) = sum * (1 - node(m));
-            }
-    }
-    void add_panel(Index panel, double low, double high) {
-        const Index nodes = inner_.rows();
-        double sum = 0;
-        for (Index i = 0; i < nodes; ++i) {
-            const auto& [t, weight] = rule_[static_cast<std::size_t>(i)];
-            const Index at = panel * nodes + i;
-            const double arc = low + (high - low) * t;
-            const auto [inclination, tension] = shape_.at(arc);
-            arc_[at] = arc, wide_[at] = weight * (high - low);
-            cosine_[at] = std::cos(inclination), sine_[at] = std::sin(inclination), tension_[at] = tension;
-            mass_[at] = wide_[at] * shape_.density(arc);
-            sum += mass_[at];
+    /// Panels meet, too, where the density jumps; not where it jumps so often that the unknowns would be too many.
+    void add_jumps(std::vector<double>& ends) const {
+        constexpr std::size_t most = 16;
+        std::vector<double> jumps;
+        for (const double at : shape_.pieces) {
+            const double last = jumps.empty() ? 1000 * narrow() : jumps.back() + 4 * narrow();
+            if (!(at > last && at < shape_.length - narrow())) continue;
+            const double below = shape_.density(at - narrow()), above = shape_.density(at + narrow());
+            if (std::abs(above - below) > 0.01 * std::max(above, below)) jumps.push_back(at);
         }
-        // the weight of the panel as it is, however the density varies
-        const double whole = shape_.weight_below(high) - shape_.weight_below(low);
-        mass_.segment(panel * nodes, nodes) *= whole / sum;
+        if (jumps.size() > most) return;
+        const auto has_jump = [&](double at) {
+            return std::any_of(jumps.begin(), jumps.end(), [&](double x) { return std::abs(x - at) < narrow(); });
+        };
+        ends.erase(std::remove_if(ends.begin() + 1, ends.end() - 1, has_jump), ends.end() - 1);
+        ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
+        std::sort(ends.begin(), ends.end());
     }
+    /// The Lagrange polynomials of the nodes at a place of a panel, which reaches from 0 to 1.
+    Vector<double> lagrange(double x) const {
+        Vector<double> values = Vector<double>::Ones(nodes_);
+        for (Index j = 0; j < nodes_; ++j)
+            for (Index k = 0; k < nodes_; ++k)
+                if (k != j) values[j] *= (x - node(k)) / (node(j) - node(k));
+        return values;
+    }
+    /// Their integrals from there to 1.
+    Vector<double> integrals(double x) const {
+        Vector<double> sum = Vector<double>::Zero(nodes_);
+        for (const auto& [t, weight] : rule_) sum += weight * (1 - x) * lagrange(x + (1 - x) * t);
+        return sum;
+    }
+    double node(Index i) const { return rule_[static_cast<std::size_t>(i)].first; }
+
+    void add_panel(Index panel, double low, double high) {
+        for (Index i = 0; i < nodes_; ++i) {
+            const auto& [t, weight] = rule_[static_cast<std::size_t>(i)];
+            const double inclination = shape_.at(low + (high - low) * t)[0];
+            const Index at = panel * nodes_ + i;
+            wide_[at] = weight * (high - low), cosine_[at] = std::cos(inclination), sine_[at] = std::sin(inclination);
+        }
+        double from = low;
+        for (const double end : shape_.pieces)
+            if (end > from + narrow() && end < high - narrow()) add_points(panel, low, high, from, end), from = end;
+        add_points(panel, low, high, from, high);
+    }
+    /// Points between two places of a panel; they have the weight of what is between, however the density varies.
+    void add_points(Index panel, double low, double high, double from, double to) {
+        const std::size_t first = points_.size();
+        double sum = 0;
+        for (const auto& [t, weight] : rule_) {
+            const double arc = from + (to - from) * t, wide = weight * (to - from);
+            points_.push_back({panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc),
+                               shape_.at(arc)[1]});
+            sum += points_.back().mass;
+        }
+        const double whole = shape_.weight_below(to) - shape_.weight_below(from);
+        for (std::size_t i = first; i < points_.size(); ++i) points_[i].mass *= whole / sum;
+    }
+    double narrow() const { return 1e-7 * shape_.length; }
+
+    struct Point {
+        Index panel;
+        double panel_width, at;  ///< at: 0 to 1 over the panel
+        double wide, mass, tension;
+    };
 
     const CordProfile& shape_;
+    Index nodes_;
     std::vector<std::pair<double, double>> rule_;
-    Matrix<double> inner_;
-    Vector<double> arc_, wide_, cosine_, sine_, tension_, mass_;
+    Vector<double> wide_, cosine_, sine_;  // at the nodes
+    std::vector<Point> points_;            // at which integrals are taken
 };
 
 /// What two discretisations agree on.
@@ -181,6 +221,7 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
         return judged(frame, DisturbedCord(profile, nodes).disturbed(), ChainUnits{});
     };
     const Stability coarse = found(8);
+    revchain::detail::look();
     Stability result = found(10);
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
@@ -191,13 +232,26 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
                                                                      : Verdict::undecided;
     }
     if (result.negative_directions != coarse.negative_directions) result.verdict = Verdict::undecided;
+    // The slowest, up to the first that either discretisation has without the other.
+    const auto unconfirmed = [](const Stability& of, const Stability& by) {
+        double slowest = std::numeric_limits<double>::infinity();
+        for (const std::complex<double>& s : of.exponents) {
+            const auto alike = [&](const std::complex<double>& x) {
+                return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
+            };
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike))
+                slowest = std::min(slowest, std::abs(s));
+        }
+        return slowest;
+    };
+    const double limit = (1 - 1e-6) * std::min(unconfirmed(result, coarse), unconfirmed(coarse, result));
     std::vector<std::complex<double>> kept;
     std::vector<double> external, error;
     for (std::size_t i = 0; i < result.exponents.size(); ++i) {
         const std::complex<double> s = result.exponents[i];
+        if (!(std::abs(s) < limit)) continue;
         double off = std::numeric_limits<double>::infinity();
-        for (const auto& x : coarse.exponents) off = std::min(off, std::abs(x - s));
-        if (off > 1e-6 * std::abs(s) + 1e-9) continue;
+        for (const std::complex<double>& x : coarse.exponents) off = std::min(off, std::abs(x - s));
         kept.push_back(s), external.push_back(result.external_damping[i] / cord.line_weight());
         error.push_back(std::max(off, result.exponent_error[i]));
     }
