@@ -96,6 +96,7 @@ FORBIDDEN = {
     r"\b(assert|eigen_assert)\s*\(": "a wrong call throws InvalidArgument",
     r"#\s*define\s+(?!REVCHAIN_)\w": "no macros, or else REVCHAIN_",
     r"\bstd::ranges::": "libc++ 14 has no algorithms of ranges",
+    r"^namespace revchain\b(?!::inline REVCHAIN_BUILD\b)": "open namespace revchain::inline REVCHAIN_BUILD",
 }
 # What one compiler knows and another refuses, and the headers that hold it.
 COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
