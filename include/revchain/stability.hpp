@@ -45,7 +45,7 @@ struct Stability {
     Verdict verdict = Verdict::undecided;
     std::vector<std::complex<double>>
         exponents;                  ///< s of exp(s n t), by imaginary part; free: without the double 0 of a rotation
-    std::vector<double> exponent_error;  ///< of each, an estimate: by rounding, that of the shape and its pulls included
+    std::vector<double> exponent_error;  ///< of each, an estimate: by rounding, of the shape and its pulls, too
     double growth_rate = 0;         ///< largest real part of an exponent, at least 0; NaN if not known
     double margin = 0;              ///< the largest of these errors
     Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)

@@ -34,8 +34,8 @@ struct GivenHeight : Condition<S> {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere. Of either sign: that
-/// which the link has there.
+/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere. The sign is that of
+/// the link there.
 template <class S>
 struct GivenTipInclination : Condition<S> {
     S sine, cosine;

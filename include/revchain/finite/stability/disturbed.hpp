@@ -56,7 +56,8 @@ struct PulledLinks {
              double about = 0) {
         if (!links.empty()) {
             Link<Wide<double>>& below = links.back();
-            const bool massless = is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
+            const bool massless =
+                is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
             const bool plain = turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
             const auto alike = [](double x, double z, double size) { return std::abs(x - z) <= 1e-9 * size; };
             if (massless && plain && alike(delta, inclination.back(), 1) &&
@@ -79,7 +80,8 @@ struct PulledLinks {
 /// triangular of ones, and G = U'MU is known link by link without a difference. A support that yields moves by the
 /// last q and the last b, lengths: to both stiffnesses it adds lambda E, to M its carriage. So does a lower end on a
 /// spring, by the motion of the lowest pin.
-/// Each angle is in a unit in which its stiffness and mass are about 1, so that light links count as much as heavy ones.
+/// Each angle is in a unit in which its stiffness and mass are about 1, so that light links count as much as heavy
+/// ones.
 /// Damping adds rates of dissipation: F q', H b' at the pins, drag in proportion to length and velocity in space.
 template <class S>
 struct DisturbedIn {
@@ -101,7 +103,9 @@ struct DisturbedIn {
         using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        const auto link = [&](Index m) -> const Link<Wide<double>>& { return shape.links[static_cast<std::size_t>(m)]; };
+        const auto link = [&](Index m) -> const Link<Wide<double>>& {
+            return shape.links[static_cast<std::size_t>(m)];
+        };
         const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
         Matrix<S> G(pins, pins), length(pins, pins);
         Wide<double> below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
@@ -132,7 +136,8 @@ struct DisturbedIn {
             unit[m] = size > S(0) ? S(1) / sqrt(size) : S(1);
             x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
             const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
-            doubt = std::max(doubt, static_cast<double>((is_link ? S(link(m).length) : S(1)) * S(off) * unit[m] * unit[m]));
+            const S lever = is_link ? S(link(m).length) : S(1);
+            doubt = std::max(doubt, static_cast<double>(lever * S(off) * unit[m] * unit[m]));
             if (!is_link) continue;
             turned(m, m) = S(at(shape.axial, m)) * s * s * unit[m] * unit[m];
             turning[m] = S(at(shape.momentum, m)) * unit[m] * unit[m] / S(2);
@@ -191,8 +196,8 @@ struct DisturbedIn {
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
-        kept(top, top - 1) =
-            stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));  // both move the pins below alike
+        // both move the pins below alike
+        kept(top, top - 1) = stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
         keep(Matrix<S>::Identity(top + 1, top + 1), kept);
         offset = offset.head(top).eval();
         lower_end = (kept.transpose() * lower_end).eval();

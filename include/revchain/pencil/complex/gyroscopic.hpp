@@ -30,6 +30,7 @@ struct MirroredModes {
     Vector<std::complex<S>> square;
     Vector<double> error;
     ComplexColumns<S> x, y;
+    bool is_symmetric = false;  ///< squares of a symmetric matrix: real, even if two coincide
 };
 
 /// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u = (x, r), v = (p,
@@ -60,7 +61,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     K /= S(pace) * S(pace), C /= S(pace) * S(pace), B /= S(pace);
     Matrix<S> Q(n + k, n + k);
     Q << K + S(4) * B * B.transpose(), S(-2) * B, S(-2) * B.transpose(), Matrix<S>::Identity(k, k);
-    const double rounding = 4 * static_cast<double>(std::numeric_limits<S>::epsilon());
+    const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
     MirroredModes<S> modes;
     modes.error.resize(n + k);
     ComplexColumns<S> u{Matrix<S>(n + k, n + k), Matrix<S>::Zero(n + k, n + k)};
@@ -71,6 +72,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         const Eigen::SelfAdjointEigenSolver<Matrix<S>> solver(symmetric);
         modes.square = Vector<S>(-solver.eigenvalues()).template cast<std::complex<S>>();
         u.real = F * solver.eigenvectors();
+        modes.is_symmetric = true;
         modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
     } else {
         Matrix<S> T = -Q;
