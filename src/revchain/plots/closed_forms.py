@@ -30,7 +30,7 @@ def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tu
     if axes is None:
         left, right = new_figure(width, height).subplots(1, 2)
         return left, right
-    two = list(axes) if isinstance(axes, Iterable) else []
+    two = list(axes) if isinstance(axes, Iterable) and getattr(axes, "ndim", 1) != 0 else []
     if len(two) != 2:
         raise TypeError(f"plot: axes must be two axes of matplotlib, got {shown(axes)}")
     return checked_axes(two[0]), checked_axes(two[1])
