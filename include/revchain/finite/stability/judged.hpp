@@ -5,7 +5,7 @@
 #include "revchain/pencil/complex/gyroscopic.hpp"
 #include "revchain/stability.hpp"
 
-namespace revchain::finite {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are
 /// alike: negative directions, whether every direction is positive, and whether no sign is within rounding.
