@@ -19,15 +19,15 @@ using revchain::LineDensity;
 using revchain::Vector;
 using Density = std::variant<double, std::shared_ptr<LineDensity>>;
 
-constexpr py::ssize_t numbers_of_piece = 3 + LineDensity::degree + 1;
+constexpr py::ssize_t numbers_of_piece = 4 + LineDensity::degree + 1;
 
-/// Its length, and of each piece: middle, half length, power, coefficients.
+/// Its length, and of each piece: middle, half length, power, doubt, coefficients.
 py::tuple get_state(const LineDensity& density) {
     const auto& pieces = density.pieces();
     py::array_t<double> table({static_cast<py::ssize_t>(pieces.size()), numbers_of_piece});
     double* to = table.mutable_data();
     for (const LineDensity::Piece& piece : pieces) {
-        *to++ = piece.middle, *to++ = piece.half, *to++ = piece.power;
+        *to++ = piece.middle, *to++ = piece.half, *to++ = piece.power, *to++ = piece.doubt;
         to = std::copy(piece.factor.begin(), piece.factor.end(), to);
     }
     return py::make_tuple(density.length(), frozen(std::move(table)));
@@ -40,8 +40,8 @@ std::shared_ptr<LineDensity> set_state(const py::tuple& state) {
     std::vector<LineDensity::Piece> pieces(static_cast<std::size_t>(table.shape(0)));
     const double* from = table.data();
     for (LineDensity::Piece& piece : pieces) {
-        piece.middle = from[0], piece.half = from[1], piece.power = from[2];
-        std::copy(from + 3, from + numbers_of_piece, piece.factor.begin());
+        piece.middle = from[0], piece.half = from[1], piece.power = from[2], piece.doubt = from[3];
+        std::copy(from + 4, from + numbers_of_piece, piece.factor.begin());
         from += numbers_of_piece;
     }
     return std::make_shared<LineDensity>(state[0].cast<double>(), std::move(pieces));

@@ -72,8 +72,9 @@ struct CordModes {
 /// Methods and accuracy: a uniform cord has lambda_k = 4 L / j_{0,k}^2, to 3 ulp; one with a density proportional to
 /// s^p has 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of
 /// Bessel functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says
-/// the same; it was measured, for exponents from -0.99 to 100. Offsets are within 1e-15 times the mode number, with
-/// series within 1e-14, of the largest one; slopes likewise.
+/// the same; it was measured, for exponents from -0.99 to 100. For a density function that jumps or is less accurate it
+/// is 2e-15 and what `LineDensity::error`, twice, and `rounding_at_jumps` say. Offsets are within 1e-15 times the mode
+/// number, with series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
 /// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for
@@ -153,12 +154,12 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// The stability of a steady shape of a cord that hangs.
 ///
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with 10 nodes a panel.
-/// `exponents` are those on which both agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely
-/// many. `margin` covers the difference of the two growth rates. If the two verdicts or numbers of negative directions
-/// differ, the verdict is `undecided`. Only finitely many directions have negative energy, and only as many motions can
-/// grow, so the motions of high frequency that are left out do not grow. `internal_damping` is NaN: friction in bending
-/// needs a stiffness, which a flexible cord does not have. `external_damping` is for the drag of still air on a piece
-/// of cord over its length and velocity, as of a chain.
+/// `exponents` are the slowest of infinitely many, up to the first on which both do not agree to 1e-6 of its size; by
+/// imaginary part. `margin` covers the difference of the two growth rates. If the two verdicts or numbers of negative
+/// directions differ, the verdict is `undecided`. Only finitely many directions have negative energy, and only as many
+/// motions can grow, so the motions of high frequency that are left out do not grow. `internal_damping` is NaN:
+/// friction in bending needs a stiffness, which a flexible cord does not have. `external_damping` is for the drag of
+/// still air on a piece of cord over its length and velocity, as of a chain.
 /// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip to 2e-9 against
 /// chains with Richardson's extrapolation: tests/python/test_cord_branches.py); those of N links differ as 1/N^2
 /// (tests/cpp/cord_branches.cpp).

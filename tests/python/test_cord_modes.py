@@ -2,12 +2,14 @@
 """Modes of cords, uniform, with a tip mass, of varying density: against mpmath and laws."""
 
 import math
+import random
 
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.special import j0, j1, y0, y1
 
 import revchain as rc
 
@@ -35,6 +37,44 @@ def test_heights_are_those_of_the_zeros_of_bessel_functions(exponent):
     with mp.workdps(40):
         exact = [4 * (mp.mpf(exponent) + 1) * mp.mpf(0.7) / mp.besseljzero(exponent, k) ** 2 for k in range(1, 9)]
         assert max(map(ulps, heights, exact)) <= 3
+
+
+def at_support(pieces, tip, speed, gravity=9.80665):
+    """Offset of the support, 1 at the free end, of a cord in pieces of even density (length, mass per length)."""
+    offset, pull, tension = np.ones_like(speed), -tip * speed**2, tip * gravity  # pull: tension times slope
+    for length, density in pieces:
+        low, high = (2 * speed * np.sqrt(t / density) / gravity for t in (tension, tension + density * gravity * length))
+        wronskian, bend = -2 / (np.pi * low), -2 * pull / (density * gravity * low)
+        a = (offset * y1(low) - bend * y0(low)) / wronskian
+        b = (bend * j0(low) - offset * j1(low)) / wronskian
+        offset, pull = a * j0(high) + b * y0(high), -density * gravity * high / 2 * (a * j1(high) + b * y1(high))
+        tension += density * gravity * length
+    return offset
+
+
+@pytest.mark.parametrize("wide", [0.02, 0.005])
+@pytest.mark.parametrize("total", [None, 2.5])
+def test_clasps_are_found_wherever_they_are(wide, total):
+    """A clasp of 6 g on a cord of 1.8 m with a tip of 50 g."""
+    rng = np.random.default_rng(5)
+    for middle in [1.2173, *rng.uniform(wide, 1.8 - wide, 9 if total else 30)]:
+        low, high, heavy = middle - wide / 2, middle + wide / 2, 0.01003 + 0.006 / wide
+        scale = 1 if total is None else total / (0.01003 * 1.8 + 0.006)
+        density = lambda s, low=low, high=high, heavy=heavy: heavy if low <= s < high else 0.01003  # noqa: E731
+        modes = rc.modes(rc.Cord(1.8, mass=total, density=density, tip_mass=0.05 * scale), 2)
+        pieces = [(low, 0.01003), (high - low, heavy), (1.8 - high, 0.01003)]
+        for number, speed in enumerate(modes.angular_speed, 1):
+            turns = np.sign(at_support(pieces, 0.05, np.append(np.linspace(0.01, speed * (1 - 1e-11), 400), speed * (1 + 1e-11))))
+            assert (turns[1:] != turns[:-1]).sum() == number and turns[-1] != turns[-2], (middle, number)
+        assert modes.error_bound.max() < 1e-13
+
+
+def test_a_density_that_cannot_be_resolved_is_refused():
+    with pytest.raises(ValueError, match=r"integral that cannot be resolved \(use a chain of many short links.*; near s, got 0.7"):
+        rc.Cord(1.8, density=lambda s: (abs(s - math.sqrt(0.5)) + 1e-25) ** -0.9)
+    dice = random.Random(1)
+    with pytest.raises(ValueError, match=r"rough at too many places \(use a chain of many short links .*; near s, got "):
+        rc.Cord(1.8, density=lambda s: 1 + dice.random())
 
 
 def test_numbers_of_the_paper():

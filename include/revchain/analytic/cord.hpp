@@ -154,15 +154,22 @@ inline CordModes modes_of(const StraightCord& straight, const ModesOptions<doubl
     CordModes result{straight.cord, range.first, Vector<double>(range.count),
                      Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
     result.held = straight.held;
-    if (options.rtol && !(method.error_bound <= *options.rtol)) result.status = Status::tolerance_not_met;
-    if (!method.is_closed && range.count > 0)
-        result.conical_height =
-            finite::critical_heights(finite::ContinuousChain(straight.cord), range.first - 1 + range.count)
-                .tail(range.count);
+    if (!method.is_closed && range.count > 0) {
+        const finite::ContinuousChain chain(straight.cord);
+        result.conical_height = finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
+        // The first half wave of a mode is longer than its conical height: from there up the weight must be right.
+        // Heights of smooth densities without error are within 2e-15.
+        for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
+            const double from = std::min(result.conical_height[j], chain.length);
+            const double density = 2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
+            result.error_bound[j] = std::max(method.error_bound, 2e-15 + density);
+        }
+    }
     for (Index j = 0; method.is_closed && j < range.count; ++j) {
         result.conical_height[j] = closed_height(straight, range.first + j);
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
+    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all()) result.status = Status::tolerance_not_met;
     return result;
 }
 

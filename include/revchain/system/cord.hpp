@@ -26,7 +26,8 @@ struct CordOptions {
 ///
 /// Throws InvalidArgument for a length or weight that is not positive and finite, a tip weight that is negative or not
 /// finite, an exponent not above -1 or above 1e4, a density function that is not positive inside the cord or too rough
-/// (see `LineDensity`), and polynomials over another length. Cost: 0.1 ms with a density function, else nothing.
+/// (see `LineDensity`), and polynomials over another length. Cost: that of 1200 calls of a density function or more,
+/// else nothing.
 class Cord {
    public:
     explicit Cord(double length, const CordOptions& options = {})

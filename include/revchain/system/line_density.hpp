@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -14,16 +15,26 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
 /// Method: the length is halved, and the halves again, until a polynomial of degree 12 through Chebyshev points gives
-/// the function to its rounding, also between them, or a piece is 2^-46 of the length. A jump or a corner costs about
-/// fifty pieces. At the free end a piece of 2^-40 of the length holds a power law c s^p, whose weight grows like
-/// s^(p+1). Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp).
+/// the function to its rounding: between these points, at the ends of the piece, and at all places of it that belong to
+/// a grid of 1021 places over the whole length. A piece is not halved any more when it is 2^-45 of its distance from
+/// the free end; it then holds the mean of the function, which takes the place of the jump or, if it is not one jump,
+/// 64 values. A jump or a corner costs about fifty pieces. At the free end a piece of 2^-40 of the length holds a power
+/// law c s^p, whose weight grows like s^(p+1).
+/// Narrow features: one that is at least 1/1000 of the length wide is always found, and its ends to rounding. A
+/// narrower one may lie between the places of the grid, and the density is then stored without it.
+/// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp); `error`
+/// estimates the error of the integral. Cost: 1200 values of a smooth function, 1500 more for a jump, at most 2
+/// million.
 class LineDensity {
    public:
     static constexpr int degree = 12;
     using Coefficients = std::array<double, degree + 1>;  ///< those of powers, the constant first
     static constexpr double rounding = 8e-15;             // below what functions of a dozen operations give
-    static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
+    static constexpr int least_halvings = 2, max_at_tip = 40;
+    static constexpr double narrowest = 0x1p-45;  // of pieces, over the distance from the free end
     static constexpr std::size_t max_pieces = 20'000;
+    static constexpr int grid = 1021;         // a prime number, so that evenly spaced beads do not all lie between
+    static constexpr double most_doubt = 1e-6;  // of the total weight
 
     /// The density between two places, as a polynomial or, at the free end, as a power of s.
     struct Piece {
@@ -31,15 +42,22 @@ class LineDensity {
         Coefficients factor;  ///< of powers of (s - middle)/half
         double power = 0;     ///< not 0: this much of a power law, factor[0] its value at the right end
         double below = 0;     ///< weight of the chain below the piece
+        double doubt = 0;     ///< estimated error of the weight of the piece
     };
 
-    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a
-    /// function that is rough at too many places.
+    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, for a function
+    /// that is rough at too many places, and for one whose integral is not known to `most_doubt`.
     LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
         detail::require_positive("LineDensity", "length", length);
-        divide(weight_per_length, 0, length, 0);
+        Given given{weight_per_length, {}, 0};
+        for (int i = 0; i < grid; ++i) given.on_grid[static_cast<std::size_t>(i)] = given(on_grid(i));
+        given.largest = *std::max_element(given.on_grid.begin(), given.on_grid.end());
+        divide(given, 0, length, 0);
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
         sum_up();
+        const auto worst = std::max_element(pieces_.begin(), pieces_.end(),
+                                            [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
+        if (!(error(length) <= most_doubt)) throw_rough("has an integral that cannot be resolved", worst->middle);
     }
     /// From the pieces of another one, as a file keeps them. `below` is found again. Throws InvalidArgument for pieces
     /// that are not contiguous from 0 to `length`, and for a density that is not positive and finite on them.
@@ -51,7 +69,29 @@ class LineDensity {
 
     double length() const { return length_; }
     double total() const { return total_; }
+    /// Estimated error of the weight below a place, over that weight: the largest at or above s.
+    double error(double s) const {
+        double doubt = 0, largest = 0;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            doubt += pieces_[i].doubt;
+            const double below = i + 1 < pieces_.size() ? pieces_[i + 1].below : total_;
+            if (end(pieces_[i]) >= s * (1 - 1e-9)) largest = std::max(largest, doubt / below);
+        }
+        return largest;
+    }
     double mean() const { return total_ / length_; }
+    /// What a rounding of the places of jumps does to the weight below a place, over that weight: the largest at or
+    /// above s.
+    double rounding_at_jumps(double s) const {
+        double moved = 0, largest = 0;
+        for (std::size_t i = 1; i < pieces_.size(); ++i) {
+            const double at = end(pieces_[i - 1]);
+            const double jump = polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
+            moved += std::abs(jump) * at * epsilon<double>();
+            largest = std::max(largest, moved / std::max(pieces_[i].below, weight_below(std::min(s, length_))));
+        }
+        return largest;
+    }
     const std::vector<Piece>& pieces() const { return pieces_; }
 
     /// The end of the piece that holds s; infinity beyond the chain.
@@ -150,19 +190,39 @@ class LineDensity {
         return piece.half * (right * t + left);
     }
 
-    void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
+    /// The function, checked, and its values on the grid.
+    struct Given {
+        const std::function<double(double)>& function;
+        std::array<double, grid> on_grid;
+        double largest;
+
+        double operator()(double s) const {
+            const double value = function(s);
+            if (!(value > 0 && std::isfinite(value)))
+                detail::throw_invalid(
+                    "LineDensity", "weight per length must be positive and finite; at " + detail::in_digits(s), value);
+            return value;
+        }
+    };
+    double on_grid(int i) const { return length_ * (i + 0.5) / grid; }
+    /// The first place of the grid that is not below s.
+    int grid_from(double s) const { return std::max(0, static_cast<int>(std::ceil(s / length_ * grid - 0.5))); }
+
+    [[noreturn]] static void throw_rough(const std::string& how, double s) {
+        detail::throw_invalid("LineDensity",
+                              "weight per length " + how +
+                                  " (use a chain of many short links instead of a cord); near s",
+                              s);
+    }
+
+    void divide(const Given& f, double low, double high, int halvings) {
         constexpr std::size_t count = degree + 1;
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
         Coefficients sample{}, chebyshev{};
         double largest = 0, least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < count; ++i) {
             const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
-            const double s = piece.middle + piece.half * x;
-            sample[i] = f(s);
-            if (!(sample[i] > 0 && std::isfinite(sample[i])))
-                detail::throw_invalid("LineDensity",
-                                      "weight per length must be positive and finite; at " + detail::in_digits(s),
-                                      sample[i]);
+            sample[i] = f(piece.middle + piece.half * x);
             largest = std::max(largest, sample[i]), least = std::min(least, sample[i]);
         }
         for (std::size_t k = 0; k < count; ++k) {
@@ -172,26 +232,33 @@ class LineDensity {
                        std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
             chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
         }
-        const double tail = std::max(std::abs(chebyshev[count - 1]), std::abs(chebyshev[count - 2]));
+        const auto largest_of = [&](std::size_t from, std::size_t to) {
+            double most = 0;
+            for (std::size_t k = from; k < to; ++k) most = std::max(most, std::abs(chebyshev[k]));
+            return most;
+        };
+        // what the function may be off by because s is rounded
+        const double by_place = epsilon<double>() * high / (high - low) * (largest - least);
+        double tolerance = rounding * largest + 2 * by_place;
+        const double tail = largest_of(count - 2, count), before = largest_of(count - 6, count - 2);
+        // Coefficients that have ceased to fall are what is left of the roundings of larger terms.
+        if (tail > tolerance && tail > 0.03 * before && before <= 8 * epsilon<double>() * f.largest)
+            tolerance = std::max(tolerance, 8 * epsilon<double>() * f.largest);
         // At the free end, where little hangs below, the density must be right relative to itself.
-        bool good = halvings >= least_halvings && tail <= rounding * largest && (low > 0 || least > 0.02 * largest);
+        bool good = halvings >= least_halvings && tail <= tolerance && (low > 0 || least > 0.02 * largest);
         if (good) {
             for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
                 chebyshev[k] = 0;
             piece.factor = in_powers(chebyshev);
-            for (std::size_t i = 1; i < count; ++i) {  // a narrow feature may lie between
-                const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
-                good = good && std::abs(polynomial(piece.factor, x) - f(piece.middle + piece.half * x)) <=
-                                   10 * rounding * largest;
-            }
+            good = agrees(f, low, high, piece, 10 * rounding * largest, 10 * tolerance);
         }
-        if (!good && halvings < (low == 0 ? max_at_tip : max_halvings)) {
+        const bool smallest = low == 0 ? halvings >= max_at_tip : high - low <= narrowest * high;
+        if (!good && !smallest) {
             divide(f, low, piece.middle, halvings + 1);
             divide(f, piece.middle, high, halvings + 1);
             return;
         }
-        if (pieces_.size() == max_pieces)
-            detail::throw_invalid("LineDensity", "weight per length is rough at too many places");
+        if (pieces_.size() == max_pieces) throw_rough("is rough at too many places", piece.middle);
         if (low == 0 && !good) {
             piece.factor = {f(high)};
             piece.power = std::log2(f(high) / f(high / 2));
@@ -200,10 +267,59 @@ class LineDensity {
                                       "the weight near the free end must be finite; weight per length goes like s^p, p",
                                       piece.power);
             if (piece.power == 0) piece.power = 1e-30;
-        } else if (!good) {  // a jump, within rounding of where it is
-            piece.factor = {f(piece.middle)};
+            const double turned = std::abs(std::log2(f(high / 2) / f(high / 4)) - piece.power), grown = piece.power + 1;
+            piece.doubt = 8 * turned * piece.factor[0] * high / (grown * grown);
+        } else if (!good && !is_jump(f, low, high, piece)) {
+            constexpr int parts = 64;
+            double sum = 0;
+            for (int i = 0; i < parts; ++i) {
+                const double value = f(low + (high - low) * ((i + 0.5) / parts));
+                sum += value, largest = std::max(largest, value), least = std::min(least, value);
+            }
+            piece.factor = {sum / parts};
+            piece.doubt = (largest - least) / parts * (high - low);
         }
         pieces_.push_back(piece);
+    }
+
+    /// Whether the function jumps once within a narrow piece: then the piece has its mean, exactly.
+    static bool is_jump(const Given& f, double low, double high, Piece& piece) {
+        double below = std::nextafter(low, high), above = std::nextafter(high, low);
+        const double lower = f(below), upper = f(above), jump = std::abs(upper - lower);
+        for (double at = below + (above - below) / 2; at > below && at < above; at = below + (above - below) / 2)
+            (std::abs(f(at) - lower) < jump / 2 ? below : above) = at;
+        for (double at = std::nextafter(low, high); at < high; at += 0x1p-48 * high)
+            if (!(std::abs(f(at) - (at < above ? lower : upper)) <= 1e-3 * jump)) return false;
+        piece.factor = {(lower * (above - low) + upper * (high - above)) / (high - low)};
+        return true;
+    }
+
+    /// Whether a polynomial gives the function, within a tolerance, between the places that made it, at the ends and on
+    /// the grid. Its doubt is how much the integral differs by the values between; and where one differs by more than
+    /// the rounding, the largest difference.
+    bool agrees(const Given& f, double low, double high, Piece& piece, double rounded, double tolerance) const {
+        const auto off = [&](double s, double value) {
+            return polynomial(piece.factor, (s - piece.middle) / piece.half) - value;
+        };
+        double most = 0;
+        const auto alike = [&](double difference) {
+            most = std::max(most, std::abs(difference));
+            return std::abs(difference) <= tolerance;
+        };
+        const double first = std::nextafter(low, high), last = std::nextafter(high, low);
+        if (low > 0 && !alike(off(first, f(first)))) return false;
+        if (!alike(off(last, f(last)))) return false;
+        for (int i = grid_from(low); i < grid && on_grid(i) < high; ++i)
+            if (!alike(off(on_grid(i), f.on_grid[static_cast<std::size_t>(i)]))) return false;
+        double sum = 0, shares = 0;
+        for (std::size_t i = 1; i <= degree; ++i) {
+            const double angle = std::numbers::pi * static_cast<double>(i) / (degree + 1);
+            const double s = piece.middle + piece.half * std::cos(angle), difference = off(s, f(s));
+            if (!alike(difference)) return false;
+            sum += std::sin(angle) * difference, shares += std::sin(angle);
+        }
+        piece.doubt = (most > rounded ? most : std::abs(sum / shares)) * 2 * piece.half;
+        return true;
     }
 
     /// Coefficients of powers from those of Chebyshev polynomials. Stable enough at this degree, because they fall.

@@ -190,9 +190,11 @@ class ShapeSamples {
         shape.condition = turned * length / rate;
         // Places, and the length, to a rounding or two of the length, and what a density loses as polynomials:
         // calibrated in tests/cpp/finite/cord/continuous_chain.cpp, where errors reach 0.6 of this.
-        const double data = kind_.density == nullptr ? 1 : 4;
+        double data = epsilon<double>();
+        if (kind_.density != nullptr)
+            data = std::max(4 * data, 2 * kind_.density->error(std::min(1.0, length) * kind_.unit));
         shape.error_bound =
-            data * epsilon<double>() * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
+            data * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
     }
 
     PathKind kind_;

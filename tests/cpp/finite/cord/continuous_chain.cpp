@@ -373,6 +373,80 @@ TEST_CASE("line densities are what they were given", "[finite]") {
     }
 }
 
+TEST_CASE("line densities: narrow features are found wherever they are", "[finite]") {
+    // Jumps up and down again, 1/1000 to 1/10 of the length apart. Weights below places are known; critical heights are
+    // those of three pieces, whose errors are as great.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<> any(0, 1);
+    double weights = 0, heights = 0;  // over what a rounding of a place does; over both bounds
+    for (int i = 0; i < 200; ++i) {
+        const double length = std::pow(10, 2 * any(random) - 1), wide = length * std::pow(10, -1 - 2 * any(random));
+        const double low = (length - wide) * any(random), high = low + wide, extra = std::pow(10, 4 * any(random) - 2);
+        const auto f = [=](double s) { return s >= low && s < high ? 1 + extra : 1.0; };
+        CAPTURE(length, low, wide, extra);
+        const auto density = std::make_shared<LineDensity>(f, length);
+        const auto piece = [](double from, double to, double value) {
+            return LineDensity::Piece{(from + to) / 2, (to - from) / 2, {value}};
+        };
+        const auto exact =
+            std::make_shared<LineDensity>(length, std::vector{piece(0, low, 1), piece(low, high, 1 + extra),
+                                                              piece(high, length, 1)});
+        for (const double s : {low / 2, low + wide / 3, high + (length - high) / 9, length})
+            weights = std::max(weights, std::abs(density->weight_below(s) /
+                                                     (s + extra * std::clamp(s - low, 0.0, high - low)) -
+                                                 1) /
+                                            (2e-15 + 1e-16 * extra));
+        CHECK(density->error(low / 2) < 1e-15);
+        if (i >= 40) continue;
+        const double tip = length * any(random);
+        const auto found = critical_heights(cord(length, tip, density), 3), truth =
+            critical_heights(cord(length, tip, exact), 3);
+        for (Index j = 0; j < 3; ++j)
+            heights = std::max(heights, std::abs(found[j] / truth[j] - 1) /
+                                            (4e-15 + 2 * density->rounding_at_jumps(found[j])));
+    }
+    CAPTURE(weights, heights);
+    CHECK(weights <= 1);
+    CHECK(heights <= 1);
+}
+
+TEST_CASE("line densities: smooth steps and bumps are found wherever they are", "[finite]") {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<> any(0, 1);
+    double worst = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double at = 0.01 + 0.98 * any(random), wide = std::pow(10, -3 + 2 * any(random)), size = any(random) * 30;
+        const double p = i % 4 == 0 ? 2 * any(random) - 0.5 : 0.0;
+        const bool step = i % 2 == 0;
+        const auto f = [=](double s) {
+            const double x = (s - at) / wide, bump = step ? 0.5 + 0.5 * std::tanh(x) : std::exp(-x * x);
+            return std::pow(s, p) + size * bump;
+        };
+        CAPTURE(at, wide, size, p, step);
+        const LineDensity density(f, 1);
+        const auto log_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x))); };
+        const double whole = 1 / (p + 1) + size * (step ? 0.5 + wide / 2 * (log_cosh((1 - at) / wide) -
+                                                                          log_cosh(at / wide))
+                                                        : wide * std::sqrt(pi) / 2 *
+                                                              (std::erf((1 - at) / wide) + std::erf(at / wide)));
+        worst = std::max(worst, std::abs(density.total() / whole - 1) - density.error(1));
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 3e-15);
+}
+
+TEST_CASE("line densities: the error of singular ones is in the estimate, or they are refused", "[finite]") {
+    using Catch::Matchers::ContainsSubstring;
+    const LineDensity root([](double s) { return 1 / std::sqrt(3 - s); }, 3);
+    const double off = std::abs(root.total() / std::sqrt(12.0) - 1);
+    CAPTURE(off, root.error(3));
+    CHECK(off <= root.error(3));
+    CHECK(root.error(3) < 1e-7);
+    CHECK_THROWS_WITH(LineDensity([](double s) { return std::pow(std::abs(s - std::sqrt(0.5)) + 1e-25, -0.9); }, 3),
+                      ContainsSubstring("cannot be resolved") && ContainsSubstring("chain of many short links") &&
+                          ContainsSubstring("near s, got 0.7071"));
+}
+
 TEST_CASE("wrong chains are refused", "[finite]") {
     using Catch::Matchers::ContainsSubstring;
     using revchain::InvalidArgument;
