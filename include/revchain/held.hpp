@@ -52,8 +52,8 @@ struct HeldBy {
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite; for a span that is not
 /// less than the length, firm ends as far apart as the length, a stiffness not positive, a carriage weight that is
-/// negative or has no spring, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that is not uniform or has a
-/// tip weight.
+/// negative or has no spring, numbers not finite, a radius with a tension, springs or radii for a cord, and a cord that
+/// is not uniform or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);

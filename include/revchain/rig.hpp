@@ -250,7 +250,7 @@ struct RigLink {
 
 /// The numbers of a rig's links, lowest first, in `Wide<double>`. `RigLink::error_part` bounds their errors: three
 /// operations for the share of a body, a few for the sum of shares, a compensated sum for the weights hung below, and
-/// up to four operations in which a caller has found a stiffness or a momentum.
+/// four operations in which a caller has found a momentum or an axial moment.
 /// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;

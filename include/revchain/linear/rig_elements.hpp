@@ -48,7 +48,7 @@ inline std::optional<RigElement> support_element(const Rig& rig) {
         detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length",
                               support.stiffness.high);
     RigElement spring{stiffness, S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent))};
-    spring.error.stiffness = RigLink::error_part * stiffness.high;
+    spring.error.stiffness = 2 * operation_error<S>() * stiffness.high;
     return spring;
 }
 

@@ -118,7 +118,7 @@ class Support(_Fitting):
             if name in ("mass", "weight") and not 0 <= value < math.inf:
                 raise ValueError(f"{place}: {name} must be finite and not negative, got {value:g}")
         carriage = {name: value for name, value in given.items() if name in ("mass", "weight") and value > 0}
-        if math.isinf(given["stiffness"]) and carriage:
+        if carriage and math.isinf(given.get("stiffness", math.inf)):
             ((name, value),) = carriage.items()
             raise ValueError(
                 f"{place}: stiffness is missing: what moves sideways needs a support that yields, got {name} {value:g}"
@@ -279,6 +279,7 @@ class Displaced(_Fitting):
 
     Notes
     -----
+    Fluid of mass 0 has no effect; `sensitivity` by its mass is that of fluid at the place given.
     Cost: O(N), when the rig is made. Source: Greenhill (1908), section 2 (6), for Stokes's float.
 
     Examples

@@ -97,7 +97,8 @@ struct BranchSystem {
         const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
         const Support& support = of.support();
         links.radius = S(in_lengths(support.radius));
-        for (Index m = 0; m < of.size(); ++m) axial += in_lengths(in_lengths(in_weights(of.flywheel(m).axial_moment.high)));
+        for (Index m = 0; m < of.size(); ++m)
+            axial += in_lengths(in_lengths(in_weights(of.flywheel(m).axial_moment.high)));
         if (support.is_firm()) return;
         S reach(0.0);
         for (const Link<S>& link : links.links) reach = reach + link.length;

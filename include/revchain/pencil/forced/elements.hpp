@@ -53,8 +53,8 @@ struct Follows {
 ///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p,
 ///
 /// and where p vanishes, the pin above being a node, its reciprocal C' = p / ((L - B) p - (L + X)^2) for one link. D
-/// enters each step once: intervals widen as the error itself grows. `end` is the offset of the moved end, 1, if that is
-/// a pin of the chain, else 0: errors are over the largest offset of a pin.
+/// enters each step once: intervals widen as the error itself grows. `end` is the offset of the moved end, 1, if that
+/// is a pin of the chain, else 0: errors are over the largest offset of a pin.
 /// Cost: about 1.5 microseconds for each element.
 template <class Offsets>
 Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, const Offsets& offset, double end = 1) {

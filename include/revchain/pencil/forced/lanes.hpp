@@ -167,9 +167,9 @@ template <bool turning, bool fused, class V, class Offsets>
 ///
 ///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i),
 ///
-/// E the error of D, which holds the rows below. The error of a coupling enters the row of its lower pin by the offset of
-/// the upper one. `end` as for `driven`. What `driven_lanes` adds up, errors of ratios, counts what happens to
-/// both sides of a node twice, without the signs. Cost: about that of `driven_lanes` and four numbers an element.
+/// E the error of D, which holds the rows below. The error of a coupling enters the row of its lower pin by the offset
+/// of the upper one. `end` as for `driven`. What `driven_lanes` adds up, errors of ratios, counts what happens to both
+/// sides of a node twice, without the signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
 [[gnu::always_inline]] inline void sharpen(const std::vector<DrivenElement>& elements, const Driving* at,
                                            Driven* result, std::vector<double>& scratch, double end = 1) {
