@@ -75,6 +75,7 @@ def support_numbers(table: Support, numbers: Numbers, radii: str = "not negative
     carriage = numbers.weight_if_given(table)
     if carriage > 0 and table.stiffness is UNSET:
         numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")
+        carriage = 0.0
     given = {"stiffness": stiffness, "radius": radius}
     return given | {numbers.heavy: carriage} if carriage else given
 
