@@ -305,7 +305,8 @@ TEST_CASE("swing of rigs: a sleeping top, its momentum holding it up; after 1e8 
 
 TEST_CASE("swing of rigs: what it refuses", "[linear][rigs]") {
     const Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-    const Vector<double> from = Eigen::Vector2d(0.01, 0.02);
+    Vector<double> from(2);
+    from << 0.01, 0.02;
     const auto refused = [&](const revchain::Rigging& with, const char* why) {
         CHECK_THROWS_WITH(revchain::swing(Rig(chain, with), {.offset = from, .time = {1.0}}), ContainsSubstring(why));
     };
