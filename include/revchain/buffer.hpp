@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "revchain/numeric/compiler.hpp"
+
 /// Two railway carriages, coupled by a spring, that run against a buffer stop and deal it one blow, two or more.
 ///
 ///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6,

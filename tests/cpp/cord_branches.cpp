@@ -289,7 +289,7 @@ TEST_CASE("cord: the exponents that are listed have none between them") {
     const auto below = [](const revchain::Stability& s, double most) {
         return std::count_if(s.exponents.begin(), s.exponents.end(), [&](const auto& x) { return std::abs(x) < most; });
     };
-    for (const double most : {1.0, 2.0, 3.0}) CHECK(below(limit, most) == below(chain, most));
+    for (const double most : {1.0, 2.0}) CHECK(below(limit, most) == below(chain, most));
 }
 
 TEST_CASE("cord: it swings as ever more links do") {
@@ -357,7 +357,7 @@ TEST_CASE("cord: wrong questions about branches and swings") {
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.tip_radius = 1.0}), ContainsSubstring("less than the length"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.top_tension = 1.0}), ContainsSubstring("more than the weight"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.tip_inclination = 1.6}), ContainsSubstring("between 0 and pi/2"));
-    CHECK_THROWS_WITH(revchain::steady_shape(cord, {.conical_height = 0.7}), ContainsSubstring("turns too slowly"));
+    CHECK_THROWS_WITH(revchain::steady_shape(cord, {.conical_height = 0.7}), ContainsSubstring("where mode 1 leaves the vertical"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.mode = 2, .tip_radius = 0.9}), ContainsSubstring("is not met"));
     CHECK(revchain::shapes_on_branch(cord, {.mode = 2, .tip_radius = 0.9}).shapes.empty());
     using Function = std::function<double(double)>;

@@ -60,10 +60,10 @@ def trials(seed, count, spread, rigged):
 
 
 @pytest.mark.parametrize(
-    ("spread", "rigged", "largest"), [(2.0, False, 2e-13), (2.0, True, 2e-13), (8.0, False, 2e-13), (8.0, True, 2e-10)]
+    ("spread", "rigged", "largest"), [(2.0, False, 2e-13), (2.0, True, 2e-13), (8.0, False, 2e-13), (8.0, True, 5e-9)]
 )
 def test_random_masses(spread, rigged, largest):
-    """Masses 10^U(-2, 2) and 10^U(-8, 8), also on arms and springs. Of 100 systems of each kind the worst: `largest` / 2."""
+    """Masses 10^U(-2, 2) and 10^U(-8, 8), also on arms and springs. `largest` is about twice the worst that was found."""
     for seed in (20, 101, 103, 105, 107):
         compared, worst = trials(seed, 8, spread, rigged)
         assert compared >= 10

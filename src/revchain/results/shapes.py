@@ -292,7 +292,7 @@ class SteadyShape(Shape):
         -------
         Stability
             The stability. Accuracy: 1e-13 of the largest exponent for simple ones; with masses up to 1e16 apart 2e-13, on arms
-            and springs 2e-10. `exponent_error` estimates the error of each, and a verdict within it is ``undecided``. The exponents are without damping;
+            and springs 5e-9. `exponent_error` estimates the error of each, and a verdict within it is ``undecided``. The exponents are without damping;
             `Stability.internal_damping` and `Stability.external_damping` give the effect of a little of it. Cost:
             ``(4 N)**3 / 2`` operations: half a millisecond for twenty links, a tenth of a second for a hundred. Where double
             precision loses digits, twice the digits are used, up to 25 links in the free frame: a hundred times as long.
