@@ -33,7 +33,7 @@ def held_at_random(rng, lower, upper):
 
 
 def half_waves(held, place):
-    """Of a shape in the plane: changes of side about the line between the places of rest of the ends, and one."""
+    """Half waves of a shape in the plane: 1 more than its changes of side about the line between the rest places of the ends."""
     low, high = held.lower.radius, held.upper.radius
     free = [i > 0 or math.isfinite(held.lower.stiffness) for i in range(len(place))]
     free[-1] = math.isfinite(held.upper.stiffness)

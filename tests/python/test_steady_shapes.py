@@ -106,7 +106,7 @@ def test_counts_known_from_elsewhere(count, ratio, shapes):
 
 
 def test_complete_says_of_which_shapes():
-    """Of four links at 15 rad/s there are 10 hanging shapes, and 64 in any posture."""
+    """Four links at 15 rad/s have 10 hanging shapes, and 64 in any posture."""
     more = "(hanging_only=False) there may be more"
     chain = plummets(4)
     hanging, every = (rc.steady_shapes(chain, angular_speed=15.0, hanging_only=only) for only in (True, False))

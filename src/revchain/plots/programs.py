@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the example programs draw with. The import gives all pictures the style of the documentation."""
+"""Helpers with which the example programs draw. Importing this module gives all pictures the style of the documentation."""
 
 from __future__ import annotations
 

@@ -199,7 +199,7 @@ class System:
 
 
 class Pencil:
-    """What moves of K, P and M; `whole` has the support too."""
+    """K, P and M of the pins that can move; `whole` also has the row of the support."""
 
     def __init__(self, moving, *whole):
         self.moving, self.whole = moving, whole

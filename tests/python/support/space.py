@@ -88,7 +88,7 @@ class Shooting:
         return found
 
     def turned(self, place):
-        """Of the shapes that differ by a turn about the axis, where the ends allow it, one."""
+        """The same shape in a standard position: turned about the axis where the ends allow that."""
         if self.lower.radius or self.upper.radius:
             return place
         across = place[:, 0] + 1j * place[:, 1]

@@ -11,7 +11,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-// What Eigen's solvers ask of a scalar besides.
+// Eigen's solvers call these two for every scalar.
 inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
 inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
