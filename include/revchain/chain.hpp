@@ -88,9 +88,9 @@ class Chain {
         chain.taper_ = exponent;
         return chain;
     }
-    /// The same chain with its `taper`, which links read from a file do not have: the exponent from which `tapered`
-    /// made them. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp. Cost: that of
-    /// `tapered`.
+    /// Returns this chain with `taper` set to the exponent from which `tapered` made its links. Links that were read
+    /// from a file have lost it. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp.
+    /// Cost: that of `tapered`.
     Chain as_tapered(double exponent) const;
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
