@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/balance/links.hpp"
 #include "revchain/numeric/double_double.hpp"
 

@@ -94,6 +94,18 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
         // the next point, told from this one: halving stays within one step
         extend(i, judge(i + 1, branch.arc[i + 1]));
     }
+    // between two verdicts a shape may be too near the change to be judged: within the tolerance that is the change
+    for (std::size_t i = 1; i + 1 < windows.size(); ++i) {
+        StabilityWindow &before = windows[i - 1], &after = windows[i + 1];
+        const StabilityWindow& change = windows[i];
+        if (change.verdict != Verdict::undecided || before.verdict == after.verdict ||
+            change.arc_to - change.arc_from > options.tolerance ||
+            std::abs(change.height_to - change.height_from) > options.tolerance * change.height_to)
+            continue;
+        before.arc_to = after.arc_from = change.arc_from + (change.arc_to - change.arc_from) / 2;
+        before.height_to = after.height_from = change.height_from + (change.height_to - change.height_from) / 2;
+        windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(i--));
+    }
     return windows;
 }
 

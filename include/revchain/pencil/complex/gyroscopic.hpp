@@ -89,7 +89,8 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         const Matrix<S> left_real = Q * u.real, left_imag = Q * u.imag;
         const double whole = rounding * static_cast<double>(T.norm());
         for (Index j = 0; j < n + k; ++j) {
-            const auto p = u.real.col(j), q = u.imag.col(j), l = left_real.col(j), m = left_imag.col(j);
+            const auto p = u.real.col(j), q = u.imag.col(j);
+            const auto l = left_real.col(j), m = left_imag.col(j);
             const double sizes = static_cast<double>(
                 sqrt(S((p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm()))));
             const double product =

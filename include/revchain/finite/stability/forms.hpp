@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/pencil/complex/gyroscopic.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::finite {
+
+/// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are
+/// alike: negative directions, whether every direction is positive, and whether no sign is within rounding.
+struct EnergySigns {
+    Index negative;
+    bool is_minimum, is_certain;
+};
+inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * static_cast<double>(links) * stiffness,
+                 least = std::min(inside.least, outside.least);
+    return {inside.negative + outside.negative, least > rounding, least < -rounding};
+}
+
+/// p'A q of complex vectors, given by their parts, without a conjugate.
+template <class S>
+std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
+                         Index j) {
+    const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
+    const auto re = p.real.col(j), im = p.imag.col(j);
+    return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
+}
+template <class S>
+double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
+    return std::abs(static_cast<double>(q.real.col(j).dot(A * q.real.col(j)) + q.imag.col(j).dot(A * q.imag.col(j))));
+}
+template <class S>
+std::complex<double> rounded(const std::complex<S>& x) {
+    return {static_cast<double>(x.real()), static_cast<double>(x.imag())};
+}
+
+/// The error of s where that of s^2 is known.
+inline double error_of_root(double square, double error) {
+    return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
+}
+
+}  // namespace revchain::finite
