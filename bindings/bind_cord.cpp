@@ -6,7 +6,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/stability/cord.hpp"
+#include "revchain/cord.hpp"
 
 #include <pybind11/functional.h>
 

@@ -4,7 +4,7 @@
 #include "bindings.hpp"
 #include "forces.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/stability/cord.hpp"
+#include "revchain/cord.hpp"
 #include "revchain/held.hpp"
 #include "revchain/stability.hpp"
 

@@ -12,7 +12,6 @@
 #include "revchain/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/questions/dense_reference.hpp"
-#include "revchain/questions/modes.hpp"  // also for double-double
 #include "scalars.hpp"
 
 namespace {

@@ -16,6 +16,7 @@ needs_table='
    gsl       libgsl-dev                gsl       gsl-devel           gsl
    catch2    catch2                    catch2    catch2-devel        catch2
    pkgconf   pkg-config                pkgconf   pkgconf-pkg-config  pkg-config
+   ccache    ccache                    ccache    ccache              ccache
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
    clang     clang                     llvm      clang               clangxx
@@ -60,6 +61,7 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     gsl) compiles '#include <gsl/gsl_sf_bessel.h>' ;;
     catch2) compiles '#if !__has_include(<catch2/catch.hpp>) && !__has_include(<catch2/catch_all.hpp>)\n#error\n#endif' ;;
     pkgconf) command -v pkg-config ;;
+    ccache) command -v ccache ;;
     lapack) printf 'extern "C" void dsterf_(); int main() { dsterf_(); }' |
       ${CXX:-c++} -x c++ - -llapack -o /dev/null 2>/dev/null || [ -n "${OPENBLAS_HOME-}" ] ;;
     clang) command -v clang++ || command -v clang++-14 || command -v clang++-19 ;;
@@ -75,7 +77,8 @@ missing() {
   for need; do is_there "$need" || printf ' %s' "$need"; done
 }
 
-# install_needs NEED...: what is not there, by apt; elsewhere says what to install and ends with 3.
+# install_needs NEED...: what is not there, by apt, and ccache with it where it can be had: builds use it, and work
+# without. Elsewhere says what to install and ends with 3.
 install_needs() {
   if command -v brew >/dev/null; then CPPFLAGS="${CPPFLAGS-} -I$(brew --prefix)/include"; fi
   lacking=$(missing "$@")
@@ -84,7 +87,7 @@ install_needs() {
   [ "$(id -u)" = 0 ] || sudo=sudo
   # shellcheck disable=SC2086  # needs and packages are words
   if command -v apt-get >/dev/null && { [ -z "$sudo" ] || command -v sudo >/dev/null; }; then
-    packages=$(package_names 2 $lacking)
+    packages="$(package_names 2 $lacking) $(package_names 2 $(missing ccache))"
     echo "installing by apt:$packages"
     $sudo apt-get update -qq
     $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >/dev/null
@@ -109,12 +112,16 @@ pip() {
   "$venv/bin/python" -m pip --disable-pip-version-check --quiet "$@"
 }
 
-# The package with its EXTRAS, showing ninja's count; all that was printed, where it fails.
+# The package with its EXTRAS, showing ninja's count; all that was printed, where it fails. The module is compiled for
+# this machine, in the folder of the preset dev: the tests link what it is made of.
 build_package() {
   log=$root/build/python.log
   mkdir -p "$root/build"
   { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation \
-    --config-settings=build-dir="$root/build/python" "${root}[$1]" 2>&1 && echo built || echo failed; } |
+    --config-settings=build-dir="$root/build/dev" --config-settings=build.targets=_core \
+    --config-settings=cmake.define.REVCHAIN_PORTABLE=OFF --config-settings=cmake.define.REVCHAIN_BUILD_TESTS=AUTO \
+    --config-settings=cmake.define.REVCHAIN_BUILD_EXAMPLES=ON --config-settings=cmake.define.REVCHAIN_BUILD_BENCH=ON \
+    "${root}[$1]" 2>&1 && echo built || echo failed; } |
     tee "$log" | "$venv/bin/python" -c 'import re, sys
 for line in sys.stdin:
     if step := re.match(r" *(\[\d+/\d+\].*)", line):
@@ -129,6 +136,7 @@ set_up() {
     "$root/include" "$root/bindings" "$root/src" && return 0
 
   install_needs "$@"
+  use_ccache
   [ -x "$venv/bin/python" ] || "${PYTHON:-python3}" -m venv "$venv"
   touch "$stamp.new" # before the build: what is edited while it runs counts as newer
   echo "building the Python package in .venv: each step below is a file, and takes some seconds"
@@ -142,4 +150,9 @@ print(*tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"], sep="\
 
 jobs=$(getconf _NPROCESSORS_ONLN)
 export CMAKE_BUILD_PARALLEL_LEVEL="$jobs" CTEST_PARALLEL_LEVEL="$jobs"
-if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+# Called after the needs are there; what was compiled in one checkout serves in another.
+use_ccache() {
+  command -v ccache >/dev/null || return 0
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+}
+use_ccache

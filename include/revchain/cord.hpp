@@ -216,6 +216,11 @@ Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 
 }  // namespace revchain
 
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/finite/cord/shapes.hpp"
+#include "revchain/finite/stability/cord.hpp"
+#endif
+#if !defined(REVCHAIN_COMPILED_ANALYTIC)
 #include "revchain/analytic/cord.hpp"
 #include "revchain/analytic/cord_sensitivity.hpp"
-#include "revchain/finite/stability/cord.hpp"
+#endif

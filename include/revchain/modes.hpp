@@ -10,6 +10,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/count.hpp"
 #include "revchain/linear/lazy_mode_shapes.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
@@ -138,6 +139,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
 extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
 extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);
+extern template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&, const ModesOptions<DoubleDouble>&);
 }  // namespace revchain
 #else
 #include "revchain/questions/modes.hpp"

@@ -4,6 +4,7 @@
 #include "revchain/analytic/cord_start.hpp"
 #include "revchain/cord.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
@@ -175,21 +176,21 @@ inline CordModes modes_of(const StraightCord& straight, const ModesOptions<doubl
 
 }  // namespace detail
 
-inline CordModes modes(const Cord& cord, const ModesOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const ModesOptions<double>& options) {
     detail::check(options);
     return detail::modes_of(cord, options);
 }
 
-inline CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }
 
-inline Index count_modes(const Cord& cord, const CountOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC Index count_modes(const Cord& cord, const CountOptions<double>& options) {
     return detail::modes_above(cord, detail::height_given("count_modes", options));
 }
 
-inline Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
     return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
 }
 
@@ -208,40 +209,40 @@ Vector<double> at_places(const Vector<double>& places, const F& f) {
 
 }  // namespace detail
 
-inline double CordModes::offset(Index j, double s) const {
+REVCHAIN_INLINE_ANALYTIC double CordModes::offset(Index j, double s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) { return mode.shape(s); });
 }
 
-inline Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) {
         return detail::at_places(s, [&](double at) { return mode.shape(at); });
     });
 }
 
-inline double CordModes::slope(Index j, double s) const {
+REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
     return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) { return mode.slope(s); });
 }
 
-inline Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
         return detail::at_places(s, [&](double at) { return mode.slope(at); });
     });
 }
 
-inline Vector<double> CordModes::nodes(Index j) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::nodes(Index j) const {
     return detail::with_mode("CordModes::nodes", *this, j, [](const auto& mode) { return mode.nodes(); });
 }
 
-inline Vector<double> CordModes::vertical_points(Index j) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::vertical_points(Index j) const {
     return detail::with_mode("CordModes::vertical_points", *this, j,
                              [](const auto& mode) { return mode.vertical_points(); });
 }
 
-inline Vector<double> CordModes::angular_speed(double gravity) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::angular_speed(double gravity) const {
     return conical_height.unaryExpr([=](double height) { return conical_pendulum::angular_speed(height, gravity); });
 }
 
-inline Vector<double> CordModes::period(double gravity) const {
+REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::period(double gravity) const {
     return conical_height.unaryExpr([=](double height) { return conical_pendulum::period(height, gravity); });
 }
 
@@ -255,7 +256,7 @@ inline double critical_height(std::string_view place, const Cord& cord, Index mo
 
 }  // namespace detail
 
-inline CordBranch branch(const Cord& cord, const BranchOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions& options) {
     const double height = finite::lowest_height("branch", options);
     detail::require_positive("branch", "max_step", options.max_step);
     finite::length_in_heights("branch", cord.length(), height);
@@ -268,7 +269,7 @@ inline CordBranch branch(const Cord& cord, const BranchOptions& options) {
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
-inline CordBranches branches(const Cord& cord, const BranchesOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const BranchesOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
@@ -280,11 +281,11 @@ inline CordBranches branches(const Cord& cord, const BranchesOptions& options) {
     return finite::CordDiagram(cord, critical.head(count).eval(), height, options).run();
 }
 
-inline CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options) {
     return finite::search_branch(cord, detail::critical_height("steady_shape", cord, options.mode), options);
 }
 
-inline CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options) {
     SteadyShapeOptions one = options;
     one.max_shapes = 1;
     CordShapesOnBranch found = shapes_on_branch(cord, one);
@@ -299,7 +300,7 @@ inline CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& option
 /// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
 ///     lambda integral of V y_k' f' / N,  N = lambda integral of V y_k'^2:
 /// no density is needed, however it jumps.
-inline CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     constexpr std::string_view place = "swing";
     detail::require_positive(place, "gravity", options.gravity);
     if (options.count < 1 || options.count > 10'000)
@@ -365,14 +366,14 @@ inline CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     return result;
 }
 
-inline Tuned tune(const Cord&, const TuneOptions&) {
+REVCHAIN_INLINE_ANALYTIC Tuned tune(const Cord&, const TuneOptions&) {
     detail::throw_invalid(
         "tune",
         "a Cord cannot be tuned yet in C++ (Python's revchain.tune does it); its heights are proportional to its "
         "length, so multiply the length by the wanted height over that of modes(cord)");
 }
 
-inline Explanation explain(const Cord&, const ModesOptions<double>&) {
+REVCHAIN_INLINE_ANALYTIC Explanation explain(const Cord&, const ModesOptions<double>&) {
     detail::throw_invalid("explain",
                           "modes of a Cord have one method for each kind of cord; CordModes::method names it");
 }

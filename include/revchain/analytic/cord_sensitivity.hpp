@@ -3,6 +3,7 @@
 
 #include "revchain/cord.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -41,7 +42,7 @@ inline double by_tension(const CordModes& modes, Index j, double lower) {
 
 }  // namespace detail
 
-inline CordSensitivity sensitivity(const CordModes& modes) {
+REVCHAIN_INLINE_ANALYTIC CordSensitivity sensitivity(const CordModes& modes) {
     const Cord& cord = modes.cord;
     CordSensitivity result;
     result.first = modes.first, result.length = modes.conical_height / cord.length();

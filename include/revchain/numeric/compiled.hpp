@@ -9,3 +9,10 @@
 #else
 #define REVCHAIN_INLINE inline
 #endif
+
+/// The same of what needs GSL, which no installed library holds: the Python module and the tests define it.
+#if defined(REVCHAIN_COMPILED_ANALYTIC)
+#define REVCHAIN_INLINE_ANALYTIC
+#else
+#define REVCHAIN_INLINE_ANALYTIC inline
+#endif

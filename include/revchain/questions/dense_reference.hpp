@@ -75,3 +75,10 @@ Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options 
 }
 
 }  // namespace revchain
+
+#if defined(REVCHAIN_COMPILED)
+namespace revchain::inline REVCHAIN_BUILD {
+extern template Modes<double> modes_dense(const Chain<double>&, const ModesOptions<double>&);
+extern template Modes<double> modes_recurrence(const Chain<double>&, const ModesOptions<double>&);
+}  // namespace revchain
+#endif

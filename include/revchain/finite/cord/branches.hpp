@@ -34,6 +34,10 @@ struct CordBranch {
     std::vector<finite::BranchLine::Point> points;
 };
 
+/// The shape of a cord at one conical height whose free end is near an offset: as at a point of a branch, at a fold of it
+/// or not. Throws InvalidArgument for one that could not be followed.
+CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset, bool at_fold);
+
 /// All branches found above one conical height. `complete` where a theorem counts the shapes (see `steady_shapes` of a
 /// cord). Elsewhere `consistent` says whether, at every height in `looked_at`, each shape found by a scan is met once.
 struct CordBranches {
@@ -176,30 +180,5 @@ void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, con
 }
 
 }  // namespace finite
-
-inline CordShape CordBranch::shape(std::size_t point) const {
-    constexpr std::string_view place = "CordBranch::shape";
-    if (point >= size()) detail::throw_invalid(place, "there are so many points: " + std::to_string(size()), point);
-    if (points[point].at.bend == 0) detail::throw_invalid(place, "this point is the straight cord", point);
-    const bool at_fold = std::find(folds.begin(), folds.end(), point) != folds.end();
-    auto shape = finite::shape_at(*line, points[point], at_fold);
-    if (!shape) detail::throw_invalid(place, "the shape at this point could not be followed", point);
-    return *std::move(shape);
-}
-
-inline std::vector<CordShape> CordBranch::shapes_at(double height) const {
-    detail::require_positive("CordBranch::shapes_at", "conical height", height);
-    std::vector<finite::BranchLine::Point> found;
-    const double log_height = std::log(height);
-    const auto value = [&](const finite::BranchLine::Point& point) { return point.at.log_height - log_height; };
-    if (size() > 0 && points[0].at.bend > 0 && value(points[0]) == 0) found.push_back(points[0]);
-    for (std::size_t i = 1; i < size(); ++i) finite::add_passing(found, *line, points[i - 1], points[i], value);
-    std::vector<CordShape> shapes;
-    for (finite::BranchLine::Point& point : found) {
-        point.at.log_height = log_height;
-        if (auto shape = finite::shape_at(*line, point)) shapes.push_back(*std::move(shape));
-    }
-    return shapes;
-}
 
 }  // namespace revchain

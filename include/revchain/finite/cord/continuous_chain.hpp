@@ -278,12 +278,6 @@ class CordModeShape {
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for a length above 1e6
 /// heights, for `scanned` below 1, for an exponent of the density above 20, and where the series cannot follow the cord
 /// (tried: an exponent of 16 without a tip; a tip of 1e30 times the cord's weight).
-inline CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
-    constexpr std::string_view place = "steady_shapes";
-    const double height = detail::height_given(place, options);
-    finite::length_in_heights(place, cord.length(), height);
-    if (options.scanned < 1) detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
-    return finite::continuous_shapes(finite::ContinuousChain(cord), height, options.scanned);
-}
+CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 
 }  // namespace revchain

@@ -207,14 +207,4 @@ class ShapeSamples {
 
 }  // namespace finite
 
-inline CordPlace CordShape::operator()(double arc) const {
-    if (!(arc >= 0 && arc <= length))
-        detail::throw_invalid("CordShape", "arc length must lie between 0 and the length", arc);
-    const double scaled = std::min(arc / conical_height, support_arc);
-    CordPlace place = finite::place_of(*this, finite::state_at(kind, steps, tip_offset, scaled));
-    place.arc_length = arc;
-    if (arc == length) place.offset = 0;
-    return place;
-}
-
 }  // namespace revchain

@@ -6,6 +6,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/held/cord.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/stability.hpp"
 
@@ -265,11 +266,11 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-inline Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame) {
+REVCHAIN_INLINE Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame) {
     return finite::judged(frame, cord, shape);
 }
 
-inline Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame) {
+REVCHAIN_INLINE Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame) {
     return finite::judged(frame, cord, shape);
 }
 

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""sizes.py quick|all PARTS.tsv: how large the project is and how long its tests took, beside the figures in sizes.toml.
+
+`./test` prints it at its end. It is for people to see, and fails nothing. Compile times are measured again only when a
+header has changed.
+"""
+
+import csv
+import hashlib
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TREES = {"include": (".hpp",), "src/revchain": (".py",), "bindings": (".cpp", ".hpp"), "tests": (".cpp", ".hpp", ".py")}
+PROGRAMS = ("count_modes", "modes of ten links", "steady_shapes")
+
+
+def sizes(root=ROOT):
+    """Files and lines of each tree that belong to the project."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", *TREES], capture_output=True, text=True, check=True).stdout
+    files = [file for name in listed.splitlines() if (file := Path(root, name)).exists()]
+    for tree, ends in TREES.items():
+        own = [file for file in files if file.is_relative_to(Path(root, tree)) and file.suffix in ends]
+        yield f"{tree}: files", len(own)
+        yield f"{tree}: lines", sum(file.read_bytes().count(b"\n") for file in own)
+
+
+def compile_times(root=ROOT):
+    """CPU time to compile each program over that of <Eigen/Dense>."""
+    headers = sorted(Path(root, "include").rglob("*.hpp"))
+    key = hashlib.sha1(b"".join(file.read_bytes() for file in headers)).hexdigest()
+    kept = ROOT / "build" / f"compile_times_{key}.csv"
+    if not kept.exists():
+        command = [ROOT / "bench/compile_times", "--repeat", "1", "--include", Path(root, "include"), "--csv", kept]
+        subprocess.run([sys.executable, *command, "--only", *PROGRAMS], capture_output=True, check=True)
+    with kept.open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if row["unit"] in PROGRAMS:
+                yield f"compile, over Eigen/Dense: {row['unit']}", float(row["x Eigen/Dense"])
+
+
+def main(tier, parts):
+    with open(ROOT / "tools/sizes.toml", "rb") as file:
+        before = tomllib.load(file)
+    seconds = [line.split("\t") for line in Path(parts).read_text(encoding="utf-8").splitlines()]
+    rows = [(f"seconds: {name}", int(took), before[tier].get(name, "")) for name, took, *_ in seconds]
+    rows.append(("seconds: all", sum(int(took) for _, took, *_ in seconds), before[tier]["all"]))
+    rows += [(name, now, before["sizes"][name]) for name, now in [*sizes(), *compile_times()]]
+    print(f"\n{'':50} {'now':>8}  {before['commit'][:7]:>8}")
+    for name, now, then in rows:
+        print(f"{name:50} {now:8}  {then:8}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
