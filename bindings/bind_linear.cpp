@@ -23,7 +23,7 @@ using Triple = std::tuple<double, double, double>;
 
 constexpr std::array<std::string_view, 7> methods{"auto",         "bisection", "condensed", "aberth",
                                                   "interpolated", "dense",     "recurrence"};
-constexpr std::array<std::string_view, 4> precisions{"single", "double", "extended", "double-double"};
+constexpr std::array<std::string_view, 3> precisions{"double", "extended", "double-double"};
 
 template <std::size_t N>
 void check_word(std::string_view what, const std::string& word, const std::array<std::string_view, N>& words) {
@@ -78,11 +78,9 @@ Solver<T> solver(const std::string& method) {
     return &revchain::modes<T>;
 }
 
-/// Modes of a chain in one of the four scalars. Python reads its numbers one by one; shapes are computed when read.
+/// Modes of a chain in one of the three scalars. Python reads its numbers one by one; shapes are computed when read.
 struct FoundModes {
-    std::variant<revchain::Modes<float>, revchain::Modes<double>, revchain::Modes<long double>,
-                 revchain::Modes<revchain::DoubleDouble>>
-        modes;
+    std::variant<revchain::Modes<double>, revchain::Modes<long double>, revchain::Modes<revchain::DoubleDouble>> modes;
     bool certified;
 
     template <class Read>
@@ -154,7 +152,6 @@ FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, st
                      : method == "interpolated" ? revchain::ModesMethod::interpolated
                                                 : revchain::ModesMethod::automatic;
     const Asked asked{first, count, conical_height, angular_speed, rtol, certify, way, threads};
-    if (precision == "single") return solved<float>(chain, asked, method, progress);
     if (precision == "extended") return solved<long double>(chain, asked, method, progress);
     if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, progress);
     return solved<double>(chain, asked, method, progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One chain and its results in the four scalars that Python may ask for.
+// One chain and its results in the three scalars that Python may ask for.
 #pragma once
 
 #include <cmath>

@@ -189,7 +189,7 @@ def gyrostatic_string_rotation(
     gravity: float,
 ) -> tuple[_Floats]: ...
 
-_Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
+_Numbers = numpy.typing.NDArray[typing.Any]  # float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
 _End = tuple[float, float, float, float]
 _Tension = tuple[float, float]

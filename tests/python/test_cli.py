@@ -675,8 +675,8 @@ def test_precision(run, precision):
         (("--conical-height", "-1 to 1"), "--conical-height.*must not be negative, got -1"),
         (("--angular-speed", "nan to 1"), "nan"),
         (("--angular-speed", "30 kg"), "--angular-speed.*must be an angular speed such as"),
-        (("--precision", "half"), "single, double, extended, double-double.*half"),
-        (("--precision", "single", "--method", "dense"), "--precision: method = \"dense\" goes with \"double\" only"),
+        (("--precision", "single"), "--precision: must be one of double, extended, double-double, got .*single"),
+        (("--precision", "extended", "--method", "dense"), "--precision: method = \"dense\" goes with \"double\" only"),
     ],
 )
 def test_selections_refused(run, options, message):

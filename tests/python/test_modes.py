@@ -205,9 +205,9 @@ METHODS = "of bisection, condensed, aberth, interpolated, dense, recurrence, .*c
         *(({"conical_height": window}, "pair") for window in (1.0, (1.0,), (1.0, 2.0, 3.0), "12")),
         ({"conical_height": ("1", "b")}, r"\(each end\) must be a number"),
         ({"angular_speed": (2.0, 1.0)}, "angular speed"),
-        ({"precision": "half"}, "precision must be one of single, double, extended, double-double, got 'half'"),
+        ({"precision": "single"}, r"precision must be one of double, extended, double-double, got 'single'; float is for C\+\+ alone"),
         ({"precision": None}, "precision.*None"),
-        ({"precision": "single", "method": "dense"}, "double only"),
+        ({"precision": "extended", "method": "dense"}, "double only"),
     ],
 )
 def test_refused(arguments, message):

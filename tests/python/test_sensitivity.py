@@ -83,7 +83,7 @@ def test_laws_and_what_is_kept():
     assert rc.modes(bodies(), conical_height=(100.0, 200.0)).sensitivity.mass.shape == (0, 4)
 
 
-@pytest.mark.parametrize("options", [{"precision": each} for each in ("single", "extended", "double-double")])
+@pytest.mark.parametrize("options", [{"precision": each} for each in ("extended", "double-double")])
 def test_derivatives_do_not_depend_on_how_the_modes_were_found(options):
     chain = bodies(6)
     exact, found = rc.modes(chain).sensitivity, rc.modes(chain, count=2, first=3, **options).sensitivity

@@ -273,7 +273,7 @@ def test_what_rigs_do_not_have():
     modes = rc.modes(RIG)
     with pytest.raises(ValueError, match="another gravity; ask revchain.modes again"):
         modes.at(gravity=1.62)
-    for name, value in {"method": "dense", "precision": "single"}.items():
+    for name, value in {"method": "dense", "precision": "extended"}.items():
         with pytest.raises(ValueError, match=f"revchain.modes: {name} is for a Chain"):
             rc.modes(RIG, **{name: value})
 

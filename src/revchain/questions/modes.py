@@ -120,12 +120,11 @@ def modes(
         characteristic polynomial: many modes. If one of these three does not apply, bisection is used, and ``method`` of
         the result says so. ``"dense"`` solves the assembled pencil, ``"recurrence"`` relation (21) as printed: both are
         references for small chains. Any other name that `explain` lists selects that method at any cost.
-    precision : {"double", "single", "extended", "double-double"}
-        Arithmetic of the result. ``"single"``: the data of the chain and the window are ROUNDED to float32 first, and the
-        results are float32. ``"extended"``: the results are numpy's longdouble, which has 64 bits on x86-64 and equals
-        double on some platforms. ``"double-double"``: twice the digits of double; the height is the sum of two float64
-        arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for one link,
-        1e-24 for 2000), and shapes are float64.
+    precision : {"double", "extended", "double-double"}
+        Arithmetic of the result. ``"extended"``: the results are numpy's longdouble, which has 64 bits on x86-64 and
+        equals double on some platforms. ``"double-double"``: twice the digits of double; the height is the sum of two
+        float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for one
+        link, 1e-24 for 2000), and shapes are float64.
     certify : bool
         Whether to return for each height of a chain or a rig the interval that contains it and the counts that prove it.
     threads : int, optional
@@ -255,7 +254,7 @@ def find_modes(
     if heights is None and speeds is None:
         wanted = how_many(place, count, start, core.mode_count)
     if precision is not _DOUBLE:
-        checked_word(place, "precision", precision, _core.PRECISIONS)
+        checked_word(place, "precision", precision, _core.PRECISIONS, "; float is for C++ alone")
     if rtol is not None and 0 < rtol <= FULL and method is None and wanted and precision == "double" and not certify:
         method = "double-double"  # no method in double keeps it
     if method is not None and not (isinstance(method, str) and method in _core.METHODS[1:]):

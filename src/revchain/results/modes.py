@@ -43,7 +43,7 @@ class Certificate(Result):
     Notes
     -----
     For results in double precision `revchain.count_modes` returns the same counts at these numbers. The heights are those
-    of the stored data; in single precision they are those of the rounded data.
+    of the stored data.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[An
             with np.errstate(invalid="ignore", divide="ignore"):
                 found: Numbers = extended(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(modes.conical_height))
             return found
-        height = modes.conical_height.astype(np.float64, copy=False)
+        height = modes.conical_height
         good = height > 0  # the dense references may return others by rounding
         numbers = compiled(np.where(good, height, 1.0), np.asarray(modes.gravity))
         return numbers if good.all() else np.where(good, numbers, np.nan)

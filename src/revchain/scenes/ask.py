@@ -38,7 +38,7 @@ class AskModes(Table, frozen=True):
     rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
     certify: Annotated[bool, says("Whether to prove each height with an interval and its counts.")] = False
     precision: Annotated[
-        Literal["single", "double", "extended", "double-double"], says("Arithmetic of the results.")
+        Literal["double", "extended", "double-double"], says("Arithmetic of the results.")
     ] = "double"
     method: Annotated[str | UnsetType, says("Method, one of those that explain lists; the cheapest if left out.")] = UNSET
 

@@ -19,7 +19,7 @@ from .. import _core
 from . import units
 
 Floats = NDArray[np.float64]
-Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
+Numbers = NDArray[Any]  # float64 or longdouble, by the precision asked for
 Whole = NDArray[np.int64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -123,10 +123,10 @@ def listed(place: str, name: str, value: object) -> list[Any]:
         raise ValueError(f"{place}: {name} must be a list of whole numbers, got {shown(value)}") from None
 
 
-def word(place: str, name: str, value: object, words: Iterable[str]) -> str:
-    """`value` if it is one of the words; a ValueError otherwise."""
+def word(place: str, name: str, value: object, words: Iterable[str], note: str = "") -> str:
+    """`value` if it is one of the words; a ValueError, which ends with the note, otherwise."""
     if not isinstance(value, str) or value not in words:
-        raise ValueError(f"{place}: {name} must be one of {', '.join(words)}, got {shown(value)}")
+        raise ValueError(f"{place}: {name} must be one of {', '.join(words)}, got {shown(value)}{note}")
     return value
 
 

@@ -130,6 +130,22 @@ TEST_CASE("a thousand links in two doubles", "[linear]") {
     }
 }
 
+TEST_CASE("what does not fit into float is refused", "[linear]") {
+    const auto refusal = [](double weight, double length) -> std::string {
+        try {
+            const std::vector<revchain::Link<double>> links(2, revchain::plummet(weight, length));
+            revchain::converted<float>(revchain::Chain<double>(links));
+        } catch (const revchain::InvalidArgument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(refusal(1e-30, 1e30).empty());
+    for (const double weight : {1e-60, 1e60})
+        CHECK_THAT(refusal(weight, 1), Catch::Contains("links[0]: weight must lie in the range of the precision"));
+    CHECK_THAT(refusal(1, 1e-300), Catch::Contains("length must lie in the range of the precision"));
+}
+
 // Counts in float would lose a million links altogether: float chains are solved in double.
 TEST_CASE("a million links in float: the nearest floats", "[linear]") {
     support::Random random(32);
