@@ -144,6 +144,8 @@ set_up() {
   # shellcheck disable=SC2046  # one requirement a line
   pip install $("$venv/bin/python" -c 'import sys, tomllib
 print(*tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"], sep="\n")' "$root/pyproject.toml")
+  # The build asks every installed package for CMake files; one that cannot be imported would end it.
+  "$venv/bin/python" -c 'import revchain' 2>/dev/null || pip uninstall -y revchain 2>/dev/null
   build_package "$extras"
   mv "$stamp.new" "$stamp"
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// Scalars in which the Python module does not compute: it is built without this file.
+// Scalars in which the Python module does not compute.
 #include "revchain/questions/batch.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/questions/sensitivity.hpp"

@@ -13,7 +13,7 @@ import pytest
 import revchain
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILD = ROOT / "build" / "python"
+BUILD = ROOT / "build" / "dev"
 SAME = """
 rc.modes(CHAIN).conical_height.tolist()
 rc.modes(RODS, 2, rtol=1e-2).conical_height.tolist()

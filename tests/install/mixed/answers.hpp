@@ -4,4 +4,4 @@
 #include <revchain/numeric/scalar.hpp>
 
 /// Answers of the library to some questions, by three builds of it. The vectors are made by one and freed by another.
-revchain::Vector<double> native(), plain(), linked();
+revchain::Vector<double> newer(), plain(), linked();

@@ -9,6 +9,7 @@
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/balance/links.hpp"
 #include "revchain/numeric/double_double.hpp"
+#include "revchain/pencil/complex/gyroscopic.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -25,6 +26,12 @@ template <class S>
 Matrix<S> beside(const Matrix<S>& columns) {
     const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
     return whole.rightCols(columns.rows() - columns.cols());
+}
+
+/// X'AX
+template <class S>
+Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
+    return pencil::transposed_product(X, pencil::product(A, X));
 }
 
 /// A shape as its links, their inclinations, lambda times the pull along each, the offset of the upper end; and what
@@ -144,7 +151,9 @@ struct DisturbedIn {
             turning[m] = S(at(shape.momentum, m)) * unit[m] * unit[m] / S(2);
         }
         const auto spread = [](const Vector<S>& p, const Matrix<S>& of, const Vector<S>& q) {
-            return Matrix<S>(p.asDiagonal() * of * q.asDiagonal());
+            Matrix<S> result = of;
+            for (Index j = 0; j < q.size(); ++j) result.col(j) = result.col(j).cwiseProduct(p) * q[j];
+            return result;
         };
         const Matrix<S> centrifugal = spread(x, G, x);
         inertia = centrifugal + spread(z, G, z), coupling = spread(x, G, y), mass = spread(y, G, y);
@@ -152,8 +161,8 @@ struct DisturbedIn {
         in_plane = -centrifugal, out_of_plane = -mass;
         in_plane.diagonal() += stiffness, out_of_plane.diagonal() += stiffness;
         if (shape.lower_yields()) {
-            in_plane += S(shape.lower_stiffness) * x * x.transpose();
-            out_of_plane += S(shape.lower_stiffness) * y * y.transpose();
+            in_plane += pencil::product<S>(S(shape.lower_stiffness) * x, x.transpose());
+            out_of_plane += pencil::product<S>(S(shape.lower_stiffness) * y, y.transpose());
         }
         drag_in_plane = spread(x, length, x) + spread(z, length, z);
         drag_coupling = spread(x, length, y), drag_across = spread(y, length, y);
@@ -164,7 +173,7 @@ struct DisturbedIn {
             bending(m, m) = S(m == 0 && !shape.held ? 1 : 2) * unit[m] * unit[m];
             if (m > 0) bending(m, m - 1) = bending(m - 1, m) = -unit[m] * unit[m - 1];
         }
-        swivelling = unit.asDiagonal() * swivelled(shape, pins).template cast<S>() * unit.asDiagonal();
+        swivelling = spread(unit, swivelled(shape, pins).template cast<S>(), unit);
         for (Index m = 0; m < pins; ++m) {
             const bool lowest = m == 0 && shape.lower_yields() && shape.lower_carriage > 0;
             const bool lower = m < n && !(is_zero(link(m).moment) && is_zero(link(m).cross));
@@ -175,12 +184,10 @@ struct DisturbedIn {
 
     /// Leaves of q the columns of Q and of b those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
-        const auto within = [](Matrix<S>& of, const Matrix<S>& left, const Matrix<S>& right) {
-            of = (left.transpose() * of * right).eval();
-        };
-        for (Matrix<S>* each : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) within(*each, Q, Q);
-        for (Matrix<S>* each : {&coupling, &drag_coupling}) within(*each, Q, Y);
-        for (Matrix<S>* each : {&mass, &out_of_plane, &swivelling, &drag_across}) within(*each, Y, Y);
+        for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) *of = within(*of, Q);
+        for (Matrix<S>* of : {&coupling, &drag_coupling})
+            *of = pencil::transposed_product(Q, pencil::product(*of, Y));
+        for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across}) *of = within(*of, Y);
     }
 
     /// Leaves angles that keep the lower end where it is; on a spring it moves across the axis.

@@ -59,12 +59,12 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         beside_shape = beside(Matrix<S>(d.offset));
         turning = sqrt(S(d.offset.dot(momentum)));
         b = d.coupling * d.offset / turning;
-        in_plane += S(4) * b * b.transpose();
+        in_plane += pencil::product<S>(S(4) * b, b.transpose());
     } else if (!free) {
         in_plane -= d.turned;
     }
-    const pencil::MirroredPencil<S> forms{d.inertia, d.coupling * others, others.transpose() * d.mass * others,
-                                          in_plane, others.transpose() * d.out_of_plane * others};
+    const pencil::MirroredPencil<S> forms{d.inertia, pencil::product(d.coupling, others), within(d.mass, others),
+                                          in_plane, within(d.out_of_plane, others)};
     const auto found = pencil::mirrored_modes(forms);
     if (!found) return std::nullopt;
     const pencil::MirroredModes<S>& modes = *found;
@@ -75,10 +75,11 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     result.frame = frame;
     const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
-    pencil::ComplexColumns<S> Y{others * others_of_y.real, others * others_of_y.imag};
-    if (rotates) {
-        const Vector<S> along = d.offset / turning;
-        Y.real -= S(2) * along * (b.transpose() * q.real), Y.imag -= S(2) * along * (b.transpose() * q.imag);
+    pencil::ComplexColumns<S> Y{pencil::product(others, others_of_y.real), pencil::product(others, others_of_y.imag)};
+    for (Index j = 0; rotates && j < modes.square.size(); ++j) {
+        const S twice = S(2) / turning;
+        Y.real.col(j) -= (twice * b.dot(q.real.col(j))) * d.offset;
+        Y.imag.col(j) -= (twice * b.dot(q.imag.col(j))) * d.offset;
     }
     const auto size = [](const Matrix<S>& A) { return static_cast<double>(A.norm()); };
     const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M), in_K = size(forms.K),
@@ -154,8 +155,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
     }
     const auto narrow = [](const Matrix<S>& A) { return Matrix<double>(A.template cast<double>()); };
-    const Matrix<double> inside = narrow(in_plane),
-                         across = narrow(beside_shape.transpose() * d.out_of_plane * beside_shape);
+    const Matrix<double> inside = narrow(in_plane), across = narrow(within(d.out_of_plane, beside_shape));
     const Verdict by_squares = verdict_by(square, error, modes.is_symmetric);
     const EnergySigns signs = energy_signs(inside, across, d.ends.rows());
     result.negative_directions = signs.negative;
@@ -333,7 +333,7 @@ REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed
         in_plane -= d.turned;
     } else if (d.turns_freely) {
         const Matrix<double> others = beside(Matrix<double>(d.offset));
-        across = others.transpose() * d.out_of_plane * others;
+        across = within(d.out_of_plane, others);
     } else {
         across = d.out_of_plane;
     }

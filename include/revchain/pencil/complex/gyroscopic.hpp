@@ -9,6 +9,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
+/// A B and A'B. Eigen compiles a product of expressions anew for each kind of them, which takes seconds for a scalar of
+/// two words.
+template <class S>
+Matrix<S> product(const Matrix<S>& A, const Matrix<S>& B) {
+    return A * B;
+}
+template <class S>
+Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
+    return product<S>(A.transpose(), B);
+}
+
 /// A gyroscopic system that motion in a mirror leaves alone,
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
 /// A and M symmetric and positive definite, K and C symmetric. With x, y exp(s t) so is x, -y exp(-s t).
@@ -48,8 +59,9 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     const Eigen::LLT<Matrix<S>> root(pencil.A), other(pencil.M);
     if (root.info() != Eigen::Success || other.info() != Eigen::Success) return std::nullopt;
     const auto reduced = [](const auto& left, const Matrix<S>& middle, const auto& right) {
-        const Matrix<S> half = left.matrixL().solve(middle);
-        return Matrix<S>(right.matrixL().solve(half.transpose()).transpose());
+        Matrix<S> half = left.matrixL().solve(middle);
+        half.transposeInPlace();
+        return Matrix<S>(Matrix<S>(right.matrixL().solve(half)).transpose());
     };
     Matrix<S> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
     Matrix<S> C = reduced(other, pencil.C, other);
@@ -60,7 +72,8 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     const double pace = std::sqrt(std::max({size(K), size(C), std::numeric_limits<double>::min()}));
     K /= S(pace) * S(pace), C /= S(pace) * S(pace), B /= S(pace);
     Matrix<S> Q(n + k, n + k);
-    Q << K + S(4) * B * B.transpose(), S(-2) * B, S(-2) * B.transpose(), Matrix<S>::Identity(k, k);
+    const Matrix<S> twice = S(-2) * B;
+    Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(), Matrix<S>::Identity(k, k);
     const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
     MirroredModes<S> modes;
     modes.error.resize(n + k);
@@ -68,15 +81,15 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     if (const Eigen::LLT<Matrix<S>> factor(C); factor.info() == Eigen::Success) {
         Matrix<S> F = Matrix<S>::Identity(n + k, n + k);
         F.bottomRightCorner(k, k) = factor.matrixL();
-        const Matrix<S> symmetric = F.transpose() * Q * F;
+        const Matrix<S> symmetric = transposed_product(F, product(Q, F));
         const Eigen::SelfAdjointEigenSolver<Matrix<S>> solver(symmetric);
         modes.square = Vector<S>(-solver.eigenvalues()).template cast<std::complex<S>>();
-        u.real = F * solver.eigenvectors();
+        u.real = product(F, solver.eigenvectors());
         modes.is_symmetric = true;
         modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
     } else {
         Matrix<S> T = -Q;
-        T.bottomRows(k) = C * T.bottomRows(k);
+        T.bottomRows(k) = product<S>(C, T.bottomRows(k));
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
         const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: the real part, then the imaginary part
@@ -86,7 +99,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
             if (first) u.imag.col(j) = parts.col(j + 1);
             if (second) u.imag.col(j) = -parts.col(j);
         }
-        const Matrix<S> left_real = Q * u.real, left_imag = Q * u.imag;
+        const Matrix<S> left_real = product(Q, u.real), left_imag = product(Q, u.imag);
         const double whole = rounding * static_cast<double>(T.norm());
         for (Index j = 0; j < n + k; ++j) {
             const auto p = u.real.col(j), q = u.imag.col(j);
@@ -103,7 +116,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     const auto back = [](const auto& factor, const Matrix<S>& of) { return Matrix<S>(factor.matrixU().solve(of)); };
     const Matrix<S> to_y = S(pace) * Q.bottomRows(k);
     modes.x = {back(root, u.real.topRows(n)), back(root, u.imag.topRows(n))};
-    modes.y = {back(other, to_y * u.real), back(other, to_y * u.imag)};
+    modes.y = {back(other, product(to_y, u.real)), back(other, product(to_y, u.imag))};
     return modes;
 }
 
