@@ -9,7 +9,7 @@
 #include <cstring>
 #include <map>
 
-#include "revchain/finite/cord/shapes.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
 #include "support/table.hpp"
 #include "timing.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "revchain/branches.hpp"
-#include "revchain/finite/cord/shapes.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
 #include "support/cuttings.hpp"
 
 namespace {

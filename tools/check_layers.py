@@ -77,9 +77,11 @@ PUBLIC = {
     "analytic.hpp": "",
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
-FURTHER = {  # more files that define what a public header declares
+FURTHER = {  # more files that define what a header declares
     "branches.hpp": {"finite/branch/diagram.hpp"},
     "cord.hpp": {"analytic/cord_sensitivity.hpp"},
+    "finite/cord/continuous_chain.hpp": {"finite/cord/steady_shapes.hpp"},
+    "finite/cord/branches.hpp": {"finite/cord/branch_shapes.hpp"},
 }
 MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
@@ -205,9 +207,9 @@ def check_cycles(graph: dict[str, list[str]], what: str) -> None:
 
 
 def implementations(name: str) -> set[str]:
-    """The files that define what a public header declares."""
+    """The files that define what a header declares."""
     home = PUBLIC.get(name, "")
-    return {f"{home}/{name}", f"{home}/rig_{name}"} | FURTHER.get(name, set()) if home else set()
+    return FURTHER.get(name, set()) | ({f"{home}/{name}", f"{home}/rig_{name}"} if home else set())
 
 
 def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:

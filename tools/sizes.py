@@ -48,8 +48,8 @@ def main(tier, parts):
     seconds = [line.split("\t") for line in Path(parts).read_text(encoding="utf-8").splitlines()]
     rows = [(f"seconds: {name}", int(took), before[tier].get(name, "")) for name, took, *_ in seconds]
     rows.append(("seconds: all", sum(int(took) for _, took, *_ in seconds), before[tier]["all"]))
-    rows += [(name, now, before["sizes"][name]) for name, now in [*sizes(), *compile_times()]]
-    print(f"\n{'':50} {'now':>8}  {before['commit'][:7]:>8}")
+    rows += [(name, now, before["sizes"].get(name, "")) for name, now in [*sizes(), *compile_times()]]
+    print(f"\n{'':50} {'now':>8}  {before['commit']:>8}")
     for name, now, then in rows:
         print(f"{name:50} {now:8}  {then:8}")
 

@@ -217,7 +217,6 @@ Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)
-#include "revchain/finite/cord/shapes.hpp"
 #include "revchain/finite/stability/cord.hpp"
 #endif
 #if !defined(REVCHAIN_COMPILED_ANALYTIC)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cords hung from one end: closed forms and power series against each other, against ever more links, and small theory.
 #include "revchain/cord.hpp"
+#include "revchain/special/heavy_chain.hpp"
+#include "revchain/special/tapered_chain.hpp"
+#include "revchain/special/tip_mass.hpp"
 
 #include "support/catch.hpp"
 #include "support/chains.hpp"

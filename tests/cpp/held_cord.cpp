@@ -2,6 +2,7 @@
 // Cords held at both ends: modes under a tension, branches and stability at a span, against closed forms and against ever
 // more links.
 #include "revchain/cord.hpp"
+#include "revchain/special/taut_cord.hpp"
 #include "support/catch.hpp"
 
 using Catch::Matchers::ContainsSubstring;

@@ -34,8 +34,8 @@ struct CordBranch {
     std::vector<finite::BranchLine::Point> points;
 };
 
-/// The shape of a cord at one conical height whose free end is near an offset: as at a point of a branch, at a fold of it
-/// or not. Throws InvalidArgument for one that could not be followed.
+/// The shape of a cord at one conical height whose free end is near an offset, at a fold of its branch or not. Throws
+/// InvalidArgument for one that could not be followed.
 CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset, bool at_fold);
 
 /// All branches found above one conical height. `complete` where a theorem counts the shapes (see `steady_shapes` of a
@@ -182,3 +182,7 @@ void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, con
 }  // namespace finite
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/finite/cord/branch_shapes.hpp"
+#endif

@@ -281,3 +281,7 @@ class CordModeShape {
 CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/finite/cord/steady_shapes.hpp"
+#endif

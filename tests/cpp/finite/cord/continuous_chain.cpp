@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/cord/shapes.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
 
 #include <map>
 #include <memory>
