@@ -22,10 +22,11 @@ PYTHON = ROOT / "examples" / "python"
 EXPERIMENTS = sorted(PYTHON.glob("experiment_*.py"))
 GALLERY = [path for path in sorted(PYTHON.glob("*.py")) if not path.stem.startswith("draw_")]
 PROGRAMS = sorted(set(PYTHON.glob("*.py")) - set(EXPERIMENTS))
-RIGS = [path for path in SCENES if rc.load_scene(path).is_rigged]
-HELD = [path for path in SCENES if rc.load_scene(path).is_held]
+LOADED = {path: rc.load_scene(path) for path in SCENES}
+RIGS = [path for path in SCENES if LOADED[path].is_rigged]
+HELD = [path for path in SCENES if LOADED[path].is_held]
 CHAINS = [path for path in SCENES if path not in RIGS + HELD]
-SMALL = [path for path in CHAINS if rc.load_scene(path).system().size <= 20]  # for the dense reference
+SMALL = [path for path in CHAINS if LOADED[path].system().size <= 20]  # for the dense reference
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
 # to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
