@@ -18,6 +18,7 @@ def test_there_are_three():
     assert len(NOTEBOOKS) == 3
 
 
+@pytest.mark.slow  # starts three kernels
 @pytest.mark.filterwarnings("ignore")  # of zmq and traitlets
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebooks(path):

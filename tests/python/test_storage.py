@@ -420,6 +420,7 @@ def test_arrays_that_do_not_go_together(tmp_path, result):
             rc.load(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".npz", ".nc", ".sweep.nc", ".sweep.csv", ".sweep.parquet"])
 def test_a_full_disk(python, tmp_path, ending):
     """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""
