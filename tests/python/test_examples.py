@@ -259,7 +259,12 @@ CHECKS = {
 }
 
 
-@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def is_slow(path):
+    """Programs that draw the pictures of pages, and a chart of 1230 motions, which test_bell.py checks."""
+    return path.stem.startswith("draw_") or path.stem == "clapper_chart"
+
+
+@pytest.mark.parametrize("path", [pytest.param(path, marks=[pytest.mark.slow] * is_slow(path), id=path.stem) for path in PROGRAMS])
 def test_programs(python, tmp_path, path):
     """Each program is run once, and all that is known of its output is checked here."""
     done = python(downloaded(path, tmp_path) if path in GALLERY else path)
