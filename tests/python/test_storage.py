@@ -206,8 +206,14 @@ RESULTS = {  # every kind of result, made when a test asks for it
 }
 
 
-@pytest.mark.parametrize("ending", [".npz", ".nc"])
-@pytest.mark.parametrize("name", RESULTS)
+def in_both_formats():
+    """Every kind in both; netCDF, which takes ten times as long, for each fifth kind in the quick tier."""
+    for n, name in enumerate(RESULTS):
+        yield pytest.param(name, ".npz")
+        yield pytest.param(name, ".nc", marks=[pytest.mark.slow] * (n % 5 > 0))
+
+
+@pytest.mark.parametrize(("name", "ending"), in_both_formats())
 def test_every_kind_of_result(tmp_path, name, ending):
     result = RESULTS[name]()
     path = tmp_path / f"result{ending}"
