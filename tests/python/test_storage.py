@@ -213,7 +213,7 @@ def in_both_formats():
         yield pytest.param(name, ".nc", marks=[pytest.mark.slow] * (n % 5 > 0))
 
 
-@pytest.mark.parametrize(("name", "ending"), in_both_formats())
+@pytest.mark.parametrize(("name", "ending"), [*in_both_formats()])
 def test_every_kind_of_result(tmp_path, name, ending):
     result = RESULTS[name]()
     path = tmp_path / f"result{ending}"
