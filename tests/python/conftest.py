@@ -8,12 +8,14 @@ import os
 import signal
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 from typing import Any
 
 import mpmath as mp
 import pytest
+import tier
 from exact import heights_of, stored_links
 from hypothesis import HealthCheck, settings
 
@@ -23,6 +25,28 @@ settings.register_profile(
 settings.load_profile("revchain")
 
 ULP = 2.0**-52
+DESELECTED = pytest.StashKey[Counter[str]]()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    tier.QUICK = "not slow" in config.option.markexpr
+    config.stash[DESELECTED] = Counter()
+
+
+def module(nodeid: str) -> str:
+    return Path(nodeid.partition("::")[0]).stem
+
+
+def pytest_deselected(items: list[pytest.Item]) -> None:
+    """Counts what is left out of each module: by -m "not slow", or by -k."""
+    for item in items:
+        item.config.stash[DESELECTED][module(item.nodeid)] += 1
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """What a worker of xdist has left out; each leaves out the same."""
+    node.config.stash[DESELECTED] |= Counter(getattr(node, "workeroutput", {}).get("deselected", {}))
 
 
 @pytest.hookimpl(wrapper=True)
@@ -40,20 +64,23 @@ def cases(terminalreporter: pytest.TerminalReporter) -> dict[str, int]:
     for outcome, reports in terminalreporter.stats.items():
         for report in reports:
             if isinstance(report, pytest.TestReport):
-                module = Path(report.nodeid.partition("::")[0]).stem
-                ran[module] = ran.get(module, 0) + (outcome in ("passed", "failed", "xfailed", "xpassed"))
-    return dict(sorted(ran.items()))
+                name = module(report.nodeid)
+                ran[name] = ran.get(name, 0) + (outcome in ("passed", "failed", "xfailed", "xpassed"))
+    return ran
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    ran = cases(terminalreporter)
-    terminalreporter.write_line("cases: " + ", ".join(f"{module} {count}" for module, count in ran.items()))
-    for module in (module for module, count in ran.items() if not count):
-        terminalreporter.write_line(f"{module}: no case ran, all were skipped", red=True)
+    ran, left_out = cases(terminalreporter), terminalreporter.config.stash[DESELECTED]
+    counts = (f"{name} {ran.get(name, 0)}" + f" ({left_out[name]} deselected)" * (name in left_out) for name in sorted({*ran, *left_out}))
+    terminalreporter.write_line("cases: " + ", ".join(counts))
+    for name in (name for name, count in ran.items() if not count):
+        terminalreporter.write_line(f"{name}: no case ran, all were skipped", red=True)
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """A module of which all cases were skipped fails; not one that needs a package that is not installed."""
+    """A module of which all cases were skipped fails; not one that needs a package that is not installed, or is deselected."""
+    if hasattr(session.config, "workeroutput"):  # of a worker of xdist
+        session.config.workeroutput["deselected"] = dict(session.config.stash[DESELECTED])
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if reporter is not None and 0 in cases(reporter).values():
         session.exitstatus = pytest.ExitCode.TESTS_FAILED

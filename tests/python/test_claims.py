@@ -15,13 +15,14 @@ import numpy as np
 import pytest
 from exact import carried_tangents, exactly, heights_of, jacobi, stored_links
 from mechanics import disturbed
+from tier import by_tier
 
 import revchain as rc
 from revchain import elliptic, plummet
 
 ULP = 2.0**-52
 TINY, HUGE = mp.mpf(2) ** -1021, mp.mpf(2) ** 1023
-SAMPLES = 150
+SAMPLES = by_tier(50, 150)
 
 pytestmark = pytest.mark.usefixtures("digits")
 
@@ -569,7 +570,7 @@ def tip_shape(m, height):
 def test_modes_of_cords_with_a_tip():
     d, worst = Draw("tip_mass"), Worst()
 
-    for turn in range(16):
+    for turn in range(by_tier(4, 16)):
         length, mode = d.power(-140, 140), modes_up_to(d, 300)
         tip = length * [d.power(-12, 3), d.power(-3, 3), d.power(3, 12), d.power(12, 100)][turn % 4]
         where = (length, mode, tip)

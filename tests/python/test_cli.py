@@ -705,7 +705,9 @@ def test_a_title_that_is_not_unicode(run):
 
 
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
-def test_every_shipped_scene_is_answered(run, path):
+def test_every_shipped_scene_is_answered(run, repository, monkeypatch, path):
+    """With the words that docs/scenes.md shows, if the scene is there."""
+    monkeypatch.setenv("COLUMNS", "100")
     read = rc.load_scene(path)
     code, out, err = run("run", path)
     asked = read.asks or ("modes",)
@@ -716,6 +718,10 @@ def test_every_shipped_scene_is_answered(run, path):
         assert read.system().describe()[:30] in " ".join(text.split()) and "Traceback" not in text
         picture = (Path("out") / path.stem / f"{question}.png").read_bytes()
         assert picture.startswith(b"\x89PNG") and len(picture) > 5000
+    for section in (repository / "docs" / "scenes.md").read_text(encoding="utf-8").split("\n## ")[1:]:
+        if f"](../examples/scenes/{path.name}).\n" in section:
+            printed = re.search(r"```toml\n.*?\n```\n\n```text\n(.*?)\n```\n", section, re.DOTALL)[1]
+            assert printed.splitlines() == [line.rstrip() for line in out.splitlines() if not line.startswith("wrote ")]
 
 
 def test_a_benchmark_that_is_not_there(python, repository):

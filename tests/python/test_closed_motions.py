@@ -11,6 +11,7 @@ from exact import exactly
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from tier import by_tier
 
 import revchain as rc
 
@@ -924,7 +925,7 @@ RANGE = st.integers(-300, 300).map(lambda e: 10.0**e)
 
 @given(*[RANGE] * 6)
 @example(1.0, 1.0, 1e146, 1e-18, 1.0, 0.1)  # tension gravity / angular speed^2 below the normal numbers
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=by_tier(20, 150), deadline=None)
 def test_extreme_motions_have_numbers_or_are_refused(a, b, c, d, e, t):
     def finite(make):
         try:

@@ -157,7 +157,10 @@ def test_values_and_covariance_against_40_digits():
     assert found.chi_square == pytest.approx(chi_square, rel=1e-10) and found.degrees_of_freedom == 2
 
 
-@pytest.mark.parametrize("name", ["crane", "both directions", "cord"])
+SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in ("both directions", "cord")]
+
+
+@pytest.mark.parametrize("name", ["crane", *SLOW])
 def test_covariance_is_that_of_a_sample(name):
     """Fits of 800 sets of measurements; the standard error of a standard deviation is 2.5 %, of chi-square 5 %."""
     system, numbers, changes = CASES[name]

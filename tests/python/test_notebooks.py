@@ -3,9 +3,7 @@
 
 from pathlib import Path
 
-import nbformat
 import pytest
-from nbclient import NotebookClient
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.ipynb"))
 
@@ -20,9 +18,13 @@ def test_there_are_three():
     assert len(NOTEBOOKS) == 3
 
 
+@pytest.mark.slow  # starts three kernels
 @pytest.mark.filterwarnings("ignore")  # of zmq and traitlets
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebooks(path):
+    import nbformat  # here: what it imports takes seconds, at every start of pytest
+    from nbclient import NotebookClient
+
     notebook = nbformat.read(path, 4)
     assert sum("interact(" in cell.source for cell in notebook.cells) == 1
     before = printed(notebook)

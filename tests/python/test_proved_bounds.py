@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Proved error bounds hold for the numbers given, by mass and by weight: random systems against 60 digits.
 
-REVCHAIN_BOUNDS=10000 tries so many systems of each kind instead of a few."""
+REVCHAIN_CASES=10000 tries so many systems of each kind instead of a few (tests/python/support/tier.py)."""
 
 import math
-import os
 
 import mpmath as mp
 import numpy as np
 import pytest
 from exactly import G, System, newton, power
+from tier import by_tier
 
 import revchain as rc
 
-MANY = int(os.environ.get("REVCHAIN_BOUNDS", "0"))
 ULP = 2.0**-52
 BY = pytest.mark.parametrize("by", ["mass", "weight"])
 
@@ -25,7 +24,7 @@ def digits():
 
 
 class Tally:
-    """Counts what was compared and what was outside its bound; prints both for a large sample."""
+    """Counts what was compared and what was outside its bound; prints both."""
 
     def __init__(self, what):
         self.what, self.systems, self.numbers, self.outside, self.worst, self.refused = what, 0, 0, [], 0.0, 0
@@ -46,16 +45,15 @@ class Tally:
             self.outside.append((math.nan, where))
 
     def finish(self, numbers):
-        if MANY:
-            print(f"\n{self.what}: {self.systems} systems, {self.refused} refused, {self.numbers} numbers,"
-                  f" {len(self.outside)} outside their bound, largest error/bound {self.worst:.3g}")  # fmt: skip
+        print(f"\n{self.what}: {self.systems} systems, {self.refused} refused, {self.numbers} numbers,"
+              f" {len(self.outside)} outside their bound, largest error/bound {self.worst:.3g}")  # fmt: skip
         assert not self.outside, (len(self.outside), self.outside[:3])
         assert self.systems and self.numbers >= numbers * self.systems
 
 
-def samples(few, seed):
+def samples(many, seed):
     """Generators of random numbers, one for each system."""
-    for i in range(MANY or few):
+    for i in range(by_tier(many // 3, many)):
         yield i, np.random.default_rng([seed, i])
 
 

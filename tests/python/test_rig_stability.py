@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rigs import G, Motion, rigged, small_motions
 from scipy.integrate import solve_ivp
+from tier import by_tier
 
 import revchain as rc
 
@@ -61,7 +62,7 @@ def exponents(motions, **damping):
 @pytest.mark.parametrize("name", RIGS)
 def test_exponents_are_those_of_lagranges_equations(name, frame):
     rig, compared = RIGS[name], 0
-    for shape in shapes_of(rig):
+    for shape in shapes_of(rig, by_tier(2, 4)):
         got = shape.stability(frame=frame)
         exact = exponents(small_motions(rig, shape, frame))
         largest = max(map(abs, exact))
@@ -86,7 +87,7 @@ def test_exponents_are_those_of_lagranges_equations(name, frame):
 def test_rates_of_damping_are_those_of_damped_motions(name, frame):
     """Central differences of the exponents by friction at the pins, and by drag in still air."""
     rig, compared = RIGS[name], 0
-    for shape in shapes_of(rig, 2):
+    for shape in shapes_of(rig, by_tier(1, 2)):
         got, motions = shape.stability(frame=frame), small_motions(rig, shape, frame)
         largest, speed = np.abs(got.exponents).max(), abs(float(motions.speed))
         for kind, rates in (("friction", got.internal_damping), ("drag", got.external_damping)):
@@ -138,7 +139,9 @@ def followed(rig, shape, which, friction=0.0, turns=3.0, size=1e-6):
     )
 
 
-@pytest.mark.parametrize("name", [name for name in RIGS if name != "spring without mass"])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "all")) for name in RIGS if name != "spring without mass"]
+)
 def test_disturbances_in_space_grow_as_exponents_say(name):
     rig, unstable = RIGS[name], 0
     for shape in shapes_of(rig):
@@ -153,6 +156,7 @@ def test_disturbances_in_space_grow_as_exponents_say(name):
     assert unstable
 
 
+@pytest.mark.slow
 def test_friction_makes_what_gyroscopic_forces_hold_grow():
     """Kelvin, Tait and Chetaev: a plain chain and a chain on an arm, in space, with friction at the pins."""
     found = 0

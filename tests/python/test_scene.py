@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tier import by_tier
 
 import revchain as rc
 from revchain.scenes import tables as hung
@@ -137,7 +138,7 @@ scenes = st.dictionaries(
 )
 
 
-@settings(max_examples=500)
+@settings(max_examples=by_tier(100, 500))
 @given(scenes)
 @example({"ask": {"response": {"angular_speed": []}, "modes": 1}})  # an empty list in a scene of version 1
 def test_whatever_a_scene_says_there_is_an_answer_or_a_scene_error(data):

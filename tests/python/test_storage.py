@@ -6,6 +6,7 @@ import json
 import os
 import pickle
 import threading
+from functools import cache
 
 import numpy as np
 import pytest
@@ -24,136 +25,197 @@ CHAINS = {
 }
 
 
+THREE = rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0)
+NAMED = rc.Chain(mass=[1.0, 2.0], length=0.7, names=["lower", "upper"])
+ONE = rc.Chain(weight=1.0, length=[1.0])
+WHEELS = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2))
+BLADE = rc.Held(rc.Chain.uniform_rods(8, length=1.0, mass=1.0), span=0.7)
+ROPE = rc.Held(rc.Cord(1.0, mass=1.0), span=0.7)
+TIP = rc.Cord(1.0, mass=2.0, tip_mass=0.1)
 FLOATING = rc.Displaced(weight=[1.0, 1.0, 2.0], centroid=0.4, radius_of_gyration=0.3)
+FLOATS = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}
+BUOY = {"displaced": rc.Displaced(weight=1.0), "flywheels": rc.Flywheel(momentum=3.0)}
+ARMS = {"lower": rc.Support(stiffness=90.0, weight=0.2, radius=0.1), "upper": rc.Support(radius=-0.2)}
+IMPACT = {"front_mass": 1, "rear_mass": 3, "buffer_stiffness": 10, "coupling_stiffness": 1, "speed": 2}
+POLYGON = ([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
+BELL = rc.Chain(weight=[18.0, 500.0], length=[0.65, 0.15], centroid=0.3, radius_of_gyration=0.1)
+SWEPT = {
+    "scene": {"links": [{"mass": 1, "length": 1}] * 2},
+    "vary": {"links[0].mass": {"normal": [1.0, 1.0]}, "gravity": {"values": [1.62, 9.81]}},
+    "samples": 9,
+}
 
 
-def results():
-    """By name: every kind of result."""
-    three = rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0)
-    modes, rig = rc.modes(CHAIN, certify=True), rc.modes(
-        rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2), support=rc.Support(stiffness=5.0))
-    )
-    yield "Modes", modes
-    for name, chain in CHAINS.items():
-        yield f"Modes, {name}", rc.modes(chain, "all", gravity=1.62)
-    yield "Certificate", modes.certificate
-    yield "Sensitivity", modes.sensitivity
-    yield "Derivatives", modes.sensitivity.relative
-    bent = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))[0].sensitivity
-    yield "ShapeSensitivity", bent
-    yield "ShapeDerivatives", bent.offset
-    bent = rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2)), angular_speed=3.0)[0].sensitivity
-    yield "ShapeSensitivity of a rig", bent
-    yield "RigShapeDerivatives", bent.offset
-    yield "Uncertainty", modes.uncertainty(weight=0.1)
-    yield "RigModes", rig
-    yield "RigSensitivity", rig.sensitivity
-    yield "RigUncertainty", rig.uncertainty(weight=0.1, stiffness="3 %")
-    yield "RigDerivatives", rig.uncertainty(weight=0.1, momentum="3 %").share
-    yield "OtherModes", rc.modes(rc.Rig(three, flywheels=rc.Flywheel(momentum=0.3), displaced=FLOATING)).other
-    yield "links without weight in the fluid", rc.modes(rc.Rig(three, displaced=rc.Displaced(weight=1.0)))
-    floats, one = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}, rc.Chain(weight=1.0, length=[1.0])
-    yield "in turning fluid", rc.modes(rc.Rig(three, **floats, support=rc.Support(stiffness=3.0)))
-    buoy = {"displaced": rc.Displaced(weight=1.0), "flywheels": rc.Flywheel(momentum=3.0)}
-    yield "an infinite height", rc.modes(rc.Rig(one, **buoy))
-    yield "none, of a rig", rc.modes(rc.Rig(one, displaced=rc.Displaced(weight=3.0)))
-    yield "none, of a chain", rc.modes(CHAIN, conical_height=(50.0, 60.0))
-    yield "certificate of none", rc.modes(CHAIN, conical_height=(50.0, 60.0), certify=True).certificate
-    yield "Modes in two words", rc.modes(CHAIN, precision="double-double", certify=True)
-    shapes = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))
-    yield "SteadyShapes", shapes
-    yield "SteadyShape", shapes[0]
-    yield "SteadyShapes, none", rc.steady_shapes(CHAIN, conical_height=10 * float(modes.conical_height[0]))
-    yield "SteadyShape of a rig", rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(radius=0.3)), angular_speed=0.5)[0]
-    diagram = rc.branches(rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0), max_angular_speed=5.0, gravity=1.0)
-    yield "Branches", diagram
-    yield "Branch, isolated", diagram[3]
-    yield "Branch", rc.branch(CHAIN, 1, min_conical_height=0.5 * float(modes.conical_height[0]))
-    blade = rc.Held(rc.Chain.uniform_rods(8, length=1.0, mass=1.0), span=0.7)
-    yield "HeldBranches", rc.branches(blade, max_angular_speed=15.0)
-    yield "HeldBranch", rc.branch(blade, 1, max_angular_speed=15.0)
-    rope = rc.Held(rc.Cord(1.0, mass=1.0), span=0.7)
-    yield "HeldBranches of a cord", rc.branches(rope, max_angular_speed=15.0)
-    yield "HeldBranch of a cord", rc.branch(rope, 1, max_angular_speed=15.0)
-    yield "HeldCordShape of a branch", rc.branch(rope, 1, max_angular_speed=15.0).shape(3)
-    yield "HeldCordShape of a mode", rc.steady_shape(rope, top_tension=20.0)
-    taut = rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0), 2)
-    yield "CordModes of what is held", taut
-    yield "CordModes without gravity", rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True), 2)
-    yield "Modes of a chain without gravity", rc.modes(rc.Held(three, tension=20.0, weightless=True), 2)
-    yield "CordSensitivity", taut.sensitivity
-    yield "CordDerivatives", taut.sensitivity.relative
-    yield "CordUncertainty", taut.uncertainty(mass="1 %", tension=0.3)
-    yield "HeldShape of a branch", rc.branch(blade, 1, max_angular_speed=15.0).shape(3)
-    yield "HeldShape of a mode", rc.steady_shape(blade, top_tension=20.0)
-    yield "StabilityWindow", diagram[0].stability_windows()[0]
-    yield "Explanation", rc.explain(rc.Chain.uniform_rods(5000), 2, rtol=1e-3)
-    yield "Stability", shapes[0].stability()
-    yield "ForceDiagram", shapes[0].force_diagram()
-    yield "Response", rc.response(CHAIN, conical_height=[4.0, 0.3])
-    yield "Response at no speed", rc.response(CHAIN, conical_height=[])
-    yield "Response of no pin", rc.response(CHAIN, conical_height=[4.0], pins=[])
-    yield "Response at one speed", rc.response(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0)), angular_speed=2.0, pins=0)
-    yield "Swing", rc.swing(CHAIN, np.ones(CHAIN.size) / 9, None, [0.0, 1.0])
-    vary = {"links[0].mass": {"normal": [1.0, 1.0]}, "gravity": {"values": [1.62, 9.81]}}
-    yield "SweepResult", rc.sweep({"scene": {"links": [{"mass": 1, "length": 1}] * 2}, "vary": vary, "samples": 9})
-    yield "Tuned", rc.tune(CHAIN, vary="links[0].weight", conical_height=0.99 * float(modes.conical_height[0]))
-    yield "Tuned, of a rig", rc.tune(rc.Rig(CHAIN), vary="flywheels[1].momentum", angular_speed=1.0)
-    measured = {k: (n, "2 %") for k, n in enumerate(modes.angular_speed, 1)}
-    yield "Fitted", rc.fit(CHAIN, measured, vary=["length", "links[0].weight"])
-    yield "Fitted, undetermined", rc.fit(CHAIN, measured, vary=["links[0].weight", "links[1].weight", "links[3].weight"])
-    yield "Fitted, of a rig", rc.fit(rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2)), {1: 0.9, -1: 0.8}, vary="length")
-    named = rc.Chain(mass=[1.0, 2.0], length=0.7, names=["lower", "upper"])
-    yield "Modes by mass", rc.modes(named, rtol=1e-3)
-    yield "SteadyShapes by mass", rc.steady_shapes(named, angular_speed=9.0)
-    yield "by a method named", rc.modes(rc.Chain.uniform_rods(3000), 2, method="coarse chain", rtol=1e-3)
-    yield "CordModes", rc.modes(rc.Cord(2.0, mass=0.4, tip_mass=0.1), 3)
-    yield "CordModes of a density", rc.modes(rc.Cord(2.0, density=lambda s: 1 + s), 2)
-    yield "CordModes, none", rc.modes(rc.Cord(2.0), angular_speed=(0.5, 0.6))
-    cord = rc.steady_shapes(rc.Cord(1.0, mass=2.0), conical_height=0.05)
-    yield "SteadyShapes of a cord", cord
-    yield "CordShape", cord[1]
-    tip = rc.Cord(1.0, mass=2.0, tip_mass=0.1)
-    yield "CordBranch", rc.branch(tip, 2, min_conical_height=0.08)
-    yield "CordBranches", rc.branches(tip, min_conical_height=0.08, lists=2)
-    yield "CordShape on a branch", rc.steady_shape(tip, mode=2, tip_inclination=1.0)
-    yield "Swing of a rig", rc.swing(rc.Rig(CHAIN, support=rc.Support(stiffness=9.0)), np.ones(CHAIN.size) / 9, None, [0.0, 1.0])
-    whirling = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2))
-    yield "WhirlSwing", rc.swing(whirling, np.ones(CHAIN.size) * (0.1 + 0.05j), None, [0.0, 1.0])
-    yield "CordSwing", rc.swing(tip, [0.1, 0.0], None, [0.0, 1.0], count=8)
-    yield "Stability of a cord", cord[0].stability()
-    yield "Modes, taut", rc.modes(rc.Held(named, tension=50.0))
-    held = rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5), angular_speed=9.0, max_half_waves=3)
-    yield "SteadyShapes, held", held
-    yield "HeldShape", held[0]
-    yield "ShapeSensitivity, held", held[0].sensitivity
-    yield "HeldShapeDerivatives", held[0].sensitivity.tension
-    arms = {"lower": rc.Support(stiffness=90.0, weight=0.2, radius=0.1), "upper": rc.Support(radius=-0.2)}
-    yield "SteadyShapes, on arms", rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5, **arms), angular_speed=9.0)
-    yield "HeldShape, weightless", rc.steady_shapes(rc.Held(named, span=0.5, weightless=True), angular_speed=9.0)[0]
-    yield "HeldCordShape", rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0]
-    impact = {"front_mass": 1, "rear_mass": 3, "buffer_stiffness": 10, "coupling_stiffness": 1, "speed": 2}
-    yield "BufferImpact", rc.BufferImpact(**impact)
-    yield "GovernorMotion", rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
-    yield "GovernorMotion, revolving", rc.GovernorMotion(angular_speed=2.0, pendulum_length=1.0, angle=3.0, angle_rate=-4.0)
-    rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0, half_waves=2)
-    yield "SkippingRope", rope
-    yield "SkippingRope, drawn", rope.drawn_to(2.5)
-    yield "TortuousRope", rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
-    yield "FunicularPolygon", rc.funicular_polygon([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
-    yield "TransverseModes", rc.transverse_modes([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
-    bell = rc.Chain(weight=[18.0, 500.0], length=[0.65, 0.15], centroid=0.3, radius_of_gyration=0.1)
-    yield "BellAndClapper", rc.bell_and_clapper(bell)
-    yield "PairShape", rc.two_links.link_on_thread_shapes(2.0, 1.0, 1.0, height=0.5)[0]
+@cache
+def modes():
+    return rc.modes(CHAIN, certify=True)
 
 
-RESULTS = dict(results())
+@cache
+def rig_modes():
+    return rc.modes(rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2), support=rc.Support(stiffness=5.0)))
 
 
-@pytest.mark.parametrize("ending", [".npz", ".nc"])
-@pytest.mark.parametrize("name", RESULTS)
+@cache
+def shapes():
+    return rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes().conical_height[0]))
+
+
+@cache
+def shape_of_a_rig():
+    return rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0, radius=0.2)), angular_speed=3.0)[0]
+
+
+@cache
+def diagram():
+    return rc.branches(THREE, max_angular_speed=5.0, gravity=1.0)
+
+
+@cache
+def taut():
+    return rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0), 2)
+
+
+@cache
+def shapes_of_a_cord():
+    return rc.steady_shapes(rc.Cord(1.0, mass=2.0), conical_height=0.05)
+
+
+@cache
+def held_shapes():
+    return rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5), angular_speed=9.0, max_half_waves=3)
+
+
+@cache
+def rope():
+    return rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0, half_waves=2)
+
+
+@cache
+def branches(held):
+    return rc.branches(held, max_angular_speed=15.0)
+
+
+@cache
+def branch(held):
+    return rc.branch(held, 1, max_angular_speed=15.0)
+
+
+def fitted(vary):
+    return rc.fit(CHAIN, {k: (n, "2 %") for k, n in enumerate(modes().angular_speed, 1)}, vary=vary)
+
+
+RESULTS = {  # every kind of result, made when a test asks for it
+    "Modes": modes,
+    **{f"Modes, {name}": lambda chain=chain: rc.modes(chain, "all", gravity=1.62) for name, chain in CHAINS.items()},
+    "Certificate": lambda: modes().certificate,
+    "Sensitivity": lambda: modes().sensitivity,
+    "Derivatives": lambda: modes().sensitivity.relative,
+    "ShapeSensitivity": lambda: shapes()[0].sensitivity,
+    "ShapeDerivatives": lambda: shapes()[0].sensitivity.offset,
+    "ShapeSensitivity of a rig": lambda: shape_of_a_rig().sensitivity,
+    "RigShapeDerivatives": lambda: shape_of_a_rig().sensitivity.offset,
+    "Uncertainty": lambda: modes().uncertainty(weight=0.1),
+    "RigModes": rig_modes,
+    "RigSensitivity": lambda: rig_modes().sensitivity,
+    "RigUncertainty": lambda: rig_modes().uncertainty(weight=0.1, stiffness="3 %"),
+    "RigDerivatives": lambda: rig_modes().uncertainty(weight=0.1, momentum="3 %").share,
+    "OtherModes": lambda: rc.modes(rc.Rig(THREE, flywheels=rc.Flywheel(momentum=0.3), displaced=FLOATING)).other,
+    "links without weight in the fluid": lambda: rc.modes(rc.Rig(THREE, displaced=rc.Displaced(weight=1.0))),
+    "in turning fluid": lambda: rc.modes(rc.Rig(THREE, **FLOATS, support=rc.Support(stiffness=3.0))),
+    "an infinite height": lambda: rc.modes(rc.Rig(ONE, **BUOY)),
+    "none, of a rig": lambda: rc.modes(rc.Rig(ONE, displaced=rc.Displaced(weight=3.0))),
+    "none, of a chain": lambda: rc.modes(CHAIN, conical_height=(50.0, 60.0)),
+    "certificate of none": lambda: rc.modes(CHAIN, conical_height=(50.0, 60.0), certify=True).certificate,
+    "Modes in two words": lambda: rc.modes(CHAIN, precision="double-double", certify=True),
+    "SteadyShapes": shapes,
+    "SteadyShape": lambda: shapes()[0],
+    "SteadyShapes, none": lambda: rc.steady_shapes(CHAIN, conical_height=10 * float(modes().conical_height[0])),
+    "SteadyShape of a rig": lambda: rc.steady_shapes(rc.Rig(CHAIN, support=rc.Support(radius=0.3)), angular_speed=0.5)[0],
+    "Branches": diagram,
+    "Branch, isolated": lambda: diagram()[3],
+    "Branch": lambda: rc.branch(CHAIN, 1, min_conical_height=0.5 * float(modes().conical_height[0])),
+    "HeldBranches": lambda: branches(BLADE),
+    "HeldBranch": lambda: branch(BLADE),
+    "HeldBranches of a cord": lambda: branches(ROPE),
+    "HeldBranch of a cord": lambda: branch(ROPE),
+    "HeldCordShape of a branch": lambda: branch(ROPE).shape(3),
+    "HeldCordShape of a mode": lambda: rc.steady_shape(ROPE, top_tension=20.0),
+    "CordModes of what is held": taut,
+    "CordModes without gravity": lambda: rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True), 2),
+    "Modes of a chain without gravity": lambda: rc.modes(rc.Held(THREE, tension=20.0, weightless=True), 2),
+    "CordSensitivity": lambda: taut().sensitivity,
+    "CordDerivatives": lambda: taut().sensitivity.relative,
+    "CordUncertainty": lambda: taut().uncertainty(mass="1 %", tension=0.3),
+    "HeldShape of a branch": lambda: branch(BLADE).shape(3),
+    "HeldShape of a mode": lambda: rc.steady_shape(BLADE, top_tension=20.0),
+    "StabilityWindow": lambda: diagram()[0].stability_windows()[0],
+    "Explanation": lambda: rc.explain(rc.Chain.uniform_rods(5000), 2, rtol=1e-3),
+    "Stability": lambda: shapes()[0].stability(),
+    "ForceDiagram": lambda: shapes()[0].force_diagram(),
+    "Response": lambda: rc.response(CHAIN, conical_height=[4.0, 0.3]),
+    "Response at no speed": lambda: rc.response(CHAIN, conical_height=[]),
+    "Response of no pin": lambda: rc.response(CHAIN, conical_height=[4.0], pins=[]),
+    "Response at one speed": lambda: rc.response(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0)), angular_speed=2.0, pins=0),
+    "Swing": lambda: rc.swing(CHAIN, np.ones(CHAIN.size) / 9, None, [0.0, 1.0]),
+    "SweepResult": lambda: rc.sweep(SWEPT),
+    "Tuned": lambda: rc.tune(CHAIN, vary="links[0].weight", conical_height=0.99 * float(modes().conical_height[0])),
+    "Tuned, of a rig": lambda: rc.tune(rc.Rig(CHAIN), vary="flywheels[1].momentum", angular_speed=1.0),
+    "Fitted": lambda: fitted(["length", "links[0].weight"]),
+    "Fitted, undetermined": lambda: fitted(["links[0].weight", "links[1].weight", "links[3].weight"]),
+    "Fitted, of a rig": lambda: rc.fit(WHEELS, {1: 0.9, -1: 0.8}, vary="length"),
+    "Modes by mass": lambda: rc.modes(NAMED, rtol=1e-3),
+    "SteadyShapes by mass": lambda: rc.steady_shapes(NAMED, angular_speed=9.0),
+    "by a method named": lambda: rc.modes(rc.Chain.uniform_rods(3000), 2, method="coarse chain", rtol=1e-3),
+    "CordModes": lambda: rc.modes(rc.Cord(2.0, mass=0.4, tip_mass=0.1), 3),
+    "CordModes of a density": lambda: rc.modes(rc.Cord(2.0, density=lambda s: 1 + s), 2),
+    "CordModes, none": lambda: rc.modes(rc.Cord(2.0), angular_speed=(0.5, 0.6)),
+    "SteadyShapes of a cord": shapes_of_a_cord,
+    "CordShape": lambda: shapes_of_a_cord()[1],
+    "CordBranch": lambda: rc.branch(TIP, 2, min_conical_height=0.08),
+    "CordBranches": lambda: rc.branches(TIP, min_conical_height=0.08, lists=2),
+    "CordShape on a branch": lambda: rc.steady_shape(TIP, mode=2, tip_inclination=1.0),
+    "Swing of a rig": lambda: rc.swing(
+        rc.Rig(CHAIN, support=rc.Support(stiffness=9.0)), np.ones(CHAIN.size) / 9, None, [0.0, 1.0]
+    ),
+    "WhirlSwing": lambda: rc.swing(WHEELS, np.ones(CHAIN.size) * (0.1 + 0.05j), None, [0.0, 1.0]),
+    "CordSwing": lambda: rc.swing(TIP, [0.1, 0.0], None, [0.0, 1.0], count=8),
+    "Stability of a cord": lambda: shapes_of_a_cord()[0].stability(),
+    "Modes, taut": lambda: rc.modes(rc.Held(NAMED, tension=50.0)),
+    "SteadyShapes, held": held_shapes,
+    "HeldShape": lambda: held_shapes()[0],
+    "ShapeSensitivity, held": lambda: held_shapes()[0].sensitivity,
+    "HeldShapeDerivatives": lambda: held_shapes()[0].sensitivity.tension,
+    "SteadyShapes, on arms": lambda: rc.steady_shapes(
+        rc.Held(rc.Chain.uniform_rods(6), span=0.5, **ARMS), angular_speed=9.0
+    ),
+    "HeldShape, weightless": lambda: rc.steady_shapes(rc.Held(NAMED, span=0.5, weightless=True), angular_speed=9.0)[0],
+    "HeldCordShape": lambda: rc.steady_shapes(rc.Held(rc.Cord(1.0, mass=1.0), tension=26.0), conical_height=0.05)[0],
+    "BufferImpact": lambda: rc.BufferImpact(**IMPACT),
+    "GovernorMotion": lambda: rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5),
+    "GovernorMotion, revolving": lambda: rc.GovernorMotion(
+        angular_speed=2.0, pendulum_length=1.0, angle=3.0, angle_rate=-4.0
+    ),
+    "SkippingRope": rope,
+    "SkippingRope, drawn": lambda: rope().drawn_to(2.5),
+    "TortuousRope": lambda: rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0),
+    "FunicularPolygon": lambda: rc.funicular_polygon(*POLYGON),
+    "TransverseModes": lambda: rc.transverse_modes(*POLYGON),
+    "BellAndClapper": lambda: rc.bell_and_clapper(BELL),
+    "PairShape": lambda: rc.two_links.link_on_thread_shapes(2.0, 1.0, 1.0, height=0.5)[0],
+}
+
+
+def in_both_formats():
+    """Every kind in both; netCDF, which takes ten times as long, for each fifth kind in the quick tier."""
+    for n, name in enumerate(RESULTS):
+        yield pytest.param(name, ".npz")
+        yield pytest.param(name, ".nc", marks=[pytest.mark.slow] * (n % 5 > 0))
+
+
+@pytest.mark.parametrize(("name", "ending"), [*in_both_formats()])
 def test_every_kind_of_result(tmp_path, name, ending):
-    result = RESULTS[name]
+    result = RESULTS[name]()
     path = tmp_path / f"result{ending}"
     no_sensitivity = isinstance(getattr(result, "system", None), rc.Cord | rc.Held)
     names = [field for field in type(result)._fields if field != "sensitivity" or not no_sensitivity]
@@ -180,9 +242,9 @@ def test_every_kind_of_result(tmp_path, name, ending):
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
-@pytest.mark.parametrize("name", [name for name, _ in results()])
+@pytest.mark.parametrize("name", RESULTS)
 def test_xarray_has_all_that_the_dictionary_has(tmp_path, name):
-    result = dict(results())[name]
+    result = RESULTS[name]()
     data, whole = result.to_xarray(), result.to_dict()
     there = {*data.variables, *data.attrs}
     assert not {key for key, value in whole.items() if value is not None} - there - {result._sheet().row + "s"}
@@ -364,6 +426,7 @@ def test_arrays_that_do_not_go_together(tmp_path, result):
             rc.load(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".npz", ".nc", ".sweep.nc", ".sweep.csv", ".sweep.parquet"])
 def test_a_full_disk(python, tmp_path, ending):
     """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""

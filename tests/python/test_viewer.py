@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "src" / "revchain" / "motion" / "viewer"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 SOFTWARE = ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
-in_browser = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 
 
 def page_of(found, tmp_path, **given):
@@ -97,7 +97,8 @@ def test_refused(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@in_browser
+@pytest.mark.slow
+@needs_browser
 @pytest.mark.parametrize(
     "kind", ["modes", "modes of a rig", "shapes of a carousel", "shapes on arms", "branches", "swing", "response"]
 )
@@ -123,7 +124,8 @@ def test_a_browser_shows_all_of_it(kind, tmp_path):
     assert ">Play</button>" in page and (' id="place" hidden=""' in page) == shown.is_rigid
 
 
-@in_browser
+@pytest.mark.slow
+@needs_browser
 def test_without_webgl(tmp_path):
     path = page_of(rc.modes(CHAIN), tmp_path, duration=0.2)
     status, page = opened(path.as_uri(), tmp_path, "--disable-3d-apis")
@@ -134,6 +136,7 @@ def test_without_webgl(tmp_path):
     assert f'<p id="wrong">{status["error"]}</p>' in page
 
 
+@pytest.mark.slow  # asks a registry
 def test_the_bundle_is_what_its_sources_make(tmp_path):
     npm = shutil.which("npm")
     if npm is None or not SOURCES.is_dir():

@@ -12,6 +12,7 @@ import pytest
 
 import revchain
 
+pytestmark = pytest.mark.slow  # compiles the module
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "dev"
 SAME = """
