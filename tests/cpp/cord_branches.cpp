@@ -7,6 +7,7 @@
 #include "revchain/cord.hpp"
 #include "revchain/swing.hpp"
 #include "support/catch.hpp"
+#include "support/tier.hpp"
 
 using revchain::Chain;
 using revchain::Cord;
@@ -233,7 +234,7 @@ TEST_CASE("cord: exponents are the limit of those of N links, and converge as 1/
 TEST_CASE("cord: the slowest exponents of any power are those of N links") {
     std::mt19937 random(9);
     std::uniform_real_distribution<> any(0, 1);
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < support::by_tier(3, 9); ++i) {
         const double p = 3.5 * any(random) - 0.5, tip = i % 3 == 0 ? any(random) : 0.0;
         const int mode = 1 + i % 3;
         const Cord cord(1.0, {.density = p, .tip_weight = tip});

@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/tier.hpp"
 #include "support/truth.hpp"
 
 using revchain::analytic::Governor;
@@ -192,7 +193,7 @@ TEST_CASE("§7 (4)-(10): what the paper gives of dn and cn", "[analytic]") {
 TEST_CASE("§7: random starts", "[analytic]") {
     support::Random random(3);
     double worst = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < support::by_tier(60, 300); ++i) {
         Governor given{random.between(0, 6), random.between(0.2, 3), random.between(-20, 20), random.between(-3.1, 3.1),
                        0};
         if (i % 3) given.angle_rate = random.between(-10, 10);

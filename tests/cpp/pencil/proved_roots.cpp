@@ -4,6 +4,7 @@
 #include "revchain/linear/heights.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/tier.hpp"
 #include "support/truth.hpp"
 
 using revchain::Chain;
@@ -116,7 +117,7 @@ TEST_CASE("roots eight at a time: a few of many, random chains", "[pencil]") {
 TEST_CASE("roots eight at a time: random chains", "[pencil]") {
     support::Random random(19);
     Seen seen;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < support::by_tier(1000, 3000); ++i) {
         const Index n = 1 + static_cast<Index>(random() * 25);
         const double spread = random.between(0, 3);
         const bool points = random() < 0.5;

@@ -8,6 +8,7 @@
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/tier.hpp"
 #include "support/truth.hpp"
 
 using revchain::Chain;
@@ -322,7 +323,7 @@ TEST_CASE("as the height goes to nothing the shapes can be counted", "[finite]")
     Random random(303);
     CHECK(Potential(Chain<double>::uniform_plummets(3), 1).count_at_no_height() == 18);
     for (int i = 0; i < 20; ++i) {
-        const Index n = 1 + i % 5;
+        const Index n = 1 + i % support::by_tier(4, 5);
         const auto chain = chain_of_kind(i / 5, n, random);
         const double height = (n == 5 ? 1e-6 : 1e-7) * chain.total_length();
         const auto found = all_shapes(chain, height);
@@ -415,7 +416,7 @@ TEST_CASE("above the first critical height there is no shape in any posture", "[
 
 TEST_CASE("exactly a critical height: what rounding leaves open is narrow, and told soon", "[finite]") {
     Random random(307);
-    for (int i = 0; i < 240; ++i) {
+    for (int i = 0; i < support::by_tier(48, 240); ++i) {
         const auto chain = chain_of_kind(i % 4, 1 + i % 3, random);
         const auto heights = revchain::modes(chain, {.count = revchain::all_modes}).conical_height;
         for (const double height : heights) {
