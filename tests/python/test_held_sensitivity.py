@@ -53,7 +53,10 @@ def slope(data, path, step):
     return [(8 * (c - b) - (d - a)) / (12 * step) for a, b, c, d in zip(*found, strict=True)]
 
 
-@pytest.mark.parametrize("name", ENDS)
+# what takes 10 s is slow: "tension" and "weightless" are tested by themselves
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "weightless, tension")) for name in ENDS]
+)
 def test_differences(name):
     chain = {"mass": MASS, "length": LENGTH, **BODIES}
     data = {"chain": chain, "speed": 7.0, **ENDS[name]}

@@ -13,6 +13,7 @@ import pytest
 from ends import G
 from motion_of_pins import Motion
 from scipy.linalg import expm
+from tier import by_tier
 
 import revchain as rc
 from revchain import Support
@@ -281,13 +282,16 @@ def order_of(shape, frame, found):
 @pytest.mark.parametrize("frame", FRAMES)
 @pytest.mark.parametrize("name", CORDS)
 def test_cords_are_the_limit_of_links(name, frame):
+    """To 160 links; in the quick tier to 80, and then without the order."""
     held, speed = CORDS[name]
     shapes = shapes_of(held, speed, 2)
     assert len(shapes) == 2
+    counts = [links for links in (40, 80, 160) if links <= by_tier(80, 160)]
     for shape in shapes:
         stability = shape.stability(frame=frame)
-        found, negative = zip(*(exponents_of_links(held, speed, shape, frame, links) for links in (40, 80, 160)), strict=True)
-        assert order_of(shape, frame, found)[-1] == pytest.approx(2.0, abs=0.05)
+        found, negative = zip(*(exponents_of_links(held, speed, shape, frame, links) for links in counts), strict=True)
+        if counts[-1] == 160:
+            assert order_of(shape, frame, found)[-1] == pytest.approx(2.0, abs=0.05)
         assert stability.verdict == verdict_of(found[-1].real.max() > COMPARED, negative[-1])
         assert stability.negative_directions == negative[-1]
 
