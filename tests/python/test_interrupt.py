@@ -7,6 +7,7 @@ import sys
 import time
 
 import psutil
+import pytest
 
 CALLS = {
     "shapes of a held cord": "rc.steady_shapes(rope, angular_speed=0.693, max_half_waves=1000)",
@@ -78,6 +79,7 @@ def seconds_of(process):
     return times.user + times.system
 
 
+@pytest.mark.slow
 def test_ctrl_c_is_heard_in_every_long_call(start):
     process = start(sys.executable, "-c", SCRIPT.format(calls=list(CALLS.values())), stdout=subprocess.PIPE)
     heard = {}
