@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MPL-2.0
 """sizes.py quick|all PARTS.tsv: how large the project is and how long its tests took, beside the figures in sizes.toml.
 
-`./test` prints it at its end. It is for people to see, and fails nothing. Compile times are measured again only when a
-header has changed.
+sizes.py compile: measures the compile times alone, which is done again only when a header has changed, for the table.
+`./test` prints it at its end. It is for people to see, and fails nothing.
 """
 
 import csv
@@ -34,15 +34,19 @@ def compile_times(root=ROOT):
     key = hashlib.sha1(b"".join(file.read_bytes() for file in headers)).hexdigest()
     kept = ROOT / "build" / f"compile_times_{key}.csv"
     if not kept.exists():
-        command = [ROOT / "bench/compile_times", "--repeat", "1", "--include", Path(root, "include"), "--csv", kept]
+        part = kept.with_suffix(".part")
+        command = [ROOT / "bench/compile_times", "--repeat", "1", "--include", Path(root, "include"), "--csv", part]
         subprocess.run([sys.executable, *command, "--only", *PROGRAMS], capture_output=True, check=True)
+        part.rename(kept)
     with kept.open(encoding="utf-8") as file:
         for row in csv.DictReader(file):
             if row["unit"] in PROGRAMS:
                 yield f"compile, over Eigen/Dense: {row['unit']}", float(row["x Eigen/Dense"])
 
 
-def main(tier, parts):
+def main(tier, parts=None):
+    if tier == "compile":
+        return list(compile_times())
     with open(ROOT / "tools/sizes.toml", "rb") as file:
         before = tomllib.load(file)
     seconds = [line.split("\t") for line in Path(parts).read_text(encoding="utf-8").splitlines()]
@@ -52,6 +56,7 @@ def main(tier, parts):
     print(f"\n{'':50} {'now':>8}  {before['commit']:>8}")
     for name, now, then in rows:
         print(f"{name:50} {now:8}  {then:8}")
+    return rows
 
 
 if __name__ == "__main__":

@@ -62,6 +62,26 @@ TEST_CASE("windows cover the branch, one after another", "[finite]") {
     }
 }
 
+TEST_CASE("two verdicts meet at an edge, not at an undecided window shorter than the tolerance", "[finite]") {
+    const revchain::Support mast{.stiffness = 1000 / 9.80665, .carriage_weight = 30, .radius = 3};
+    int edges = 0;
+    for (int k = 0; k < 12; ++k) {
+        const double rider = 110 + 2 * k;
+        const Chain<double> chain({revchain::compound_pendulum<double>(
+                                       {.weight = 8 + rider, .length = 1, .centroid = 0.8, .radius_of_gyration = 0.3}),
+                                   revchain::uniform_rod(10.0, 4.0)});
+        const revchain::Rig rig(chain, {.support = mast});
+        for (const Branch& branch : revchain::branches(rig, {.min_conical_height = 1.8}).branches) {
+            const auto windows = revchain::stability_windows(rig, branch);
+            for (std::size_t i = 1; i + 1 < windows.size(); ++i)
+                CHECK_FALSE((windows[i].verdict == Verdict::undecided && windows[i - 1].verdict != windows[i + 1].verdict &&
+                             windows[i].arc_to - windows[i].arc_from <= 1e-6));
+            edges += static_cast<int>(windows.size()) - 1;
+        }
+    }
+    CHECK(edges >= 5);
+}
+
 TEST_CASE("windows of nothing; errors", "[finite]") {
     const auto chain = Chain<double>::uniform_plummets(2, 2, 1);
     const Branch branch = revchain::branch(chain, {.mode = 1, .min_conical_height = 0.5});
