@@ -486,3 +486,5 @@ def test_speeds_of_both_directions_are_in_the_chart():
     assert both.chart.x[0][0] == -3.0 and both.chart.x[0][-1] == 3.0 and (np.diff(both.figures[0].phase)[:100] < 0).all()
     back = film(rc.branch(rig, 1, max_angular_speed=9.0, direction=-1))
     assert (back.chart.x[0] > 0).all() and (back.figures[0].speed < 0).all()
+    [(line, _)] = back.chart.lines
+    assert (line > 0).all() and (line.min(), line.max()) == (back.chart.x[0].min(), back.chart.x[0].max())

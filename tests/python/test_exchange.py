@@ -427,6 +427,8 @@ def test_models_of_others():
     turned = straight.replace('pos="0.8 0 -0.05"', 'pos="0.73 0.05 0" quat="0.7071067811865476 0 0.7071067811865476 0"')
     turned = turned.replace('pos="0.73', 'pos="0.65').replace("0.65 0.05 0", "0.65 0 -0.1")
     assert rc.from_mjcf(turned).length == pytest.approx([0.4, 0.7], rel=1e-12)
+    arm = rc.to_mjcf(RIGS["arm"]).replace('<body name="link_2" pos="0.3 0 0">', '<body name="link_2" pos="0.3 0 -0.4">')
+    assert "-0.4" in arm and rc.from_mjcf(arm).support.radius == 0.3  # from the axis, however low the pin
 
 
 def test_swing_of_a_model_of_others():

@@ -245,6 +245,7 @@ def test_uncertainty():
     parts = np.array([s.mass * 0.01, s.tip_mass * 0.01, s.length * 0.03, s.exponent * 0.1])
     np.testing.assert_allclose(u.conical_height, np.sqrt((parts**2).sum(axis=0)), rtol=1e-13)
     np.testing.assert_allclose(u.angular_speed, 0.5 * m.angular_speed * u.conical_height / m.conical_height, rtol=1e-13)
+    np.testing.assert_allclose(u.period, 0.5 * m.period * u.conical_height / m.conical_height, rtol=1e-13)
     np.testing.assert_allclose(u.share.length, parts[2] ** 2 / u.conical_height**2, rtol=1e-12)
     held = rc.modes(TAUT, 2).uncertainty(tension="1 %")
     assert held.largest == (("tension", 0),) * 2 and "tension" in repr(held)

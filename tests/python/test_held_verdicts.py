@@ -169,6 +169,26 @@ def test_named_systems(name):
     assert not tally.verdicts["undecided"]
 
 
+@pytest.mark.parametrize("upper", [Support(), Support(stiffness=90.0, mass=0.2)])
+def test_without_gravity_neither_end_is_the_lower(upper):
+    """Exponents and rates of damping of rods, and of the same rods upside down."""
+    mass, length = np.array([1.0, 0.4, 2.0, 0.7]), np.array([0.5, 0.3, 0.6, 0.4])
+    found = []
+    for way, ends in ((1, {"upper": upper}), (-1, {"lower": upper})):
+        m, a = mass[::way], length[::way]
+        rods = rc.Chain(mass=m, length=a, centroid=a / 2, radius_of_gyration=a / math.sqrt(12))
+        held = rc.Held(rods, span=1.2, weightless=True, **ends)
+        found.append(rc.steady_shapes(held, angular_speed=9.0, max_half_waves=2))
+    assert len(found[0]) == len(found[1]) == 2
+    for frame in FRAMES:
+        for one, other in zip(*found, strict=True):
+            up, down = one.stability(frame=frame), other.stability(frame=frame)
+            for name in ("internal_damping", "external_damping"):
+                want = np.sort(getattr(up, name))
+                np.testing.assert_allclose(np.sort(getattr(down, name)), want, atol=1e-10 * np.abs(want).max())
+            assert np.sort(down.exponents.imag) == pytest.approx(np.sort(up.exponents.imag), abs=1e-12)
+
+
 @pytest.mark.parametrize("frame", FRAMES)
 def test_an_upper_end_without_mass_is_the_limit_of_light_carriages(frame):
     light, none = (

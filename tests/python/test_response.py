@@ -384,6 +384,9 @@ def test_plots(chain):
     marked = [line for line in ax.get_lines() if line.get_linestyle() == "-."]
     assert len(marked) == int(found.modes_below[-1])
     assert ax.get_yscale() == "log"
+    turned = rc.response(chain, angular_speed=found.angular_speed[np.r_[200:300, :200]]).plot(pins=[0, 3])
+    for line, same in zip(ax.get_lines(), turned.get_lines(), strict=True):  # whatever the order of the speeds
+        np.testing.assert_array_equal(line.get_xydata(), same.get_xydata())
     rc.response(rigged(chain, momentum=1.0), angular_speed=[-2.0, 1.0, 2.0]).plot()
     rc.response(chain, conical_height=[1.5, 2.0], pins=2).plot()
     with pytest.raises(ValueError, match="pins must be among"):

@@ -119,6 +119,17 @@ def test_a_rig_is_of_a_chain():
         rc.Rig(CHAIN, support=3.0)
 
 
+def test_a_rig_by_mass_is_that_of_its_weights_under_any_gravity():
+    """A spring bears against weights that grow with gravity; the rig was made under another one."""
+    chain = rc.Chain(mass=[1.0, 3.0], length=0.5)
+    moved = rc.Rig(chain, support=rc.Support(stiffness=20.0, mass=2.0))
+    rc.modes(moved)
+    for g in (1.62, 24.79):
+        weights = rc.Rig(rc.Chain(weight=chain.mass * g, length=0.5), support=rc.Support(stiffness=20.0, weight=2.0 * g))
+        there = rc.modes(weights, gravity=g)
+        np.testing.assert_allclose(rc.modes(moved, gravity=g).conical_height, there.conical_height, rtol=1e-14)
+
+
 def test_flywheels():
     free = rc.Rig(CHAIN, flywheels=rc.Flywheel(weight=[9.80665, 0.0], radius_of_gyration=0.3, spin=100.0))
     assert free._momentum(9.80665) == pytest.approx([9.0, 0.0], rel=1e-15)

@@ -273,6 +273,10 @@ def test_netcdf_is_labelled(tmp_path):
         assert data.sizes["mode"] == CHAIN.mode_count and data.sizes["pin"] == 5
         assert data["shape"].dims == ("mode", "pin") and data.angular_speed.dims == ("mode",)
         assert data.attrs["gravity"] == 9.80665
+    stability = shapes()[0].stability()
+    stability.save(tmp_path / "result.nc")
+    with xarray.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
+        np.testing.assert_array_equal(data.value_real + 1j * data.value_imaginary, stability.exponents)
 
 
 def test_xarray():

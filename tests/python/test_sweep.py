@@ -975,6 +975,9 @@ def test_how_the_command_ends(run):
     assert code == 1 and "8 points" in out
     lines = err.splitlines()
     assert lines[0].endswith("points are refused") and lines[1].startswith("  point ") and "links[0]" in lines[1]
+    toml("values = [1, 2]")
+    Path("a.toml").write_text(Path("a.toml").read_text().replace("}]}", "}], ask = {modes = {rtol = 1e-40}}}"))
+    assert run("sweep", "a.toml", "-q") == (1, "", "revchain: at 2 points something is not proved\n")
 
 
 def test_pictures():

@@ -58,6 +58,19 @@ Chain<double> random_chain(Random& random, Index size) {
     return Chain<double>(links);
 }
 
+/// A model that foresees one bound and finds another; models of greater `cost` are asked later.
+struct Hopeful {
+    static constexpr std::string_view name = "hopeful";
+    double foreseen, found, seconds;
+
+    Fit applies(const ChainKind&, const Question&) const { return {}; }
+    double error_bound(const ChainKind&, const Question&) const { return foreseen; }
+    double cost(const ChainKind&, const Question&) const { return seconds; }
+    Answer solve(const Chain<double>&, const ChainKind&, const Question&) const {
+        return {Vector<double>::Constant(1, 1.0), Vector<double>::Constant(1, found)};
+    }
+};
+
 }  // namespace
 
 TEST_CASE("Laguerre asymptotics: within the bound, all modes that it takes") {
@@ -314,6 +327,16 @@ TEST_CASE("a tolerance costs no more than none") {
         ++asked;
     }
     CHECK(asked > 100);
+}
+
+TEST_CASE("where no model keeps the tolerance: the best of the bounds found, whichever came first") {
+    const auto rods = Chain<double>::uniform_rods(3);
+    for (const auto& [first, second] : {std::pair(1e-3, 1e-5), std::pair(1e-5, 1e-3)}) {
+        const std::tuple models(Hopeful{1e-7, first, 1.0}, Hopeful{1e-7, second, 2.0}, Hopeful{1e-4, 1e-4, 0.5});
+        const Solution best = solve(models, rods, {.rtol = 1e-6});
+        CHECK(best.status == Status::tolerance_not_met);
+        CHECK(best.answer.worst_bound() == 1e-5);
+    }
 }
 
 TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
