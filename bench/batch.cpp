@@ -9,6 +9,7 @@
 
 #include "lapack_names.hpp"
 #include "revchain/batch.hpp"
+#include "revchain/linear/batch_plan.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

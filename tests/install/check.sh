@@ -71,7 +71,7 @@ if [[ ${1-} != --quick ]]; then
     cat weak_* | sort | uniq -d | c++filt | head
     fail 'functions that were compiled differently have the same name'
   fi
-  if cmake --build mixed --target misfit >log 2>&1; then fail 'code for every processor linked with code for this one'; fi
+  if cmake --build mixed --target misfit >log 2>&1; then fail 'code for another processor linked with the library'; fi
   grep -qE 'undefined reference to .*revchain::for_[a-z0-9_]*::modes<double>' log || { cat log; fail 'no name says why'; }
 fi
 
