@@ -34,8 +34,8 @@ struct StabilityWindowsOptions {
 /// point off the vertical to its end.
 ///
 /// Method: `stability` at every point of the branch and at `samples - 1` places between two points. Where the verdict
-/// changes, the step is halved until it is as short as `tolerance`; what is undecided within it, between two verdicts, is
-/// the edge. A window shorter than the distance of two places can be missed: the result is not proved.
+/// changes, the step is halved until it is as short as `tolerance`; what is undecided within it, between two verdicts,
+/// is the edge. A window shorter than the distance of two places can be missed: the result is not proved.
 /// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
 /// some (4 N)^3 for every place.
 /// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples` below 1.

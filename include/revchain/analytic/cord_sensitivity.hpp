@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "revchain/analytic/cord.hpp"
 #include "revchain/cord.hpp"
-#include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/questions/held_tension.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
