@@ -20,7 +20,8 @@ PROGRAMS = ("count_modes", "modes of ten links", "steady_shapes")
 
 def sizes(root=ROOT):
     """Files and lines of each tree that belong to the project."""
-    listed = subprocess.run(["git", "-C", root, "ls-files", *TREES], capture_output=True, text=True, check=True).stdout
+    command = ["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard", *TREES]
+    listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     files = [file for name in listed.splitlines() if (file := Path(root, name)).exists()]
     for tree, ends in TREES.items():
         own = [file for file in files if file.is_relative_to(Path(root, tree)) and file.suffix in ends]
