@@ -312,7 +312,8 @@ def has_batch():
 
 def build():
     configure = ["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                 "-DREVCHAIN_BUILD_BENCH=ON", "-DREVCHAIN_BENCH_TIMED=ON", "-DREVCHAIN_BUILD_TESTS=OFF", "-DREVCHAIN_BUILD_EXAMPLES=OFF",
+                 "-DREVCHAIN_BUILD_BENCH=ON", "-DREVCHAIN_BENCH_TIMED=ON",
+                 "-DREVCHAIN_BUILD_TESTS=OFF", "-DREVCHAIN_BUILD_EXAMPLES=OFF",
                  "-DREVCHAIN_ANALYTIC=OFF", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
     log = subprocess.run(configure, capture_output=True, text=True)
     if log.returncode:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One chain and its results in the three scalars that Python may ask for.
+// A chain in the scalar that Python asks for (double, long double or two doubles), and its results as numpy arrays.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MPL-2.0
-"""sizes.py quick|all PARTS.tsv: how large the project is and how long its tests took, beside the figures in sizes.toml.
+"""sizes.py PARTS.tsv: how large the project is and how long its tests took, beside the figures in sizes.toml.
 
 sizes.py compile: measures the compile times alone, which is done again only when a header has changed, for the table.
 `./test` prints it at its end. It is for people to see, and fails nothing.
@@ -30,7 +30,7 @@ def sizes(root=ROOT):
 
 
 def compile_times(root=ROOT):
-    """CPU time to compile each program over that of <Eigen/Dense>."""
+    """CPU time to compile each program over that of <Eigen/Dense>, measured again when a header has changed."""
     headers = sorted(Path(root, "include").rglob("*.hpp"))
     key = hashlib.sha1(b"".join(file.read_bytes() for file in headers)).hexdigest()
     kept = ROOT / "build" / f"compile_times_{key}.csv"
@@ -40,25 +40,22 @@ def compile_times(root=ROOT):
         subprocess.run([sys.executable, *command, "--only", *PROGRAMS], capture_output=True, check=True)
         part.rename(kept)
     with kept.open(encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            if row["unit"] in PROGRAMS:
-                yield f"compile, over Eigen/Dense: {row['unit']}", float(row["x Eigen/Dense"])
+        times = {row["unit"]: float(row["x Eigen/Dense"]) for row in csv.DictReader(file)}
+    return [(f"compile, over Eigen/Dense: {name}", times[name]) for name in PROGRAMS]
 
 
-def main(tier, parts=None):
-    if tier == "compile":
-        return list(compile_times())
+def main(parts):
     with open(ROOT / "tools/sizes.toml", "rb") as file:
         before = tomllib.load(file)
-    seconds = [line.split("\t") for line in Path(parts).read_text(encoding="utf-8").splitlines()]
-    rows = [(f"seconds: {name}", int(took), before[tier].get(name, "")) for name, took, *_ in seconds]
-    rows.append(("seconds: all", sum(int(took) for _, took, *_ in seconds), before[tier]["all"]))
+    took = [line.split("\t")[:2] for line in Path(parts).read_text(encoding="utf-8").splitlines()]
+    seconds = [(name, int(now), before["seconds"].get(name, 0)) for name, now in took]
+    rows = [(f"seconds: {name}", now, then) for name, now, then in seconds]
+    rows.append(("seconds: all of these", *(sum(column) for column in list(zip(*seconds, strict=True))[1:])))
     rows += [(name, now, before["sizes"].get(name, "")) for name, now in [*sizes(), *compile_times()]]
     print(f"\n{'':50} {'now':>8}  {before['commit']:>8}")
     for name, now, then in rows:
         print(f"{name:50} {now:8}  {then:8}")
-    return rows
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    compile_times() if sys.argv[1] == "compile" else main(sys.argv[1])

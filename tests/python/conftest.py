@@ -45,7 +45,7 @@ def pytest_deselected(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any) -> None:
-    """What a worker of xdist has left out; each leaves out the same."""
+    """Takes the counts from a worker of xdist. All workers leave out the same cases, so that they are not added up."""
     node.config.stash[DESELECTED] |= Counter(getattr(node, "workeroutput", {}).get("deselected", {}))
 
 

@@ -10,7 +10,8 @@
 #define REVCHAIN_INLINE inline
 #endif
 
-/// The same of what needs GSL, which no installed library holds: the Python module and the tests define it.
+/// REVCHAIN_COMPILED_ANALYTIC does the same for functions that need GSL. Only the Python module and the tests define it:
+/// no library with these functions is installed.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_INLINE_ANALYTIC
 #else
