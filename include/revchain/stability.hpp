@@ -70,8 +70,8 @@ struct Stability {
 /// mass, in place of length, would add -1/2 of drag over mass to each growth rate, for any shape.
 /// Accuracy: exponents to about 1e-13 of the largest where they are simple; `exponent_error` estimates the error of
 /// each, and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, and up to 100
-/// motions, they are computed with twice the digits: with masses 1e16 apart 2e-13 of the largest, on arms and springs
-/// 5e-9, as the shape is given in double (tests/python/test_light_links.py).
+/// motions, they are computed with twice the digits: with masses 1e16 apart mostly to 2e-13 of the largest (3e-11 at
+/// worst of 900 shapes), on arms and springs 5e-9, as the shape is given in double (tests/python/test_light_links.py).
 /// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40, less where every motion out of the plane has positive energy;
 /// a hundred times as much with twice the digits. N = 1: omega = n sqrt(1 + 3 cos^2 d) free,
 /// n sin d driven (section 7 (6)).

@@ -41,7 +41,7 @@ def test_a_light_link_between_heavy_ones(ratio):
     assert got.verdict == "spectrally stable" and got.growth_rate == 0
     slow = np.sort(np.abs(got.exponents))[:6]
     exact = sorted(float(abs(s)) for s in small_motions(rig, shape, "free")[0])[:6]
-    np.testing.assert_allclose(slow, exact, rtol=1e-13 if ratio <= 1e12 else 2e-9)  # 1e16: 1.1e-9
+    np.testing.assert_allclose(slow, exact, rtol=1e-13)
 
 
 def trials(seed, count, spread, rigged):
@@ -64,7 +64,7 @@ def trials(seed, count, spread, rigged):
 )
 def test_random_masses(spread, rigged, largest):
     """Masses 10^U(-2, 2) and 10^U(-8, 8), also on arms and springs. `largest` is about twice the worst that was found."""
-    for seed in (20, 101, 103, 105, 107):
+    for seed in (20, 101, 103, 105, 107, 319):  # 319: links all but level below a spring
         compared, worst = trials(seed, 8, spread, rigged)
         assert compared >= 10
         assert worst <= largest

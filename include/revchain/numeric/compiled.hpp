@@ -10,8 +10,8 @@
 #define REVCHAIN_INLINE inline
 #endif
 
-/// REVCHAIN_COMPILED_ANALYTIC does the same for functions that need GSL. Only the Python module and the tests define it:
-/// no library with these functions is installed.
+/// REVCHAIN_COMPILED_ANALYTIC does the same for functions that need GSL. Only the Python module and the tests define
+/// it: no library with these functions is installed.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_INLINE_ANALYTIC
 #else

@@ -76,6 +76,7 @@ def small_motions(rig, shape, frame):
             if max(map(abs, change)) < mp.mpf(10) ** -48:
                 break
         assert max(abs(float(t) - u) for t, u in zip(x, shape.inclination, strict=False)) < 1e-12
+        assert not slides or abs(float(x[size]) - shape.offset[-1]) <= 1e-14 * max(abs(shape.offset))
 
         s, c, top = [mp.sin(t) for t in x[:size]], [mp.cos(t) for t in x[:size]], x[size] if slides else arm
         A, B, M, K, C = (mp.zeros(count) for _ in range(5))

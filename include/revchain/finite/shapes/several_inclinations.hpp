@@ -53,9 +53,15 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box.
+/// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not tell the offset of a
+/// support on a spring.
 inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
-                   const TangentBox<Far>& box) {
+                   const TangentBox<Far>& box, const std::vector<Wide<double>>& offset) {
+    for (std::size_t m = 0; m < offset.size(); ++m) {
+        const double off = static_cast<double>(abs(found.offset[m] - offset[m]));
+        if (!(off <= 1e-18 * static_cast<double>(abs(offset[m]) + links[std::min(m, box.size() - 1)].length)))
+            return false;
+    }
     for (std::size_t m = 0; m < box.size(); ++m) {
         const Far t(tangent_in(found, links, m));
         const double size = std::abs(static_cast<double>(t));
@@ -93,7 +99,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     Settled result;
     result.condition = *condition;
     result.shape = finite::balance(links, height, offset, balance.posture(), support_of(chain));
-    if (!result.shape.converged || !agrees(links, result.shape, *box)) {
+    if (!result.shape.converged || !agrees(links, result.shape, *box, offset)) {
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
     }

@@ -22,7 +22,8 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
 
 /// A gyroscopic system that motion in a mirror leaves alone,
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
-/// A and M symmetric and positive definite, K and C symmetric. With x, y exp(s t) so is x, -y exp(-s t).
+/// A and M symmetric and positive definite, K and C symmetric. With x, y exp(s t) so is x, -y exp(-s t). Time in
+/// a unit in which B is about as large as A and M.
 template <class S>
 struct MirroredPencil {
     Matrix<S> A, B, M, K, C;
@@ -63,14 +64,8 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         half.transposeInPlace();
         return Matrix<S>(Matrix<S>(right.matrixL().solve(half)).transpose());
     };
-    Matrix<S> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
-    Matrix<S> C = reduced(other, pencil.C, other);
-    // Units of time in which stiffness is about 1, so that the two halves of the state are alike.
-    const auto size = [](const Matrix<S>& X) {
-        return X.size() ? static_cast<double>(X.cwiseAbs().rowwise().sum().maxCoeff()) : 0.0;
-    };
-    const double pace = std::sqrt(std::max({size(K), size(C), std::numeric_limits<double>::min()}));
-    K /= S(pace) * S(pace), C /= S(pace) * S(pace), B /= S(pace);
+    const Matrix<S> K = reduced(root, pencil.K, root), B = reduced(root, pencil.B, other);
+    const Matrix<S> C = reduced(other, pencil.C, other);
     Matrix<S> Q(n + k, n + k);
     const Matrix<S> twice = S(-2) * B;
     Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(), Matrix<S>::Identity(k, k);
@@ -88,33 +83,41 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         modes.is_symmetric = true;
         modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
     } else {
+        // Each r in a unit in which it is as large as its x: fast motions, of light links, beside those of about n.
+        Vector<S> unit = Vector<S>::Ones(n + k);
+        for (Index i = 0; i < k; ++i) unit[n + i] = sqrt(S(1) + abs(C(i, i)));
         Matrix<S> T = -Q;
         T.bottomRows(k) = product<S>(C, T.bottomRows(k));
+        for (Index i = 0; i < n + k; ++i) T.col(i) *= unit[i], T.row(i) /= unit[i];
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
         const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: the real part, then the imaginary part
+        ComplexColumns<S> right = u, left;
         for (Index j = 0; j < n + k; ++j) {
             const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);
-            u.real.col(j) = parts.col(second ? j - 1 : j);
-            if (first) u.imag.col(j) = parts.col(j + 1);
-            if (second) u.imag.col(j) = -parts.col(j);
+            right.real.col(j) = parts.col(second ? j - 1 : j);
+            if (first) right.imag.col(j) = parts.col(j + 1);
+            if (second) right.imag.col(j) = -parts.col(j);
         }
-        const Matrix<S> left_real = product(Q, u.real), left_imag = product(Q, u.imag);
+        const auto in_units = [&](Matrix<S> of) {
+            for (Index i = 0; i < n + k; ++i) of.row(i) *= unit[i];
+            return of;
+        };
+        u = {in_units(right.real), in_units(right.imag)};
+        left = {in_units(product(Q, u.real)), in_units(product(Q, u.imag))};
         const double whole = rounding * static_cast<double>(T.norm());
         for (Index j = 0; j < n + k; ++j) {
-            const auto p = u.real.col(j), q = u.imag.col(j);
-            const auto l = left_real.col(j), m = left_imag.col(j);
+            const auto p = right.real.col(j), q = right.imag.col(j);
+            const auto l = left.real.col(j), m = left.imag.col(j);
             const double sizes = static_cast<double>(
                 sqrt(S((p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm()))));
-            const double product =
+            const double overlap =
                 std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
-            modes.error[j] = whole * sizes / product;
+            modes.error[j] = whole * sizes / overlap;
         }
     }
-    modes.square *= std::complex<S>(S(pace) * S(pace));
-    modes.error *= pace * pace;
     const auto back = [](const auto& factor, const Matrix<S>& of) { return Matrix<S>(factor.matrixU().solve(of)); };
-    const Matrix<S> to_y = S(pace) * Q.bottomRows(k);
+    const Matrix<S> to_y = Q.bottomRows(k);
     modes.x = {back(root, u.real.topRows(n)), back(root, u.imag.topRows(n))};
     modes.y = {back(other, product(to_y, u.real)), back(other, product(to_y, u.imag))};
     return modes;
