@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """The site: the pages of this folder, and references from docstrings and headers. Built by tools/site."""
 
+import os
 import shutil
 import sys
 from importlib import metadata
@@ -25,7 +26,11 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
+    "sphinx_sitemap",
+    "sphinxext.opengraph",
 ]
+if (ROOT / "out/web/index.html").exists():
+    tags.add("live")  # noqa: F821
 exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst", "gallery/*.ipynb"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 nb_execution_mode = "off"
@@ -55,7 +60,17 @@ sphinx_gallery_conf = {
 html_theme = "furo"
 html_title = f"revchain {release}"
 html_static_path = ["site/static"]
-html_css_files = ["wide.css"]
+html_css_files = ["wide.css", "dark.css"]
+html_favicon = "site/static/favicon.svg"
+# The address of the site, for the sitemap and for what others show of a link to it.
+html_baseurl = os.environ.get("REVCHAIN_SITE_URL", "http://localhost:8000/")
+sitemap_url_scheme = "{link}"
+sitemap_show_lastmod = False
+ogp_site_name = "revchain"
+ogp_image = html_baseurl + "_static/card.png"
+ogp_image_alt = "A chain of seven balls whirls at one speed in three ways"
+ogp_social_cards = {"enable": False}
+ogp_enable_meta_description = True
 html_show_sphinx = False
 copybutton_prompt_text = ">>> "
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS-MML_HTMLorMML-full"

@@ -355,10 +355,10 @@ def test_python_of_pages(python, tmp_path, page):
         assert (ROOT / "docs/figures" / name).stat().st_size < 400_000
 
 
-def test_readme_has_the_table_of_questions():
-    """What the table of the README says of each cell is what `test_interface.py` tests."""
+def test_table_of_questions():
+    """What docs/systems.md says of each cell is what `test_interface.py` tests."""
     cells = runpy.run_path(str(ROOT / "tests/python/test_interface.py"))["CELLS"]
-    table = (ROOT / "README.md").read_text("utf-8").partition("| question | Chain |")[2].partition("\n\n")[0]
+    table = (ROOT / "docs/systems.md").read_text("utf-8").partition("| question | Chain |")[2].partition("\n\n")[0]
     rows = [line.strip("|").split("|") for line in table.splitlines()[2:]]
     shown = {name.strip("."): row[1:] for row in rows for name in re.findall(r"`([.\w]+)(?:\(\))?`", row[0])}
     assert shown.keys() == cells.keys()

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The bars of README: time of the fastest NumPy or SciPy program over that of revchain.
+
+    bench/run --only ordinary --csv FILE.csv
+    .venv/bin/python bench/plot_ordinary.py FILE.csv OUT.svg
+"""
+
+import csv
+import sys
+
+from picture import plt, save
+
+KINDS = {"plummets, all modes with shapes": ("point masses", "#0072b2"), "rods, all modes with shapes": ("rods", "#d55e00")}
+SIZES = (2, 5, 20, 100, 300, 1000, 3000)
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return {(row["job"], int(row["N"])): float(row["ratio"]) for row in rows if row["ratio"]}
+
+
+def main(source, out):
+    ratio = read(source)
+    figure, axes = plt.subplots(figsize=(8, 2.9), layout="constrained")
+    for k, (job, (name, colour)) in enumerate(KINDS.items()):
+        x = [i + (k - 0.5) * 0.4 for i in range(len(SIZES))]
+        bars = axes.bar(x, [ratio[job, n] for n in SIZES], 0.38, color=colour, label=name)
+        axes.bar_label(bars, [f"{ratio[job, n]:.1f}" if ratio[job, n] < 10 else f"{ratio[job, n]:.0f}" for n in SIZES], padding=1, fontsize=9)
+    slowest = ratio["ten slowest of a million, heights alone", 10**6]
+    bars = axes.bar([len(SIZES)], [slowest], 0.38, color=KINDS["plummets, all modes with shapes"][1])
+    axes.bar_label(bars, [f"{slowest:.0f}"], padding=1, fontsize=9)
+    axes.axhline(1, color="#595959", linewidth=1)
+    axes.set_yscale("log")
+    axes.set_ylim(0.5, 3 * slowest)
+    axes.set_yticks([1, 10, 100], ["as long", "10 times", "100 times"])
+    axes.minorticks_off()
+    axes.set_xticks(range(len(SIZES) + 1), [*(f"{n:,}" for n in SIZES), "1,000,000:\n10 slowest"])
+    axes.tick_params(length=0)
+    axes.set_xlabel("links")
+    axes.set_title("Time that the fastest NumPy or SciPy program takes, over that of revchain: all modes", loc="left")
+    axes.legend(loc="upper left")
+    save(figure, out, "bench/run --only ordinary")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
