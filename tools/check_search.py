@@ -49,6 +49,8 @@ QUESTIONS = {
     "classroom experiments": "howto/classroom",
     "steady_shapes": "reference/python/revchain.steady_shapes",
     "C++ reference": "reference/cpp",
+    "tilt of the seat of a carousel": "tutorial/carousel",  # no page has the first word
+    "eigenfrequency of my crane hoist": "tutorial/crane",
 }
 
 

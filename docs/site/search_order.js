@@ -29,12 +29,27 @@ function searchOrder() {
     if (kind === "text") {
       let answers = 0;
       asked.forEach(([words, pages], row) => { // the first link of a row before the others, earlier rows before later ones
-        if (wanted.length && pages.includes(name) && share(words) === 1)
-          answers = Math.max(answers, 20 - 2 * pages.indexOf(name) + 4 * wanted.length / words.size - row / 100);
+        if (!wanted.length || !pages.includes(name)) return;
+        const missing = Math.round(wanted.length * (1 - share(words)));
+        const worth = missing === 0 ? 20 : missing < wanted.length / 2 ? 8 : -Infinity;
+        answers = Math.max(answers, worth - 2 * pages.indexOf(name) + 4 * share(words) * wanted.length / words.size - row / 100);
       });
       order += answers;
     }
     return order;
+  };
+}
+
+// If no page has all words: pages with all words that some page has; if there are none, pages with all of these but one.
+if (typeof Search !== "undefined") {
+  const pagesWithAll = Search.performTermsSearch;
+  Search.performTermsSearch = (terms, excluded) => {
+    const found = pagesWithAll(terms, excluded);
+    if (found.length || terms.size < 2) return found;
+    const known = [...terms].filter((term) => pagesWithAll(new Set([term]), new Set()).length);
+    const some = pagesWithAll(new Set(known), excluded);
+    if (some.length || known.length < 3) return some;
+    return known.flatMap((left) => pagesWithAll(new Set(known.filter((term) => term !== left)), excluded));
   };
 }
 
