@@ -51,6 +51,7 @@ QUESTIONS = {
     "C++ reference": "reference/cpp",
     "tilt of the seat of a carousel": "tutorial/carousel",  # no page has the first word
     "eigenfrequency of my crane hoist": "tutorial/crane",
+    "how can I find and compute the troposkien I will need": "howto/darrieus",
 }
 
 

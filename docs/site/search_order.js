@@ -4,11 +4,10 @@
 const searchQuestions = QUESTIONS_OF_THE_SITE;
 
 // Words of questions that say nothing about their subject; a page need not have them.
-const emptyWords = ["calculate", "can", "compute", "find", "get", "give", "make", "may", "need", "show", "use", "using",
-  "want", "will", "would"];
+["calculate", "can", "compute", "find", "get", "give", "make", "may", "need", "show", "use", "using", "want", "will", "would"]
+  .forEach((word) => stopwords.add(word));
 
 function searchOrder() {
-  emptyWords.forEach((word) => stopwords.add(word));
   const stemmer = new Stemmer();
   const stems = (text) => new Set(
     text.toLowerCase().split(/[^\p{Letter}\p{Number}_]+/u)

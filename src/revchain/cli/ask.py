@@ -128,8 +128,8 @@ def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
         return Annotated[bool | None, typer.Option(f"{name}/--no-{name[2:]}", help=help_text, show_default=shown)]
     choices = [get_args(part) for part in get_args(field.type) if get_origin(part) is Literal]
     metavar = "|".join(map(str, choices[0])) if choices else _FORMS.get(_form(field), "X")
-    shown = str(default) if default is not None else False
-    return Annotated[str | None, typer.Option(name, metavar=metavar, help=help_text, show_default=shown)]
+    known = default is not None and str(default)
+    return Annotated[str | None, typer.Option(name, metavar=metavar, help=help_text, show_default=known)]
 
 
 _FORMS = {Pair: '"LOW to HIGH"', Spread: 'X|"FROM to TO in N"|"X; Y; ..."', list: '"X; Y; ..."'}
