@@ -18,6 +18,7 @@ release = version = metadata.version("revchain")
 extensions = [
     "generated_pages",
     "glossary_index",
+    "search_questions",
     "myst_nb",
     "numpydoc",
     "sphinx.ext.autodoc",

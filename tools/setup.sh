@@ -22,6 +22,7 @@ needs_table='
    clang     clang                     llvm      clang               clangxx
    fuzzer    clang,libclang-rt-dev     llvm      clang,compiler-rt   clangxx,compiler-rt
    emscripten emscripten               emscripten emscripten         emscripten
+   node      nodejs                    node      nodejs              nodejs
    chromium  chromium                  chromium  chromium            chromium
 '
 
@@ -68,6 +69,7 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     fuzzer) printf 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
       clang++ -x c++ - -fsanitize=fuzzer,address,undefined -o /dev/null 2>/dev/null ;;
     emscripten) command -v emcc ;;
+    node) command -v node ;;
     chromium) command -v chromium || command -v chromium-browser || command -v google-chrome ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null

@@ -20,6 +20,13 @@ def write(app: Any) -> None:
             path.write_text(text, encoding="utf-8")
 
 
+def turned_links(_: Any, name: str, source: list[str]) -> None:
+    """The list of headers leads to their pages here, and to the headers in the repository."""
+    if name == "reference/cpp":
+        source[0] = cpp_reference.with_pages(source[0])
+
+
 def setup(app: Any) -> dict[str, bool]:
     app.connect("config-inited", lambda app, _: write(app))
+    app.connect("source-read", turned_links)
     return {"parallel_read_safe": True}

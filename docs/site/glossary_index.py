@@ -27,7 +27,7 @@ class GlossaryIndex(SphinxTransform):
             terms = [word for word in dict.fromkeys(words) if len(word) > 2]
             place = "term-" + nodes.make_id(terms[0])
             cell = next(row.findall(nodes.entry))
-            entries = [("single", term, place, "", None) for term in terms]
+            entries = [("single", term, place, "main", None) for term in terms]
             cell.insert(0, [addnodes.index(entries=entries), nodes.target("", "", ids=[place])])
 
 

@@ -2,10 +2,12 @@
 """The command line: what it prints, what it writes, how it ends."""
 
 import csv
+import itertools
 import json
 import os
 import pty
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -22,6 +24,7 @@ from revchain.cli import ask as _ask
 from revchain.cli import report as _report
 from revchain.cli import sweep as _cli_sweep
 from revchain.cli.exit_codes import MEANING, ExitCode
+from revchain.cli.frame import USE
 from revchain.scenes import answer as _answer
 
 WATCH = """
@@ -494,6 +497,28 @@ def test_what_the_new_scene_says_of_rigs_is_right(run):
 
 def test_schema(run):
     assert run("schema")[1] == Path(rc.__file__).with_name("scenes").joinpath("scene.schema.json").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", USE)
+def test_the_example_in_the_help_works(run, repository, name):
+    """And writes the files that the help says: none, or those of the options."""
+    Path("examples").symlink_to(repository / "examples")
+    example, told = USE[name]
+    before = set(files())
+    program, *arguments = shlex.split(example)
+    code, _, err = run(*arguments)
+    assert (program, code, err) == ("revchain", 0, "")
+    flat = " ".join(run(name, "--help")[1].split())
+    assert f"Example: {example} Files written: {told}. Exit codes: 0 all is well;" in flat
+    named = {word for option, word in itertools.pairwise(arguments) if option in ("--plot", "--json", "--csv", "--out")}
+    extra = {"run": {"out"}, "new": {"crane.toml"}}.get(name, set())
+    assert set(files()) - before == named | extra
+    if name == "run":
+        assert files_in(Path("out/watch_chain")) == ["modes.csv", "modes.json", "modes.png", "modes.txt"]
+
+
+def test_every_command_has_an_example():
+    assert [command.name or command.callback.__name__ for command in _cli.app.registered_commands] == list(USE)
 
 
 def test_help_tells_the_exit_codes(run):

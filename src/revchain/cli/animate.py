@@ -15,12 +15,12 @@ from ..results.files import written_aside
 from ..scenes.ask import QUESTIONS
 from .ask import Gravity, Quiet, SceneFile, answer_of, read_scene, refuse_without_answer
 from .exit_codes import ExitCode
-from .frame import EXIT_CODES, Stop, app, guarded
+from .frame import Stop, app, epilog, guarded
 from .progress import counted
 from .report import Report
 
 
-@app.command(epilog=EXIT_CODES)
+@app.command(epilog=epilog("animate"))
 @guarded
 def animate(
     scene: SceneFile,

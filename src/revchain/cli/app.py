@@ -21,7 +21,7 @@ from ..scenes.upgrade import upgraded_text
 from ..studies.study import study_schema
 from . import animate, ask, sweep  # noqa: F401  their commands come first
 from .exit_codes import ExitCode
-from .frame import STDOUT, Stop, app, guarded, run_app
+from .frame import STDOUT, Stop, app, epilog, guarded, run_app
 
 
 def run(arguments: list[str] | None = None) -> int:
@@ -39,7 +39,7 @@ def run(arguments: list[str] | None = None) -> int:
         return ExitCode.INTERRUPTED
 
 
-@app.command()
+@app.command(epilog=epilog("validate"))
 @guarded
 def validate(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
@@ -78,7 +78,7 @@ def _upgrade(path: Path) -> None:
         print(f"wrote {path}")
 
 
-@app.command()
+@app.command(epilog=epilog("new"))
 @guarded
 def new(
     file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="File to write; - is stdout.")] = None,
@@ -100,7 +100,7 @@ def new(
     print(f"wrote {file}; now: revchain {command} {file}")
 
 
-@app.command()
+@app.command(epilog=epilog("schema"))
 @guarded
 def schema(study: Annotated[bool, typer.Option("--study", help="Print that of study files.")] = False) -> None:
     """Print the JSON Schema of scene files, for editors."""

@@ -7,7 +7,7 @@ import inspect
 import re
 import sys
 from pathlib import Path
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 from msgspec import Meta, structs
@@ -26,7 +26,7 @@ from ..systems.extras import require
 from ..systems.held import Held
 from ..systems.rig import Rig
 from .exit_codes import ExitCode
-from .frame import EXIT_CODES, PICTURES, STDOUT, Stop, app, guarded, outputs_of, save_picture
+from .frame import PICTURES, STDOUT, Stop, app, epilog, guarded, outputs_of, save_picture
 from .progress import watched
 from .report import Report
 
@@ -49,7 +49,7 @@ COMMON: dict[str, tuple[Any, Any]] = {
 }
 
 
-@app.command(epilog=EXIT_CODES)
+@app.command(epilog=epilog("run"))
 @guarded
 def run(
     scene: SceneFile,
@@ -112,7 +112,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
     command.__signature__ = inspect.Signature([scene, *others])  # type: ignore[attr-defined]
     command.__annotations__ = {each.name: each.annotation for each in (scene, *others)}
     command.__doc__ = summary
-    app.command(name=question, epilog=EXIT_CODES)(guarded(command))
+    app.command(name=question, epilog=epilog(question))(guarded(command))
 
 
 def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
@@ -122,9 +122,14 @@ def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
         help_text += " The count, first and windows of the scene do not apply."
     help_text = help_text.replace("[", "\\[")
     name = f"--{field.encode_name.replace('_', '-')}"
+    default: Any = field.default if isinstance(field.default, (bool, int, str)) else None
     if bool in get_args(field.type):
-        return Annotated[bool | None, typer.Option(f"{name}/--no-{name[2:]}", help=help_text)]
-    return Annotated[str | None, typer.Option(name, metavar=_FORMS.get(_form(field), "X"), help=help_text)]
+        shown = name[2:] if default else f"no-{name[2:]}"
+        return Annotated[bool | None, typer.Option(f"{name}/--no-{name[2:]}", help=help_text, show_default=shown)]
+    choices = [get_args(part) for part in get_args(field.type) if get_origin(part) is Literal]
+    metavar = "|".join(map(str, choices[0])) if choices else _FORMS.get(_form(field), "X")
+    known = default is not None and str(default)
+    return Annotated[str | None, typer.Option(name, metavar=metavar, help=help_text, show_default=known)]
 
 
 _FORMS = {Pair: '"LOW to HIGH"', Spread: 'X|"FROM to TO in N"|"X; Y; ..."', list: '"X; Y; ..."'}

@@ -26,6 +26,54 @@ UNREADABLE: Any = typer.BadParameter.__mro__[1]  # click's UsageError, which not
 
 EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
 
+_ON_REQUEST = "only those of --plot, --json and --csv"
+# Of each command: a command line that works in a copy of the repository, and the files that the command writes.
+USE: dict[str, tuple[str, str]] = {
+    "run": (
+        "revchain run examples/scenes/watch_chain.toml",
+        "QUESTION.txt, .json, .csv and .png for each question of the scene, in the folder out/SCENE or --out",
+    ),
+    "modes": ("revchain modes examples/scenes/watch_chain.toml --count 3 --plot modes.svg", _ON_REQUEST),
+    "shapes": ('revchain shapes examples/scenes/chair_o_plane.toml --angular-speed "12 rpm"', _ON_REQUEST),
+    "response": (
+        'revchain response examples/scenes/crane_hook_block.toml --angular-speed "0.1 to 3 in 50" --csv response.csv',
+        _ON_REQUEST,
+    ),
+    "swing": ('revchain swing examples/scenes/plucked_chain.toml --time "0 to 5 in 100" --json swing.json', _ON_REQUEST),
+    "branches": (
+        'revchain branches examples/scenes/chair_o_plane.toml --max-angular-speed "20 rpm" --plot branches.png',
+        _ON_REQUEST,
+    ),
+    "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those of --json and --csv"),
+    "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the one of --out"),
+    "sweep": (
+        "revchain sweep examples/studies/two_weights.toml --out weights.csv",
+        "the results (--out, or STUDY.csv in the current folder) and the picture of --plot; "
+        "RESULTS.partial while it computes, or if it is interrupted",
+    ),
+    "validate": ("revchain validate examples/scenes/watch_chain.toml", "none; with --upgrade the scenes themselves"),
+    "new": ("revchain new crane.toml", "the one named, or scene.toml; with --study study.toml. Existing files only with --force"),
+    "schema": ("revchain schema", "none"),
+}
+NEVER = {  # exit codes that a command does not have
+    "validate": {ExitCode.TOLERANCE_NOT_MET},
+    "new": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
+    "schema": {ExitCode.TOLERANCE_NOT_MET, ExitCode.SCENE_INVALID},
+}
+
+
+def codes_of(command: str) -> dict[ExitCode, str]:
+    """The exit codes that a command can have, and their meanings."""
+    return {code: meaning for code, meaning in MEANING.items() if code not in NEVER.get(command, ())}
+
+
+def epilog(command: str) -> str:
+    """The end of the help of a command: an example, the files written, the exit codes."""
+    example, files = USE[command]
+    codes = "; ".join(f"{code.value} {meaning}" for code, meaning in codes_of(command).items())
+    return f"Example: [b]{example}[/b]\n\nFiles written: {files}.\n\nExit codes: {codes}."
+
+
 app = typer.Typer(
     add_completion=True,
     no_args_is_help=True,

@@ -21,14 +21,14 @@ from ..studies.study import Study, load_study
 from ..studies.sweep import dask_client
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
-from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
+from .frame import Stop, app, checked_picture, epilog, guarded, save_picture
 from .progress import counted
 
 SENTENCES = 5  # number of refused points that are shown
 MAX_SHOWN = 10**7  # largest number of results with a summary
 
 
-@app.command(epilog=EXIT_CODES)
+@app.command(epilog=epilog("sweep"))
 @guarded
 def sweep(
     study: Annotated[
