@@ -77,7 +77,7 @@ def main(folder: Path) -> int:
         for address in addresses
     ]
     print(*broken, *foreign, f"{seen} links of {len(pages)} pages checked, {len(broken)} broken", sep="\n")
-    print(f"{len(loads)} pages and style sheets checked, {len(foreign)} files loaded from other servers")
+    print(f"{len(loads)} pages and style sheets checked, files loaded from other servers: {len(foreign)}")
     return min(len(broken) + len(foreign), 1)
 
 
