@@ -105,7 +105,7 @@ struct CertifiedCount {
 /// would grow exponentially along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
 /// S is usually wider than the scalar of the answer.
 /// Cost O(N): two shifts in double words of doubles take 140 ns a link, two in double 20 ns. Derivation:
-/// docs/theory/counts.md, "The bound of a count".
+/// docs/theory/counts.md, "Proved counts".
 template <Real S, std::size_t L>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, const std::array<S, L>& shifts) {
     using std::abs;
