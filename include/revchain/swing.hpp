@@ -53,7 +53,7 @@ struct Swing {
 /// from those given.
 ///
 /// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with compensation. Two bounds
-/// hold for every offset at every time, both proved (docs/accuracy.md, "Small oscillations"): `truncation_error`, from
+/// hold for every offset at every time, both proved (docs/theory/motion.md): `truncation_error`, from
 /// the energy outside the modes kept and y_m^2 <= 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from
 /// residuals of the shapes, angles and rounding.
 /// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.

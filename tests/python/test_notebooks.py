@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The notebooks run, and print what they hold as their output."""
+"""The notebooks run, print what they hold as their output, and show sliders."""
 
 from pathlib import Path
 
 import pytest
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.ipynb"))
+WIDGETS = "application/vnd.jupyter.widget-"
 
 
 def printed(notebook):
@@ -18,6 +19,13 @@ def test_there_are_three():
     assert len(NOTEBOOKS) == 3
 
 
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_no_widgets_are_stored(path):
+    """Their page would load the widgets' scripts from another server. What the sliders show first is stored as a picture."""
+    text = path.read_text("utf-8")
+    assert WIDGETS not in text and '"image/png"' in text and "Opened in Jupyter" in text
+
+
 @pytest.mark.slow  # starts three kernels
 @pytest.mark.filterwarnings("ignore")  # of zmq and traitlets
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -26,7 +34,11 @@ def test_notebooks(path):
     from nbclient import NotebookClient
 
     notebook = nbformat.read(path, 4)
-    assert sum("interact(" in cell.source for cell in notebook.cells) == 1
+    [cell] = [cell for cell in notebook.cells if cell.source.startswith("interact(")]
     before = printed(notebook)
+    assert before
     NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
     assert printed(notebook) == before
+    assert any(WIDGETS + "view+json" in output.get("data", {}) for output in cell.outputs)
+    models = [state["model_name"] for state in notebook.metadata.widgets[WIDGETS + "state+json"]["state"].values()]
+    assert sum(model in ("IntSliderModel", "FloatSliderModel") for model in models) == cell.source.count("=")

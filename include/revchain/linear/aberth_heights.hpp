@@ -18,7 +18,7 @@ struct SpringOnTop {
 /// A chain as lumped pins and springs in double. Heights in units of `chain.units()`. With p = h/a, q = 1 - p the
 /// lumped masses are W p and W q, X = W (p q - r). False for chains not served: all have to be plummets, or all to have
 /// 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a). Roundings: of S one (compensated); of p one, of q two; of k two with
-/// plummets, else four, of 1/k the same; the others in docs/accuracy.md, "All modes of small chains", 1. A support on
+/// plummets, else four, of 1/k the same; the others in docs/theory/spectrum.md, "Small chains", 1. A support on
 /// a spring is one more link, with the mass of the carriage at its lower pin. Of plummets without a carriage the spring
 /// and the uppermost thread are one: 1/k three roundings, k four.
 inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,

@@ -23,7 +23,7 @@ constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<In
 constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
 
 /// Bounds on the roundings (half units, relative) behind the moment a1 of a leaf of so many links and behind its other
-/// coefficients: docs/accuracy.md, "Blocks".
+/// coefficients: docs/theory/blocks.md.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 

@@ -85,7 +85,7 @@ struct CondensedHeights {
 /// or a mode could not be proved: bisection is then left.
 ///
 /// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
-/// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
+/// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/theory/blocks.md.
 /// Cost: `condensed_chain`, and 20 microseconds a mode.
 template <std::floating_point T>
 std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,

@@ -23,8 +23,8 @@ struct Element {
     Narrow<S> weight{};  ///< W >= 0
 };
 
-/// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
-/// known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
+/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from `near` at the pin where
+/// it is known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
 template <Real S>
 S propagate(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
     return (stiffness - far) * (near * inverse) - (stiffness - e.turning) * (S(e.weight) * inverse);

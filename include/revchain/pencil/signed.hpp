@@ -109,7 +109,7 @@ class SignedCounter {
                              static_cast<T>(e.upper), static_cast<T>(e.weight()), static_cast<T>(e.determinant())});
     }
 
-    /// Dynamic stiffness carried up the chain by equation (1) of docs/accuracy.md, in which neither k nor M need be
+    /// Dynamic stiffness carried up by equation (1) of docs/theory/counts.md, in which neither k nor M need be
     /// positive: p = D + L - A, D' = [ (L - B) D - (L W - A B + X^2) ] / p. Cost: one pass.
     template <std::size_t N>
     std::array<Index, N> above(const std::array<T, N>& shifts) const {

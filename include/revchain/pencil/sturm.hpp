@@ -67,7 +67,7 @@ std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const 
 }  // namespace detail
 
 /// For each shift h, the number of eigenvalues of the pencil above h: Sylvester's law of inertia on the dynamic
-/// stiffness D of everything below a pin, carried up the chain (equation (1) of docs/accuracy.md):
+/// stiffness D of everything below a pin, carried up the chain (equation (1) of docs/theory/counts.md):
 ///
 ///     p = D + lambda k - A,    D' = [ (lambda k - B) D - (lambda k - c) W ] / p,    negative p are counted.
 ///
@@ -105,7 +105,7 @@ struct CertifiedCount {
 /// would grow exponentially along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
 /// S is usually wider than the scalar of the answer.
 /// Cost O(N): two shifts in double words of doubles take 140 ns a link, two in double 20 ns. Derivation:
-/// docs/accuracy.md.
+/// docs/theory/counts.md, "Proved counts".
 template <Real S, std::size_t L>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, const std::array<S, L>& shifts) {
     using std::abs;

@@ -10,7 +10,7 @@
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A run of links condensed so far: its transfer in T, the three numbers that matter most in `Wide<T>` too, and what
-/// all roundings and truncations on the way have changed (docs/accuracy.md, "Blocks").
+/// all roundings and truncations on the way have changed (docs/theory/blocks.md).
 template <Real T>
 struct CondensedRun {
     using S = Wide<T>;

@@ -34,7 +34,7 @@ template <Real T>
 struct CondensedPencil {
     std::vector<Block<T>> blocks;
     T least_shift{};
-    /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/accuracy.md.
+    /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/theory/blocks.md.
     T error{};
 };
 

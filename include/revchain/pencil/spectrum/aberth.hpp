@@ -195,7 +195,7 @@ inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* resi
     return good;
 }
 
-/// See `aberth_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
+/// See `aberth_spectrum`. What its constants count: docs/theory/spectrum.md, "Small chains".
 template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {

@@ -266,7 +266,7 @@ class Candidates {
 }  // namespace spectrum
 
 /// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with
-/// a bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2
+/// a bound that is proved: as theorems and counts say (docs/theory/spectrum.md), no larger than `tolerance` (2
 /// ulp or more) or what two words can prove. For several eigenvalues of a dozen links or more.
 ///
 /// Method: windows of some 60 eigenvalues by counts; the characteristic polynomial, without division, at 2.4 shifts per

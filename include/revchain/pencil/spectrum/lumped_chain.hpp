@@ -47,7 +47,7 @@ struct LumpedChain {
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
     double tip_mass_rest = 0;
-    double rounding_root = 0;           ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
+    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md): sum of k_j (sum of 1/k from j up)
     std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
     double largest_cross_ratio = 0;     ///< max X/k
     double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link

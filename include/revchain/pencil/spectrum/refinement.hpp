@@ -99,7 +99,7 @@ template <bool has_cross, bool up, bool fused, class V>
 /// For each shift what `quotients` gives, to twice the digits: the vector is the same but for rounding, and its
 /// residual is evaluated by sums and products whose roundings are kept. Walks are joined at a pin whose number
 /// `longest` divides, a power of 2.
-/// Accuracy: docs/accuracy.md, "All modes to the last digit". Cost per shift and link: about three times that of
+/// Accuracy: docs/theory/spectrum.md, "To the last digit". Cost per shift and link: about three times that of
 /// `quotients`.
 template <bool has_cross, bool fused, class V>
 [[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,

@@ -193,7 +193,7 @@ TEST_CASE("small spectra: however loose the tolerance, bounds stay where their s
 namespace {
 
 /// What the bounds of `solve` are about, for vectors built from exact data: the worst error of the quotient and of the
-/// residual over what docs/accuracy.md, "All modes of small chains", allows, at these shifts.
+/// residual over what docs/theory/spectrum.md, "Small chains", allows, at these shifts.
 template <bool rigid>
 std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const aberth::LumpedLinks& links,
                                       const aberth::Four& mu) {
