@@ -5,6 +5,7 @@
 #include <complex>
 #include <optional>
 
+#include "revchain/numeric/complex_words.hpp"
 #include "revchain/numeric/scalar.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {

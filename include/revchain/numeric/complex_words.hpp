@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <complex>
+
+#include "revchain/numeric/double_double.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD {
+
+/// Products and quotients of complex numbers of two words. The standard leaves those of its own for such scalars open,
+/// and libc++ does not compile them. These are found first, by Eigen too.
+inline std::complex<DoubleDouble> operator*(const std::complex<DoubleDouble>& x, const std::complex<DoubleDouble>& y) {
+    return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
+}
+inline std::complex<DoubleDouble> operator/(const std::complex<DoubleDouble>& x, const std::complex<DoubleDouble>& y) {
+    const DoubleDouble size = y.real() * y.real() + y.imag() * y.imag();
+    return {(x.real() * y.real() + x.imag() * y.imag()) / size, (x.imag() * y.real() - x.real() * y.imag()) / size};
+}
+
+}  // namespace revchain
