@@ -11,6 +11,7 @@ import jupyter_server_mathjax
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path.insert(0, str(HERE / "site"))
+from gallery_pictures import picture_first  # noqa: E402
 
 project, author, copyright = "revchain", "the revchain developers", "the revchain developers"
 release = version = metadata.version("revchain")
@@ -26,7 +27,7 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst", "gallery/*.ipynb"]
+exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/**sg_execution_times.rst", "gallery/**.ipynb"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 nb_execution_mode = "off"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
@@ -44,7 +45,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"/[a-z]\w+\.py$",
     "ignore_pattern": r"(^|/)draw_",
     "image_scrapers": ("gallery_pictures.scrape",),
-    "within_subsection_order": "gallery_pictures.programs_before_experiments",
+    "within_subsection_order": "gallery_pictures.order",
     "reset_modules": (),
     "show_memory": False,
     "min_reported_time": 1e9,
@@ -76,3 +77,4 @@ def copy_mathjax(app, _):
 
 def setup(app):
     app.connect("build-finished", copy_mathjax)
+    app.connect("source-read", picture_first)
