@@ -27,7 +27,8 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/**sg_execution_times.rst", "gallery/**.ipynb"]
+exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/[!i]*.rst",
+                    "gallery/*/sg_execution_times.rst", "gallery/**.ipynb"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 nb_execution_mode = "off"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
@@ -46,6 +47,7 @@ sphinx_gallery_conf = {
     "ignore_pattern": r"(^|/)draw_",
     "image_scrapers": ("gallery_pictures.scrape",),
     "within_subsection_order": "gallery_pictures.order",
+    "capture_repr": ("_repr_html_",),
     "reset_modules": (),
     "show_memory": False,
     "min_reported_time": 1e9,

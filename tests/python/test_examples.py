@@ -204,6 +204,19 @@ def test_programs_are_pages(path):
     assert files and all((ROOT / name).is_file() for name in files)
 
 
+@pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
+def test_notebooks_of_programs(path):
+    """The notebook of a program has the same code, and no cell ends on a value that it would show as a list of objects."""
+    parser, maker = (pytest.importorskip(f"sphinx_gallery.{name}") for name in ("py_source_parser", "notebook"))
+    cells = parser.split_code_and_text_blocks(path)[1]
+    settings = {"first_notebook_cell": None, "last_notebook_cell": None, "pypandoc": False, "notebook_images": False}
+    notebook = maker.jupyter_notebook(cells, {**settings, "notebook_extensions": set(), "promote_jupyter_magic": False}, str(path.parent))
+    code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert ast.dump(ast.parse("\n".join(code))) == ast.dump(ast.Module(ast.parse(path.read_text("utf-8")).body[1:], []))
+    last = [ast.unparse(end.value) for cell in code if isinstance(end := ast.parse(cell).body[-1], ast.Expr)]
+    assert all(value.startswith(("print(", "plt.show(")) or ".show(" in value for value in last), last
+
+
 def run_alone(python, path, folder):
     """What a program of the gallery prints where it has been downloaded: in an empty folder, without a screen."""
     copied = shutil.copy(path, folder)

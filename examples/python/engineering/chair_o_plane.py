@@ -30,6 +30,7 @@ axes.plot(shape.offset, shape.height, color="C0", linewidth=2)
 axes.plot(shape.offset[:2], shape.height[:2], color="C1", linewidth=9, solid_capstyle="round")
 axes.axvline(0, color="0.6", linestyle="-.", linewidth=0.8)
 axes.set(xlabel="distance from axis (m)", ylabel="height above the arm (m)", aspect="equal")
+plt.show()
 
 # %%
 # The picture shows a rider of 80 kg at 12 rpm. The pull of the chair bends the mast, so that the arm reaches further out

@@ -32,6 +32,7 @@ figure.colorbar(drawn, label="bell beyond its lowest position (°)")
 axes.contour(joints, bells, trailing, levels=[0.5], colors="white", linewidths=2)
 axes.plot(joints, 1 + joints, color="white", linestyle="--")
 axes.set(xlabel="axle to pin / clapper", ylabel="bell / clapper", ylim=(0.8, 2.4))
+plt.show()
 
 # %%
 # If the bell is much heavier than its clapper, only two ratios matter (Woodhouse et al. 2012, doi:10.1155/2012/681787): the
@@ -46,8 +47,6 @@ print("axle to pin  bell  side      bell (deg)   (pendulum length of the clapper
 for joint, bell in ((0.1, 1.2), (0.1, 2.2), (0.5, 1.2), (0.5, 2.1)):
     blow = first_blow(joint, bell)
     print(f"{joint:11.1f}  {bell:4.1f}  {blow.side:8}  {np.degrees(blow.bell_angle):10.1f}")
-
-plt.show()
 
 # %%
 # To try next: a wider bell, ``CLEARANCE = "35 deg"``. Needs SciPy.

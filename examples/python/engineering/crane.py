@@ -26,6 +26,7 @@ for side, strength in ((-1, 0.3), (1, 1.0)):
     axes.plot(3 * side * modes.shape[0], [16, 10, 0], color="C0", linewidth=2, alpha=strength)
     axes.scatter(3 * side * modes.shape[0, :2], [16, 10], s=[260, 70], color="C0", alpha=strength)
 axes.set(xlabel="distance from axis (m)", ylabel="depth below the jib (m)", xlim=(-10, 6), ylim=(24, -1), aspect="equal")
+plt.show()
 
 # %%
 # Hook block and load are a double pendulum, which can whirl in two ways: with the load and the block on the same side, as
@@ -52,6 +53,7 @@ axes.axhline(SLEWING, color="0.4", linestyle="--", label="slewing")
 axes.axvline(met.value, color="0.4", linestyle=":", label=f"{met.value:.2f} m: avoid")
 axes.set(xlabel="length of rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None))
 axes.legend()
+plt.show()
 
 # %%
 # How do the speeds change with the data, and how uncertain are they? The sensitivities are those of the conical height
@@ -64,8 +66,6 @@ for mode, name in ((1, "slower"), (2, "faster")):
 found = rc.modes(met.system).uncertainty(mass=[50.0, 5.0], length_in_proportion=[0.02, 0.05])
 print("standard deviations of 50 kg (load), 5 kg (hook block), 2 cm (slings) and 5 cm (rope) give")
 print("standard deviations of {:.4f} and {:.4f} rad/s of the two speeds".format(*found.angular_speed))
-
-plt.show()
 
 # %%
 # To try next: a heavier hook block, or a trolley that yields (:doc:`/rigs`).

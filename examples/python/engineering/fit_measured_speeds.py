@@ -32,6 +32,7 @@ axes.plot(found[ROPE], found[LOAD], "o", color="C0", markersize=9, label="fitted
 axes.plot(24, 2500, "o", color="C1", markersize=9, label="as believed")
 axes.set(xlabel="rope (m)", ylabel="load (kg)")
 axes.legend()
+plt.show()
 
 # %%
 # A load of about 2500 kg hangs on slings of 6 m below a hook block of 400 kg. The block hangs on about 24 m of rope from a

@@ -39,6 +39,7 @@ for period in (6.0, 8.0, 13.0):
 axes.axvline(0, color="0.6", linestyle="-.", linewidth=0.8)
 axes.set(xlabel="offset (m)", ylabel="depth (m)", ylim=(630, 0), xlim=(-6, 3))
 axes.legend(loc="lower left")
+plt.show()
 
 # %%
 # The picture shows 600 m of pipe when the ship sways by 2 m in waves of three periods. In waves of 6 s the pipe bends in

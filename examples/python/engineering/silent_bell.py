@@ -23,6 +23,7 @@ bell = hung(0.10)
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 bell.plot(axes)
 axes.get_legend().remove()
+plt.show()
 
 # %%
 # The triangle is the axle, the dot below it is the pin of the clapper, crosses are the centres of gravity. The bell has two
@@ -46,8 +47,6 @@ print("hung 100 mm above it: single changes that silence the bell, or make the c
 louder = bell.with_ratio(1.5)
 for name, value in bell.with_ratio(1.0).items():
     print(f"{name:27} now {bell.present[name]:8.4f}, silent {value:8.4f}, ringing {louder[name]:8.4f}")
-
-plt.show()
 
 # %%
 # To try next: a lighter clapper, ``W1 = 12.0``. The figures are illustrative.

@@ -21,6 +21,7 @@ for side in (-1, 1):
 axes.plot([-ARM, ARM], [0, 0], color="0.3", linewidth=5)
 axes.plot([0, 0], [-4, 0.4], color="0.3", linewidth=5)
 axes.set(xlabel="distance from axis (m)", ylabel="height (m)", aspect="equal")
+plt.show()
 
 # %%
 # The picture shows the chairs at 16 rpm. The lower chair hangs at a larger angle than the upper one. Below about 12 rpm the
@@ -53,20 +54,16 @@ shapes.show(height=520, solid=True)
 # they appear in pairs at a least speed, and the carousel does not reach them from rest.
 
 branches = rc.branches(chairs, max_angular_speed=12.0)
-figure, (out, every, speeds) = plt.subplots(1, 3, figsize=(9, 3.6), layout="constrained", width_ratios=[1, 1.2, 1.6])
+figure = plt.figure(figsize=(8, 6.4), layout="constrained")
+axes = figure.subplot_mosaic([["out", "all"], ["speeds", "speeds"]], height_ratios=[1, 1.2])
 for turns in (4, 8, 12, 16, 30):
     outwards = max(rc.steady_shapes(chairs, angular_speed=f"{turns} rpm"), key=lambda shape: shape.inclination[0])
-    out.plot(outwards.offset, outwards.height, "o-", markersize=4, label=f"{turns} rpm")
-out.set_title("flying out")
-for shape in shapes:
-    every.plot(shape.offset, shape.height, "o-", markersize=4)
-every.set_title(f"all {len(shapes)} shapes at {SPEED:g} rad/s")
-for axes in (out, every):
-    axes.axvline(0.0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-    axes.set(xlabel="distance from axis (m)", ylabel="height (m)", aspect="equal", ylim=(-4.3, 0.6))
-out.legend(fontsize="small")
-branches.plot(speeds)
-speeds.axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
+    axes["out"].plot(outwards.offset, outwards.height, "o-", markersize=4, label=f"{turns} rpm")
+axes["out"].set(title="flying out", xlabel="distance from axis (m)", ylabel="height (m)", aspect="equal")
+axes["out"].legend(loc="upper left", bbox_to_anchor=(1, 1))
+shapes.plot(axes["all"])
+axes["all"].set_title(f"all {len(shapes)} shapes at {SPEED:g} rad/s")
+branches.plot(axes["speeds"])
 plt.show()
 
 # %%

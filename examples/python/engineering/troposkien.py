@@ -20,6 +20,7 @@ axes.plot([0, 0], [-1.5, SPAN + 1], color="0.3", linewidth=6)
 for side in (-1, 1):
     axes.plot(side * shape.offset, shape.height, color="C0", linewidth=4)
 axes.set(xlabel="distance from mast (m)", ylabel="height (m)", aspect="equal")
+plt.show()
 
 # %%
 # The picture shows both blades at 50 rpm, 24 m long on 17 m of mast. Gravity is included: the widest point is a little below
@@ -31,19 +32,18 @@ axes.set(xlabel="distance from mast (m)", ylabel="height (m)", aspect="equal")
 light = rc.SkippingRope(span=SPAN, length=LENGTH)
 arc = np.linspace(0, LENGTH, 401)
 rope = light.at_arc(arc)
-blade = rc.Held(rc.Chain.uniform_rods(200, length=LENGTH, mass=MASS), span=SPAN)
 found = {}
 print("tip-speed  turns a   sag, m  height of   pull below,  pull above,  from the light")
 print("ratio      minute            sag, m      kN           kN           rope, m")
 for ratio in (1.25, 2.0, 4.0, 8.0):
     speed = ratio * WIND / light.sag
-    links = rc.steady_shapes(blade, angular_speed=speed)[0]
-    along = rc.steady_shapes(cord, angular_speed=speed)[0].at(arc)
+    shape = rc.steady_shapes(cord, angular_speed=speed)[0]
+    along = shape.at(arc)
     found[f"{ratio:g}: {30 * speed / np.pi:.0f} rpm"] = along
     lowest = int(np.argmax(along.offset))
     off = np.hypot(along.offset - rope.offset, along.height - rope.x)
     numbers = (ratio, 30 * speed / np.pi, along.offset[lowest], along.height[lowest])
-    pulls = (np.hypot(*links.lower_pull) / 1e3, np.hypot(*links.upper_pull) / 1e3)
+    pulls = (np.hypot(*shape.lower_pull) / 1e3, np.hypot(*shape.upper_pull) / 1e3)
     print("{:9.2f}  {:7.1f}  {:7.2f}  {:9.2f}  {:11.2f}  {:11.2f}  {:14.3f}".format(*numbers, *pulls, off.max()))
 
 # %%

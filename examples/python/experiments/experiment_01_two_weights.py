@@ -20,6 +20,7 @@ links = rc.modes(rc.Chain.uniform_rods(120, length=CHAIN), count=2)
 figure, axes = picture()
 whirling(axes, 0.15 * weights.shape[1], [2 * THREAD, THREAD, 0], marker="o", markersize=12)
 axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(1.1, -0.05))
+plt.show()
 
 # %%
 # Two weights on a thread of 1 m turn about the vertical. The picture is a view from the side at seven moments of half a turn:

@@ -17,6 +17,7 @@ one = rc.plummet.inclined_pendulum(LONG, rc.conical_pendulum.height("54 rpm"))
 figure, axes = picture()
 whirling(axes, [one.radius, 0], [one.depth, 0], marker="o", markersize=14, markevery=[0])
 axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(0.45, -0.02), aspect="equal")
+plt.show()
 
 # %%
 # The picture shows a thread of 0.5 m at 0.9 turns a second, seen from the side. The depth of the plummet below the support

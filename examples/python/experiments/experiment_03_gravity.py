@@ -22,6 +22,7 @@ whirling(axes, [radius, 0], [depth, 0], marker="o", markersize=14, markevery=[0]
 axes.annotate("", (-0.45, 0), (-0.45, depth), arrowprops={"arrowstyle": "<->"})
 axes.text(-0.52, depth / 2, "λ", fontsize="x-large")
 axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", xlim=(-0.8, 0.8), ylim=(1.1, -0.05), aspect="equal")
+plt.show()
 
 # %%
 # The plummet goes round in a period T that depends on its depth λ below the support: g = 4π² λ/T². Near the vertical λ is

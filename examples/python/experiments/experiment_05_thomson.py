@@ -19,6 +19,7 @@ figure, axes = picture()
 whirling(axes, 0.15 * slow.shape[0] / slow.shape[0].max(), [1, 0.25, 0])
 axes.scatter(0.15 * slow.shape[0, :2] / slow.shape[0].max(), [1, 0.25], s=[120, 240], color=COLOURS[0], zorder=3)
 axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(1.08, -0.05), xlim=(-0.35, 0.35))
+plt.show()
 
 # %%
 # The upper weight is twice the lower one and sits a quarter of the way down. The picture shows the slower mode.

@@ -32,6 +32,7 @@ figure, axes = picture()
 whirling(axes, shape.offset, shape.height, linewidth=5)
 axes.plot([-HAND, HAND], [0, 0], color="black", linewidth=8)
 axes.set(xlabel="distance from axis (m)", ylabel="height above the hand (m)", xlim=(-0.15, 0.15))
+plt.show()
 
 # %%
 # A broomstick of 1.2 m goes round with the hand, whose circle has a radius of 5 cm. It leans inwards. Seen from the side at

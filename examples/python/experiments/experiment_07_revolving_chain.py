@@ -20,6 +20,7 @@ shape = rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0)[1]
 figure, axes = picture()
 whirling(axes, shape.offset, -shape.height, color=COLOURS[1])
 axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(0.45, -0.03), aspect="equal")
+plt.show()
 
 # %%
 # The chain at 3 turns a second in two half waves, seen from the side at seven moments of half a turn. Nothing is exaggerated.
@@ -46,7 +47,6 @@ for turns in (0.7, 1.0, 2.0, 3.0):
     assert links.complete
     for shape, linked in zip(rc.steady_shapes(cord, angular_speed=2 * np.pi * turns), links, strict=True):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {linked.offset[0]:9.5f}")
-
 
 # %%
 # Two weights in the place of the two halves of the chain behave alike, up to their two shapes.

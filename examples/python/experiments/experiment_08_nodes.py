@@ -20,6 +20,7 @@ figure, axes = picture()
 whirling(axes, cord.offset(x)[2], LENGTH - x, color=COLOURS[2])
 axes.plot(0 * cord.nodes[2], LENGTH - cord.nodes[2], "o", color="black", markersize=9)
 axes.set(xlabel="offset, that of the free end = 1", ylabel="depth (m)", ylim=(1.04, -0.03))
+plt.show()
 
 # %%
 # The third mode, seen from the side at seven moments of half a turn. Dots are the nodes: points of the chain that stay on

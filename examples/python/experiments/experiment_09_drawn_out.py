@@ -24,6 +24,7 @@ for view in np.cos(np.linspace(np.pi, 0, 7)):
     axes.plot(at.x, view * at.offset, color=COLOURS[0], linewidth=2.5, alpha=1.0 if view == 1 else 0.2)
 axes.plot([0, SPAN], [0, 0], "o", color="black", markersize=12)
 axes.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
+plt.show()
 
 # %%
 # Two metres of chain between two hands 1 m apart, like a skipping rope, seen from the side at seven moments of half a turn.

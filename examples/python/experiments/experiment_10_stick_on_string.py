@@ -23,6 +23,7 @@ figure, axes = picture()
 whirling(axes, [joint[0], 0], [joint[1], 0], color="0.4")
 whirling(axes, [end[0], joint[0]], [end[1], joint[1]], linewidth=7)
 axes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", ylim=(0.8, -0.05), aspect="equal")
+plt.show()
 
 # %%
 # A stick of 0.6 m on a string of 0.4 m at 0.8 turns a second, seen from the side at seven moments of half a turn.

@@ -25,6 +25,7 @@ axes.plot([-0.1, 0.1], [0, 0], color="black", linewidth=8)
 axes.plot(0, rest, "o", color="black", markersize=9)
 axes.annotate("C", (0, rest), xytext=(9, -4), textcoords="offset points", fontsize="large")
 axes.set(xlabel="to and fro (m)", ylabel="height above the hand (m)", xlim=(-0.3, 0.3))
+plt.show()
 
 # %%
 # The hand moves by 0.1 m to each side, 1.5 times a second. The point C of the stick stays at rest. The horizontal

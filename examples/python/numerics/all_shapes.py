@@ -20,6 +20,7 @@ for view in np.cos(np.linspace(np.pi, 0, 7)):  # at seven moments of half a turn
     axes.plot(view * shapes[1].offset, shapes[1].height, "o-", color="C1", linewidth=2, markersize=9, alpha=strength)
 axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes.set(aspect="equal", xlabel="distance from axis / a", ylabel="height / a")
+plt.show()
 
 # %%
 # The picture shows the shape with two half waves: it turns about the axis, seen from the side. The speed has five shapes, one

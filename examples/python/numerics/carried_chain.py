@@ -22,6 +22,7 @@ axes.plot(1000 * HAND, 0, "o", color="black", markersize=9, clip_on=False)
 axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes.set(xlabel="distance from axis (mm)", ylabel="depth below the hand (m)", ylim=(0.37, -0.01))
 axes.legend(loc="upper left", fontsize="small")
+plt.show()
 
 # %%
 # The dot is the hand, 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1 (9)) the chain is on the
@@ -56,6 +57,7 @@ speeds = np.linspace(1, 28, 1400)
 sweep = rc.response(chain, angular_speed=speeds, support_radius=HAND)
 print(f"{speeds.size} speeds: error bounds up to {sweep.error_bound.max():.2g} of the largest offset")
 
+BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15)}
 figure, (curve, shapes, time) = plt.subplots(1, 3, figsize=(9, 4.5), layout="constrained", width_ratios=[1.6, 0.9, 1.2])
 for pin, colour, name in ((0, "C0", "free end"), (LINKS // 2, "C1", "half way")):
     size, side = np.abs(sweep.offset[:, pin]), np.sign(sweep.offset[:, pin])
@@ -67,7 +69,7 @@ curve.axhline(HAND, color="0.6", linewidth=0.8, zorder=0)
 curve.plot([], [], color="0.3", linestyle="--", label="opposite to the hand")
 curve.set(yscale="log", ylim=(3e-4, 1), xlabel="speed (turns/s)", ylabel="distance from axis (m); grey: hand")
 curve.set_title("hand carried round 0.01 m")
-curve.legend(fontsize="small")
+curve.legend(**BELOW)
 
 for turns in (0.5, 1.5, 2.8):
     one = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
@@ -75,12 +77,12 @@ for turns in (0.5, 1.5, 2.8):
 shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 shapes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", title="shapes")
 shapes.set(xticks=[-0.02, 0.0, 0.02], ylim=(0.37, -0.01))
-shapes.legend(fontsize="small")
+shapes.legend(**BELOW)
 
 time.plot(moments, swing.offset[:, 0], linewidth=0.9, label="all modes")
 time.plot(moments, few.offset[:, 0], linewidth=0.9, linestyle="--", label="three slowest modes")
 time.set(xlabel="time (s)", ylabel="offset of the free end (m)", title="plucked 0.01 m half way")
-time.legend(fontsize="small")
+time.legend(**BELOW)
 plt.show()
 
 # %%

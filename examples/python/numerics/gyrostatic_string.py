@@ -29,6 +29,7 @@ def string(turns_a_second):
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 string(5.0).plot_vibration(VIBRATION, links=120, ax=axes)
 axes.get_legend().remove()
+plt.show()
 
 # %%
 # The vibration starts in one plane, at the left. Along 120 wheels at 5 turns a second the motion in that plane (blue) goes

@@ -19,6 +19,7 @@ for view in np.cos(np.linspace(np.pi, 0, 7)):  # at seven moments of half a turn
     axes.plot(view * modes.shape[3], depth, color="C0", linewidth=2.5, alpha=1.0 if view == 1 else 0.25)
 axes.plot(0 * modes.nodes[3], 0.36 - modes.nodes[3], "o", color="black")
 axes.set(xlabel="offset, largest = 1", ylabel="depth (m)", ylim=(0.37, -0.01))
+plt.show()
 
 # %%
 # The chain whirls steadily in one shape for each mode. The picture shows the fourth, seen from the side at seven moments of
