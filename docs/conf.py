@@ -48,6 +48,8 @@ sphinx_gallery_conf = {
     "image_scrapers": ("gallery_pictures.scrape",),
     "within_subsection_order": "gallery_pictures.order",
     "capture_repr": ("_repr_html_",),
+    "remove_config_comments": True,
+    "show_signature": False,
     "reset_modules": (),
     "show_memory": False,
     "min_reported_time": 1e9,

@@ -33,11 +33,12 @@ axes.set(xlabel="distance from axis (m)", ylabel="height above the arm (m)", asp
 plt.show()
 
 # %%
-# The picture shows a rider of 80 kg at 12 rpm. The pull of the chair bends the mast, so that the arm reaches further out
-# than 3 m.
+# The picture shows a rider of 80 kg at 12 rpm. The pull of the chair bends the mast, so that the
+# arm reaches further out than 3 m.
 #
-# The table compares five riders. At the limit speed the spring of the mast no longer holds the moving mass. Heavy riders
-# have a second family of shapes below that speed, with the chair on the other side of the axis.
+# The table compares five riders. At the limit speed the spring of the mast no longer holds the
+# moving mass. Heavy riders have a second family of shapes below that speed, with the chair on the
+# other side of the axis.
 
 
 def rpm(speed):
@@ -67,6 +68,7 @@ plt.show()
 # %%
 # To try next: a stiffer mast, ``stiffness="4 kN/m"``, which doubles the limit speed.
 #
-# Checked: the rider of 120 kg is the scene ``examples/scenes/chair_o_plane.toml``, with its shape at 12 rpm in 40 digits
-# from Lagrange's equations in ``examples/scenes/chair_o_plane.expected.json``. Stability:
+# Checked: the rider of 120 kg is the scene ``examples/scenes/chair_o_plane.toml``, with its shape
+# at 12 rpm in 40 digits from Lagrange's equations in
+# ``examples/scenes/chair_o_plane.expected.json``. Stability:
 # ``tests/python/test_rig_stability.py``.

@@ -21,7 +21,7 @@ def first_blow(joint, bell):
     return rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.0, half])).first_strike(CLEARANCE)
 
 
-joints, bells = np.linspace(0.02, 0.6, 16), np.linspace(0.8, 2.4, 21)
+joints, bells = np.linspace(0.02, 0.6, 21), np.linspace(0.8, 2.4, 27)
 blows = [[first_blow(joint, bell) for joint in joints] for bell in bells]
 angle = np.degrees([[blow.bell_angle if blow.strikes else np.nan for blow in row] for row in blows])
 trailing = [[blow.strikes and blow.side == "trailing" for blow in row] for row in blows]
@@ -35,13 +35,14 @@ axes.set(xlabel="axle to pin / clapper", ylabel="bell / clapper", ylim=(0.8, 2.4
 plt.show()
 
 # %%
-# If the bell is much heavier than its clapper, only two ratios matter (Woodhouse et al. 2012, doi:10.1155/2012/681787): the
-# distance from the axle to the clapper's pin, and the pendulum length of the bell, both divided by the pendulum length of
-# the clapper. Each point of the chart is one motion of bell and clapper, from the balance, mouth up, to the first blow.
+# If the bell is much heavier than its clapper, only two ratios matter (Woodhouse et al. 2012,
+# doi:10.1155/2012/681787): the distance from the axle to the clapper's pin, and the pendulum length
+# of the bell, both divided by the pendulum length of the clapper. Each point of the chart is one
+# motion of bell and clapper, from the balance, mouth up, to the first blow.
 #
-# The colour is the angle of the bell at that blow. Inside the white line the clapper strikes the trailing side of the bell,
-# elsewhere the leading side. On the dashed line bell and clapper swing as one piece while the clapper is in the middle of
-# the bell (Greenhill 1908, section 8 (16)).
+# The colour is the angle of the bell at that blow. Inside the white line the clapper strikes the
+# trailing side of the bell, elsewhere the leading side. On the dashed line bell and clapper swing
+# as one piece while the clapper is in the middle of the bell (Greenhill 1908, section 8 (16)).
 
 print("axle to pin  bell  side      bell (deg)   (pendulum length of the clapper = 1)")
 for joint, bell in ((0.1, 1.2), (0.1, 2.2), (0.5, 1.2), (0.5, 2.1)):
@@ -51,5 +52,5 @@ for joint, bell in ((0.1, 1.2), (0.1, 2.2), (0.5, 1.2), (0.5, 2.1)):
 # %%
 # To try next: a wider bell, ``CLEARANCE = "35 deg"``. Needs SciPy.
 #
-# Checked: ``tests/python/test_bell.py`` integrates the same motion in other coordinates, with a side of the bell like a
-# stiff spring.
+# Checked: ``tests/python/test_bell.py`` integrates the same motion in other coordinates, with a
+# side of the bell like a stiff spring.

@@ -25,13 +25,14 @@ axes.plot([-9, -9, 2], [24, 0, 0], color="0.3", linewidth=6)
 for side, strength in ((-1, 0.3), (1, 1.0)):
     axes.plot(3 * side * modes.shape[0], [16, 10, 0], color="C0", linewidth=2, alpha=strength)
     axes.scatter(3 * side * modes.shape[0, :2], [16, 10], s=[260, 70], color="C0", alpha=strength)
-axes.set(xlabel="distance from axis (m)", ylabel="depth below the jib (m)", xlim=(-10, 6), ylim=(24, -1), aspect="equal")
+axes.set(xlabel="distance from axis (m)", ylabel="depth below the jib (m)")
+axes.set(xlim=(-10, 6), ylim=(24, -1), aspect="equal")
 plt.show()
 
 # %%
-# Hook block and load are a double pendulum, which can whirl in two ways: with the load and the block on the same side, as
-# in the picture, and with the load and the block on opposite sides. ``modes.plot()`` shows both, with their speeds. The
-# offsets are exaggerated.
+# Hook block and load are a double pendulum, which can whirl in two ways: with the load and the
+# block on the same side, as in the picture, and with the load and the block on opposite sides.
+# ``modes.plot()`` shows both, with their speeds. The offsets are exaggerated.
 #
 # Both speeds rise when the rope is wound in.
 
@@ -41,7 +42,8 @@ for rope in np.arange(4.0, 29.0, 4.0):
     print(f"{rope:7.1f}  {speeds[0]:.4f}  {speeds[1]:.4f}")
 
 # %%
-# Which length of rope gives the slower mode a speed of 0.8 rad/s? ``rc.tune`` varies the rope until it does.
+# Which length of rope gives the slower mode a speed of 0.8 rad/s? ``rc.tune`` varies the rope until
+# it does.
 
 met = rc.tune(hanging(10.0), mode=1, vary="links[1].length_in_proportion", angular_speed=SLEWING)
 print(f"slewing at {SLEWING} rad/s meets the slower one with {met.value:.3f} m of rope: avoid this length")
@@ -56,8 +58,8 @@ axes.legend()
 plt.show()
 
 # %%
-# How do the speeds change with the data, and how uncertain are they? The sensitivities are those of the conical height
-# g/ω². The speed ω changes by half as many per cent, in the other direction.
+# How do the speeds change with the data, and how uncertain are they? The sensitivities are those of
+# the conical height g/ω². The speed ω changes by half as many per cent, in the other direction.
 
 for mode, name in ((1, "slower"), (2, "faster")):
     share = rc.modes(met.system).sensitivity.relative.length_in_proportion[mode - 1]
@@ -68,7 +70,8 @@ print("standard deviations of 50 kg (load), 5 kg (hook block), 2 cm (slings) and
 print("standard deviations of {:.4f} and {:.4f} rad/s of the two speeds".format(*found.angular_speed))
 
 # %%
-# To try next: a heavier hook block, or a trolley that yields (:doc:`/rigs`).
+# To try next: a heavier hook block, or a trolley that yields, ``rc.Rig(hanging(10.0),
+# support=rc.Support(stiffness="200 kN/m"))``.
 #
-# Checked: ``tests/cpp/tune.cpp``, against Greenhill's quadratic (1908, section 2 (5)). The speeds with 24 m of rope are in
-# 40 digits in ``examples/scenes/crane_hook_block.expected.json``.
+# Checked: ``tests/cpp/tune.cpp``, against Greenhill's quadratic (1908, section 2 (5)). The speeds
+# with 24 m of rope are in 40 digits in ``examples/scenes/crane_hook_block.expected.json``.

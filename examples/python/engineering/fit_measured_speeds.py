@@ -35,33 +35,37 @@ axes.legend()
 plt.show()
 
 # %%
-# A load of about 2500 kg hangs on slings of 6 m below a hook block of 400 kg. The block hangs on about 24 m of rope from a
-# trolley on a spring. ``rc.fit`` finds the load and the rope that give the measured periods best. The shaded ellipses are
-# one and two standard uncertainties. The figures are illustrative.
+# A load of about 2500 kg hangs on slings of 6 m below a hook block of 400 kg. The block hangs on
+# about 24 m of rope from a trolley on a spring. ``rc.fit`` finds the load and the rope that give
+# the measured periods best. The shaded ellipses are one and two standard uncertainties. The figures
+# are illustrative.
 
 print(found)
 print(f"correlation of load and rope {found.correlation[0, 1]:.3f}")
 
 # %%
-# Not everything can be determined. With a fixed trolley, two periods depend on the ratio of both masses alone.
+# Not everything can be determined. With a fixed trolley, two periods depend on the ratio of both
+# masses alone.
 
 hung = {1: MEASURED[1], 2: MEASURED[2]}  # the two modes in which the trolley hardly moves
 print("\nboth masses, with a fixed trolley:")
 print(rc.fit(believed, hung, vary=[LOAD, "links[1].mass"]))
 
 # %%
-# Does the fit explain the measurements, and are the uncertainties right? On the left, the fitted speeds are within the
-# uncertainty of the measured ones. On the right, the fits of 400 other sets of periods, drawn at random with the same
-# uncertainties, fill the ellipses.
+# Does the fit explain the measurements, and are the uncertainties right? On the left, the fitted
+# speeds are within the uncertainty of the measured ones. On the right, the fits of 400 other sets
+# of periods, drawn at random with the same uncertainties, fill the ellipses.
 
 figure, (pull, cloud) = plt.subplots(1, 2, figsize=(8, 5), layout="constrained")
 speed, spread, modes = found.measured, found.measured_uncertainty, found.number
-before = rc.modes(crane).angular_speed
+before = rc.modes(crane).angular_speed[modes - 1]
 pull.axhline(0, color="0.6", linewidth=0.8)
-pull.errorbar(modes, 0 * speed, 100 * spread / speed, fmt="none", ecolor="0.3", capsize=6, label="measured, standard uncertainty")
+bars = {"fmt": "none", "ecolor": "0.3", "capsize": 6, "label": "measured, standard uncertainty"}
+pull.errorbar(modes, 0 * speed, 100 * spread / speed, **bars)
 for values, colour, label in ((before, "C1", "2500 kg, 24 m"), (found.computed, "C0", "fitted")):
     pull.plot(modes, 100 * (values / speed - 1), "o", color=colour, label=label)
-pull.set(title="computed speeds against measured ones", xlabel="mode", ylabel="difference (%)", xticks=modes, xlim=(0.5, 3.5))
+pull.set(title="computed speeds against measured ones", xlabel="mode", ylabel="difference (%)")
+pull.set(xticks=modes, xlim=(0.5, 3.5))
 pull.legend()
 
 rng = np.random.default_rng(1)
@@ -81,4 +85,5 @@ plt.show()
 # %%
 # To try next: only modes 1 and 2 in ``MEASURED``, and see how the ellipse grows.
 #
-# Checked: ``tests/python/test_fit.py``, values and covariances against 40 digits and against random samples.
+# Checked: ``tests/python/test_fit.py``, values and covariances against 40 digits and against random
+# samples.

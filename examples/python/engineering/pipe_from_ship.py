@@ -42,12 +42,13 @@ axes.legend(loc="lower left")
 plt.show()
 
 # %%
-# The picture shows 600 m of pipe when the ship sways by 2 m in waves of three periods. In waves of 6 s the pipe bends in
-# several half waves, and the block hardly moves.
+# The picture shows 600 m of pipe when the ship sways by 2 m in waves of three periods. In waves of
+# 6 s the pipe bends in several half waves, and the block hardly moves.
 #
-# The sea is still except for the motion of the ship, and the pipe is full of water. In the fluid, tension uses the net
-# weight and inertia the full mass with the added mass. Bending stiffness matters only within a few metres of the ends, and
-# drag is left out: it limits the motion near resonance. The figures are illustrative.
+# The sea is still except for the motion of the ship, and the pipe is full of water. In the fluid,
+# tension uses the net weight and inertia the full mass with the added mass. Bending stiffness
+# matters only within a few metres of the ends, and drag is left out: it limits the motion near
+# resonance. The figures are illustrative.
 
 print("pipe (m)  periods of the four slowest modes (s)  block moves, waves of 8 s (m)  of 12 s (m)")
 for length in (200.0, 400.0, 600.0, 800.0, 1000.0):
@@ -57,8 +58,8 @@ for length in (200.0, 400.0, 600.0, 800.0, 1000.0):
     print(f"{length:8.0f}  {periods:37}  {moves[0]:29.3f}  {moves[1]:11.3f}")
 
 # %%
-# The sea has most of its energy at periods from 6 s to 14 s. A length is critical where the period of a mode is in that
-# range, the grey band.
+# The sea has most of its energy at periods from 6 s to 14 s. A length is critical where the period
+# of a mode is in that range, the grey band.
 
 WAVES = (6.0, 14.0)  # s
 lengths = np.linspace(100.0, 1200.0, 111)
@@ -77,4 +78,5 @@ plt.show()
 # %%
 # To try next: a heavier block, which raises the tension and shortens every period.
 #
-# Checked: ``tests/python/test_examples.py`` computes periods and offsets again from matrices written by hand.
+# Checked: ``tests/python/test_examples.py`` computes periods and offsets again from matrices
+# written by hand.

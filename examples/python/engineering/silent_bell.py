@@ -26,9 +26,9 @@ axes.get_legend().remove()
 plt.show()
 
 # %%
-# The triangle is the axle, the dot below it is the pin of the clapper, crosses are the centres of gravity. The bell has two
-# modes. In each, clapper and bell swing with a fixed ratio of their angles; the title gives that of the slower mode. If it
-# is 1, the bell is silent.
+# The triangle is the axle, the dot below it is the pin of the clapper, crosses are the centres of
+# gravity. The bell has two modes. In each, clapper and bell swing with a fixed ratio of their
+# angles; the title gives that of the slower mode. If it is 1, the bell is silent.
 #
 # The table changes the height at which the bell is hung.
 
@@ -40,8 +40,9 @@ for h2 in (0.05, 0.10, silent, 0.25):
 print(f"hung {1000 * silent:.1f} mm above its centre of gravity the bell is silent in its slower mode")
 
 # %%
-# Greenhill (1908) section 8 (16): with m = W2 h2 / (W1 a2) this happens if the clapper's centre of gravity is
-# h1 = (m + 1) l1 + m (a2 - l2) below its pin. Any other dimension can be changed instead.
+# Greenhill (1908) section 8 (16): with m = W2 h2 / (W1 a2) this happens if the clapper's centre of
+# gravity is h1 = (m + 1) l1 + m (a2 - l2) below its pin. Any other dimension can be changed
+# instead.
 
 print("hung 100 mm above it: single changes that silence the bell, or make the clapper swing 1.5 times as far:")
 louder = bell.with_ratio(1.5)
@@ -51,4 +52,5 @@ for name, value in bell.with_ratio(1.0).items():
 # %%
 # To try next: a lighter clapper, ``W1 = 12.0``. The figures are illustrative.
 #
-# Checked: ``tests/cpp/bell.cpp``, ratios against quadruple precision and silent values against the paper's equation.
+# Checked: ``tests/cpp/bell.cpp``, ratios against quadruple precision and silent values against the
+# paper's equation.

@@ -24,8 +24,8 @@ axes.set(xlabel="distance from axis (m)", ylabel="height (m)", aspect="equal")
 plt.show()
 
 # %%
-# The picture shows the chairs at 16 rpm. The lower chair hangs at a larger angle than the upper one. Below about 12 rpm the
-# chairs hardly leave the vertical; then they fly out quickly.
+# The picture shows the chairs at 16 rpm. The lower chair hangs at a larger angle than the upper
+# one. Below about 12 rpm the chairs hardly leave the vertical; then they fly out quickly.
 
 for turns in (4, 8, 12, 16, 30):
     shapes = rc.steady_shapes(chairs, angular_speed=f"{turns} rpm")
@@ -34,13 +34,14 @@ for turns in (4, 8, 12, 16, 30):
     print(f"{turns:2} rpm: upper chair at {upper:4.1f} degrees, lower at {lower:4.1f}")
 
 # %%
-# Fast enough, the chairs have other steady shapes too: one chair on the far side of the axis, or both. At 6 rad/s there are
-# five shapes, and the list is proved complete.
+# Fast enough, the chairs have other steady shapes too: one chair on the far side of the axis, or
+# both. At 6 rad/s there are five shapes, and the list is proved complete.
 
 SPEED = 6.0  # rad/s
 shapes = rc.steady_shapes(chairs, angular_speed=SPEED)
 worst = max(shape.error_bound for shape in shapes)
-print(f"at {SPEED:g} rad/s: {len(shapes)} shapes, proved complete: {shapes.complete}; every inclination within {worst:.1e} rad")
+print(f"at {SPEED:g} rad/s: {len(shapes)} shapes, proved complete: {shapes.complete}; ", end="")
+print(f"every inclination within {worst:.1e} rad")
 for shape in shapes:
     print(f"  {shape.half_waves} half waves, chairs at {np.degrees(shape.inclination).round(1)} degrees, lowest first")
 
@@ -50,8 +51,9 @@ for shape in shapes:
 shapes.show(height=520, solid=True)
 
 # %%
-# Every shape belongs to a branch: the shape as a function of the speed. One branch starts at rest. The others are isolated:
-# they appear in pairs at a least speed, and the carousel does not reach them from rest.
+# Every shape belongs to a branch: the shape as a function of the speed. One branch starts at rest.
+# The others are isolated: they appear in pairs at a least speed, and the carousel does not reach
+# them from rest.
 
 branches = rc.branches(chairs, max_angular_speed=12.0)
 figure = plt.figure(figsize=(8, 6.4), layout="constrained")
@@ -69,4 +71,5 @@ plt.show()
 # %%
 # To try next: ``shape.stability()`` says which of these shapes a carousel can keep.
 #
-# Checked: ``tests/python/test_rig_shapes.py``, every shape by brute force and by the balance of moments in 50 digits.
+# Checked: ``tests/python/test_rig_shapes.py``, every shape by brute force and by the balance of
+# moments in 50 digits.

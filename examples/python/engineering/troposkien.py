@@ -23,11 +23,12 @@ axes.set(xlabel="distance from mast (m)", ylabel="height (m)", aspect="equal")
 plt.show()
 
 # %%
-# The picture shows both blades at 50 rpm, 24 m long on 17 m of mast. Gravity is included: the widest point is a little below
-# the middle.
+# The picture shows both blades at 50 rpm, 24 m long on 17 m of mast. Gravity is included: the
+# widest point is a little below the middle.
 #
-# A rope without weight has one shape at every speed. How far is the heavy blade from that shape? The tip-speed ratio is the
-# speed of the widest point over that of the wind, here 10 m/s. The table has the largest distance in its last column.
+# A rope without weight has one shape at every speed. How far is the heavy blade from that shape?
+# The tip-speed ratio is the speed of the widest point over that of the wind, here 10 m/s. The table
+# has the largest distance in its last column.
 
 light = rc.SkippingRope(span=SPAN, length=LENGTH)
 arc = np.linspace(0, LENGTH, 401)
@@ -47,8 +48,8 @@ for ratio in (1.25, 2.0, 4.0, 8.0):
     print("{:9.2f}  {:7.1f}  {:7.2f}  {:9.2f}  {:11.2f}  {:11.2f}  {:14.3f}".format(*numbers, *pulls, off.max()))
 
 # %%
-# Blades are made as two straight ends and a circular arc. The bisection finds the angle of the straight ends that gives the
-# same length and the same sag.
+# Blades are made as two straight ends and a circular arc. The bisection finds the angle of the
+# straight ends that gives the same length and the same sag.
 
 
 def ends_and_arc(angle):
@@ -70,8 +71,9 @@ made_offset = np.where(bent, light.sag - radius * (1 - np.cos(turn)), out * np.s
 made_height = SPAN / 2 + np.where(bent, radius * np.sin(turn), np.sign(turn) * (SPAN / 2 - out * np.cos(angle)))
 
 # %%
-# On the left, the shapes at four tip-speed ratios, and the form with straight ends, dashed. On the right, the distance from
-# the rope without weight, on a logarithmic scale: the faster the turbine, the less gravity matters.
+# On the left, the shapes at four tip-speed ratios, and the form with straight ends, dashed. On the
+# right, the distance from the rope without weight, on a logarithmic scale: the faster the turbine,
+# the less gravity matters.
 
 figure, (side, apart) = plt.subplots(1, 2, figsize=(8, 5.5), layout="constrained")
 for label, along in found.items():
@@ -80,11 +82,13 @@ for label, along in found.items():
 side.plot(made_offset, made_height, color="black", linestyle="--", linewidth=1, label="straight, arc, straight")
 apart.plot(arc, np.hypot(made_offset - rope.offset, made_height - rope.x), color="black", linestyle="--", linewidth=1)
 side.set(xlabel="distance from mast (m)", ylabel="height above the lower bearing (m)", xlim=(-0.5, 9), aspect="equal")
-apart.set(xlabel="distance along the blade (m)", ylabel="distance from the light rope (m)", yscale="log", ylim=(1e-3, 10))
+apart.set(xlabel="distance along the blade (m)", ylabel="distance from the light rope (m)")
+apart.set(yscale="log", ylim=(1e-3, 10))
 figure.legend(loc="outside lower center", ncols=3)
 plt.show()
 
 # %%
 # To try next: a longer blade on the same mast, ``LENGTH = 30.0``.
 #
-# Checked: ``tests/python/test_held.py``, against the balance of moments and against integration of the rope with gravity.
+# Checked: ``tests/python/test_held.py``, against the balance of moments and against integration of
+# the rope with gravity.

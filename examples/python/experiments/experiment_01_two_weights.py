@@ -23,8 +23,9 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(1.1, -0.05))
 plt.show()
 
 # %%
-# Two weights on a thread of 1 m turn about the vertical. The picture is a view from the side at seven moments of half a turn:
-# the second mode, in which the weights are on opposite sides of the axis.
+# Two weights on a thread of 1 m turn about the vertical. The picture is a view from the side at
+# seven moments of half a turn: the second mode, in which the weights are on opposite sides of the
+# axis.
 #
 # The table has the speeds, as a stopwatch gives them, and the ratio of the two offsets.
 
@@ -37,8 +38,8 @@ for k, turns in enumerate(links.frequency):
     print(f"watch chain, 0.36 m      {k + 1}          {turns:.4f}        {10 / turns:5.2f}")
 
 # %%
-# Both modes of the two weights and the two slowest modes of the chain, each with its axis dash-dotted. The offsets are small
-# in the experiment and drawn larger here.
+# Both modes of the two weights and the two slowest modes of the chain, each with its axis
+# dash-dotted. The offsets are small in the experiment and drawn larger here.
 
 figure, axes = panels(4)
 views = np.cos(np.linspace(0, np.pi, 7))  # the same figure, seen from the side, at seven moments of half a turn

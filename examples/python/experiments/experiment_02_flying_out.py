@@ -20,8 +20,9 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(0.45, -0.02)
 plt.show()
 
 # %%
-# The picture shows a thread of 0.5 m at 0.9 turns a second, seen from the side. The depth of the plummet below the support
-# is the conical height g/ω²: it depends on the speed alone. Where it would be more than the thread, the thread hangs down.
+# The picture shows a thread of 0.5 m at 0.9 turns a second, seen from the side. The depth of the
+# plummet below the support is the conical height g/ω²: it depends on the speed alone. Where it
+# would be more than the thread, the thread hangs down.
 
 leaves = {thread: rc.conical_pendulum.revolutions_per_second(thread) for thread in (LONG, SHORT)}
 for thread, turns in leaves.items():
@@ -35,8 +36,9 @@ for row in zip(table, height, np.degrees(swing.inclination), swing.radius, swing
     print("{:14.2f}  {:17.4f}  {:20.2f}  {:9.4f}  {:14.3f}".format(*row))
 
 # %%
-# On the left, two threads at four speeds: at one speed both plummets are at one level. On the right, the inclination against
-# the speed. It starts at 0, at the speed at which the pendulum leaves the vertical, and rises steeply.
+# On the left, two threads at four speeds: at one speed both plummets are at one level. On the
+# right, the inclination against the speed. It starts at 0, at the speed at which the pendulum
+# leaves the vertical, and rises steeply.
 
 figure, (side, curve) = panels(2, [1.3, 1], height=4.0)
 for turns, colour in zip(table[1:], COLOURS, strict=False):
@@ -62,4 +64,5 @@ plt.show()
 # %%
 # To try next: a heavier plummet. The weight does not matter.
 #
-# Checked: ``tests/cpp/conical_pendulum.cpp``, and ``tests/python/test_closed_forms.py`` with mpmath.
+# Checked: ``tests/cpp/conical_pendulum.cpp``, and ``tests/python/test_closed_forms.py`` with
+# mpmath.

@@ -25,8 +25,8 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", xlim=(-0.8, 0.8), 
 plt.show()
 
 # %%
-# The plummet goes round in a period T that depends on its depth λ below the support: g = 4π² λ/T². Near the vertical λ is
-# the length of the thread. Count 100 turns.
+# The plummet goes round in a period T that depends on its depth λ below the support: g = 4π² λ/T².
+# Near the vertical λ is the length of the thread. Count 100 turns.
 
 print(f"thread 1 m, almost vertical: 100 turns in {100 * pendulum.period(THREAD):.2f} s")
 print(f"thread that beats seconds: {pendulum.height_from_period(2.0):.4f} m")

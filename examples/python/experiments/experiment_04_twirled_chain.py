@@ -27,11 +27,11 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", yli
 plt.show()
 
 # %%
-# A chain of 0.36 m, twirled on a circle of 5 mm at 3 turns a second, seen from the side at seven moments of half a turn. It
-# crosses the axis once. Nothing is exaggerated.
+# A chain of 0.36 m, twirled on a circle of 5 mm at 3 turns a second, seen from the side at seven
+# moments of half a turn. It crosses the axis once. Nothing is exaggerated.
 #
-# First, the chain near the vertical, beside a plummet on a thread of the same length and a continuous chain. Where the sign
-# of the response changes, the tip goes to the other side.
+# First, the chain near the vertical, beside a plummet on a thread of the same length and a
+# continuous chain. Where the sign of the response changes, the tip goes to the other side.
 
 eighth = rc.modes(rc.Cord(1.0), 1, first=8)
 
@@ -63,7 +63,8 @@ def more_from(low, high):
 
 
 reversals = rc.modes(chain, count=3).frequency
-print(f"the tip changes sides: plummet at {rc.conical_pendulum.revolutions_per_second(LENGTH):.4f} turns a second,", end=" ")
+alone = rc.conical_pendulum.revolutions_per_second(LENGTH)
+print(f"the tip changes sides: plummet at {alone:.4f} turns a second,", end=" ")
 print("chain at", *reversals.round(4))
 print(f"tip over hand, small amplitude, chain of {LINKS} links and continuous chain:")
 print("turns a second  plummet    chain  continuous")
@@ -72,8 +73,8 @@ for turns in (0.4, 0.7, 0.9, 1.1, 1.5, 2.0, 2.5):
     print(f"{turns:14.2f}  {plummet:+7.3f}  {near_the_vertical(turns):+7.3f}  {continuous(turns):+10.3f}")
 
 # %%
-# At any inclination there are several steady shapes at one speed. Two more appear a little above each speed at which the
-# tip changes sides.
+# At any inclination there are several steady shapes at one speed. Two more appear a little above
+# each speed at which the tip changes sides.
 
 print("plummet on 0.36 m, hand on a circle of radius 5 mm, all steady inclinations, degrees:")
 for turns in (0.7, 0.83, 0.9, 1.0):
@@ -86,8 +87,8 @@ born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.
 print("two more shapes appear at", *np.round(born, 4), "turns a second")
 
 # %%
-# Above, the response near the vertical, and the shapes at three speeds. Below, every steady shape: the tip against the speed,
-# and all shapes at 3 turns a second in the colours of their branches.
+# Above, the response near the vertical, and the shapes at three speeds. Below, every steady shape:
+# the tip against the speed, and all shapes at 3 turns a second in the colours of their branches.
 
 figure = plt.figure(figsize=(8, 7.5), layout="constrained")
 axes = figure.subplot_mosaic([["near", "side"], ["all", "shapes"]], height_ratios=[1.3, 1])
@@ -108,7 +109,8 @@ for speed, colour in zip((0.7, 1.5, 2.6), ("black", "0.4", "0.65"), strict=True)
 axes["side"].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes["side"].plot(HAND, 0, "o", color="black", markersize=4)
 axes["side"].annotate("hand", (HAND, 0), xytext=(4, 0), textcoords="offset points")
-axes["side"].set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", ylim=(0.37, -0.01), xlim=(-0.04, 0.04))
+axes["side"].set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)")
+axes["side"].set(ylim=(0.37, -0.01), xlim=(-0.04, 0.04))
 axes["side"].set_title("at three speeds")
 legend_outside(axes["side"])
 
@@ -128,5 +130,5 @@ plt.show()
 # %%
 # To try next: a larger circle, ``HAND = 0.02``.
 #
-# Checked: ``tests/python/test_closed_forms.py`` (plummet), ``tests/python/test_response.py`` (small amplitude) and
-# ``tests/python/test_rig_shapes.py`` (every shape of a driven chain).
+# Checked: ``tests/python/test_closed_forms.py`` (plummet), ``tests/python/test_response.py`` (small
+# amplitude) and ``tests/python/test_rig_shapes.py`` (every shape of a driven chain).

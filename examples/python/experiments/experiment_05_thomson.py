@@ -22,7 +22,8 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(1.08, -0.05)
 plt.show()
 
 # %%
-# The upper weight is twice the lower one and sits a quarter of the way down. The picture shows the slower mode.
+# The upper weight is twice the lower one and sits a quarter of the way down. The picture shows the
+# slower mode.
 #
 # The table has both conical heights in parts of half the thread, and the speeds.
 
@@ -34,8 +35,9 @@ for heavier, at in [(2, 0.25), (2, 0.75), (2, 0.5), (3, 0.5)]:
     print(f"{heavier:18}  {at:18.2f}  {numbers}  {turns[1] / turns[0]:16.4f}")
 
 # %%
-# On the left, four modes. C₁ is on the axis, where the line of the lower thread meets it: one conical height above the lowest
-# weight. On the right, both conical heights for every place of the upper weight; dots are the four modes.
+# On the left, four modes. C₁ is on the axis, where the line of the lower thread meets it: one
+# conical height above the lowest weight. On the right, both conical heights for every place of the
+# upper weight; dots are the four modes.
 
 figure, axes = panels(5, [1, 1, 1, 1, 2.4], height=5.0)
 for number, panel in enumerate(axes[:4]):
@@ -64,6 +66,7 @@ legend_below(axes[4], ncols=1)
 plt.show()
 
 # %%
-# To try next: weights in the ratio 100: the two heights nearly meet.
+# To try next: weights in the ratio 100. In the middle of the thread the two heights come close to
+# each other.
 #
 # Checked: ``tests/python/test_closed_forms.py``, with mpmath.

@@ -35,12 +35,12 @@ axes.set(xlabel="distance from axis (m)", ylabel="height above the hand (m)", xl
 plt.show()
 
 # %%
-# A broomstick of 1.2 m goes round with the hand, whose circle has a radius of 5 cm. It leans inwards. Seen from the side at
-# seven moments of half a turn, its lines cross at one point above the hand. The horizontal scale
-# is larger than the vertical one.
+# A broomstick of 1.2 m goes round with the hand, whose circle has a radius of 5 cm. It leans
+# inwards. Seen from the side at seven moments of half a turn, its lines cross at one point above
+# the hand. The horizontal scale is larger than the vertical one.
 #
-# The motion is steady and unstable: the table says how fast each stick falls, in how many seconds its lean grows by the
-# factor e. Longer sticks fall more slowly.
+# The motion is steady and unstable: the table says how fast each stick falls, in how many seconds
+# its lean grows by the factor e. Longer sticks fall more slowly.
 
 print(f"sticks on a hand that goes round a circle of radius {100 * HAND:.0f} cm, {TURNS:.0f} turn a second:")
 print("stick       length, m  pendulum length, m  e-folding time of a fall, s  leans inwards, degrees")
@@ -80,7 +80,8 @@ wire, rod = np.degrees(np.abs(upright.inclination))
 print(f"wire standing, at {faster} turns a second: the wire leans by {180 - wire:.2f} degrees, the rod by {rod:.2f}")
 
 # %%
-# On the left, the sticks as they lean. On the right, a wire that stands on the end of a swinging rod.
+# On the left, the sticks as they lean. On the right, a wire that stands on the end of a swinging
+# rod.
 
 figure, (stand, hung) = panels(2, [1.7, 1])
 shown = {**{name: on_the_hand(length) for name, length in sticks.items()}, "3 sticks": columns[2]}
@@ -101,7 +102,8 @@ stand.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
 stand.set_ylabel("height above the hand (m)")
 hang(hung, upright.offset, -upright.height, weights=[20, 90], color=COLOURS[1])
 hung.annotate("50 g", (upright.offset[0], -upright.height[0]), xytext=(7, 2), textcoords="offset points")
-hung.annotate("500 g", (upright.offset[1], -upright.height[1]), xytext=(-8, -12), textcoords="offset points", ha="right")
+rod_end = (upright.offset[1], -upright.height[1])
+hung.annotate("500 g", rod_end, xytext=(-8, -12), textcoords="offset points", ha="right")
 side_view(hung, f"50 g standing on 500 g,\n{faster} turns/s", bottom=1.05, half_width=0.5)
 hung.set(ylabel="depth below the support (m)", xlim=(-0.15, 0.75))
 plt.show()

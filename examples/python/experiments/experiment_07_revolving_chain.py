@@ -23,7 +23,8 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(0.45, -0.03)
 plt.show()
 
 # %%
-# The chain at 3 turns a second in two half waves, seen from the side at seven moments of half a turn. Nothing is exaggerated.
+# The chain at 3 turns a second in two half waves, seen from the side at seven moments of half a
+# turn. Nothing is exaggerated.
 #
 # A shape with one more half wave leaves the vertical at each of these speeds.
 
@@ -38,7 +39,8 @@ for turns in (0.5, 1, 2, 3):
     print(f"speeds of the chain below {turns} turns a second: {below}")
 
 # %%
-# How far out is the free end in each shape? The number of half waves names the shape (the column ``figure``).
+# How far out is the free end in each shape? The number of half waves names the shape (the column
+# ``figure``).
 
 print("every figure of the chain: distance of its free end from the axis, m:")
 print("turns a second  figure  continuous  200 links")
@@ -64,8 +66,8 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {lower:12.2f}  {upper:5.2f}")
 
 # %%
-# On the left, the shapes of the chain at 3 turns a second, and of the two weights at three speeds. On the right, the free end
-# against the speed.
+# On the left, the shapes of the chain at 3 turns a second, and of the two weights at three speeds.
+# On the right, the free end against the speed.
 
 figure = plt.figure(figsize=(8, 6), layout="constrained")
 axes = figure.subplot_mosaic([["chain", "curve"], ["pair", "curve"]], width_ratios=[1.3, 1])
@@ -109,5 +111,6 @@ plt.show()
 # %%
 # To try next: ``rc.steady_shapes(cord, angular_speed=60.0)``, with a dozen half waves.
 #
-# Checked: ``tests/cpp/finite/cord/continuous_chain.cpp`` (cord), ``tests/python/test_steady_shapes.py`` (links) and
-# ``tests/python/test_closed_forms.py`` (two weights).
+# Checked: ``tests/cpp/finite/cord/continuous_chain.cpp`` (cord),
+# ``tests/python/test_steady_shapes.py`` (links) and ``tests/python/test_closed_forms.py`` (two
+# weights).

@@ -23,8 +23,8 @@ axes.set(xlabel="offset, that of the free end = 1", ylabel="depth (m)", ylim=(1.
 plt.show()
 
 # %%
-# The third mode, seen from the side at seven moments of half a turn. Dots are the nodes: points of the chain that stay on
-# the axis. Touch the whirling chain there, and it goes on.
+# The third mode, seen from the side at seven moments of half a turn. Dots are the nodes: points of
+# the chain that stay on the axis. Touch the whirling chain there, and it goes on.
 #
 # The table compares a continuous chain with 400 links.
 
@@ -56,6 +56,7 @@ figure.suptitle("dots: nodes, mm from the free end; bars: the chain is vertical"
 plt.show()
 
 # %%
-# To try next: a weight at the free end, ``rc.Cord(1.0, mass=1.0, tip_mass=1.0)``, which moves the nodes down.
+# To try next: a weight at the free end, ``rc.Cord(1.0, mass=1.0, tip_mass=1.0)``, which moves the
+# lowest node towards it.
 #
 # Checked: ``tests/python/test_cord_modes.py``, against mpmath and the numbers of the paper.

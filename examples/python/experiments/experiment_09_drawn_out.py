@@ -27,8 +27,8 @@ axes.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="e
 plt.show()
 
 # %%
-# Two metres of chain between two hands 1 m apart, like a skipping rope, seen from the side at seven moments of half a turn.
-# The dots are the hands.
+# Two metres of chain between two hands 1 m apart, like a skipping rope, seen from the side at seven
+# moments of half a turn. The dots are the hands.
 #
 # The hands draw the ends apart. The moment of inertia falls and the speed rises; the hands do work.
 
@@ -39,10 +39,12 @@ for rope in ropes:
     pull = rope.tension_in_the_middle * MASS * 9.80665
     numbers = (rope.span, rope.sag, turns, MASS * rope.moment_of_inertia, pull, energy - first)
     print("{:7.2f}  {:6.3f}  {:14.3f}  {:24.5f}  {:22.1f}  {:12.2f}".format(*numbers))
-print(f"at first the centrifugal force on the middle is {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
+force = start.sag * start.angular_speed**2 / 9.80665
+print(f"at first the centrifugal force on the middle is {force:.1f} times its weight")
 
 # %%
-# With gravity, one end above the other, the widest point is below the middle. The slower the chain, the lower that point.
+# With gravity, one end above the other, the widest point is below the middle. The slower the chain,
+# the lower that point.
 
 held = rc.Held(rc.Cord(LENGTH, mass=MASS * LENGTH), span=SPAN)
 linked = rc.Held(rc.Chain.uniform_rods(LINKS, length=LENGTH, mass=MASS * LENGTH), span=SPAN)
@@ -60,10 +62,12 @@ for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
 (folded,) = rc.modes(rc.Cord(longer), 1).frequency
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
-print(f"up to {folded:.4f} turns a second, the first whirl speed of a chain of {longer} m, it hangs folded along the axis")
+print(f"up to {folded:.4f} turns a second, the first whirl speed of a chain of {longer} m,", end=" ")
+print("it hangs folded along the axis")
 
 # %%
-# On the left, the chain drawn out. In the middle, the speed against the span. On the right, the chain with gravity.
+# On the left, the chain drawn out. In the middle, the speed against the span. On the right, the
+# chain with gravity.
 
 figure, (side, curve, vertical) = panels(3, [1.7, 1, 1])
 for rope, colour in zip(ropes, COLOURS, strict=False):
@@ -93,4 +97,5 @@ plt.show()
 # %%
 # To try next: another first speed, ``TURNS = 6.0``: the shapes without gravity are the same.
 #
-# Checked: ``tests/python/test_closed_motions.py`` (without gravity) and ``tests/python/test_held.py`` (with gravity).
+# Checked: ``tests/python/test_closed_motions.py`` (without gravity) and
+# ``tests/python/test_held.py`` (with gravity).

@@ -26,7 +26,8 @@ axes.set(xlabel="distance from axis (m)", ylabel="depth below the hand (m)", yli
 plt.show()
 
 # %%
-# A stick of 0.6 m on a string of 0.4 m at 0.8 turns a second, seen from the side at seven moments of half a turn.
+# A stick of 0.6 m on a string of 0.4 m at 0.8 turns a second, seen from the side at seven moments
+# of half a turn.
 #
 # Where the string is tied changes the two speeds at which stick and string leave the vertical.
 
@@ -53,8 +54,8 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {stick:7.2f}  {string:7.2f}  {shape.tension[1]:11.3f}")
 
 # %%
-# The hand goes round a small circle itself. At the third speed of the table the joint stays on the axis: that is the speed
-# of the stick alone.
+# The hand goes round a small circle itself. At the third speed of the table the joint stays on the
+# axis: that is the speed of the stick alone.
 
 chain = rc.Chain(weight=[1, 0], length=[STICK, STRING], centroid=[STICK / 2, 0], radius_of_gyration=[GYRATION, 0])
 carried = rc.Rig(chain, support=rc.Support(radius=HAND))
@@ -78,7 +79,8 @@ for turns in (0.4, 0.6, 0.8, 1.5, 2.5):
     print(f"{turns:14.1f}   ", "   ".join(f"{stick:6.2f} {string:6.2f}" for stick, string in pairs))
 
 # %%
-# Above, every shape with the hand at rest. Below, the inclinations against the speed, with the hand at rest and on a circle.
+# Above, every shape with the hand at rest. Below, the inclinations against the speed, with the hand
+# at rest and on a circle.
 
 figure = plt.figure(figsize=(8, 7), layout="constrained")
 axes = figure.subplot_mosaic([["side", "side"], ["curve", "hand"]], height_ratios=[1, 1.2])
@@ -107,13 +109,14 @@ for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 4)):
     hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.tip_inclination), color=COLOURS[k], label=label)
 for panel, title in [(curve, "hand at rest"), (hand, f"hand on a circle of {HAND} m: the stick")]:
     panel.axhline(0, color="black", linewidth=0.6)
-    panel.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title, ylabel="inclination (°)")
+    panel.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title=title)
+    panel.set(yticks=range(-90, 91, 30), ylim=(-95, 95))
 legend_below(curve)
 legend_below(hand)
 plt.show()
 
 # %%
-# To try next: a stick tied in the middle, ``tied = 0.3``: it has one speed only.
+# To try next: a longer string, ``STRING = 0.8``: both speeds fall.
 #
-# Checked: ``tests/python/test_closed_forms.py`` (hand at rest), ``tests/python/test_response.py`` and
-# ``tests/python/test_rig_shapes.py`` (hand on a circle).
+# Checked: ``tests/python/test_closed_forms.py`` (hand at rest), ``tests/python/test_response.py``
+# and ``tests/python/test_rig_shapes.py`` (hand on a circle).

@@ -20,7 +20,8 @@ length = rc.two_links.pendulum_length(**LIKE)  # the paper's l
 rest = length + rc.conical_pendulum.height("1.5 Hz")
 figure, axes = picture()
 for view in np.cos(np.linspace(np.pi, 0, 7)):
-    axes.plot([0.1 * view, 0.1 * view * (1 - STICK / rest)], [0, STICK], color=COLOURS[0], linewidth=5, alpha=1.0 if view == 1 else 0.2)
+    ends = [0.1 * view, 0.1 * view * (1 - STICK / rest)]
+    axes.plot(ends, [0, STICK], color=COLOURS[0], linewidth=5, alpha=1.0 if view == 1 else 0.2)
 axes.plot([-0.1, 0.1], [0, 0], color="black", linewidth=8)
 axes.plot(0, rest, "o", color="black", markersize=9)
 axes.annotate("C", (0, rest), xytext=(9, -4), textcoords="offset points", fontsize="large")
@@ -28,15 +29,16 @@ axes.set(xlabel="to and fro (m)", ylabel="height above the hand (m)", xlim=(-0.3
 plt.show()
 
 # %%
-# The hand moves by 0.1 m to each side, 1.5 times a second. The point C of the stick stays at rest. The horizontal
-# scale is larger than the vertical one. The slower the hand, the
-# higher C; below 0.788 swings a second it is above the top of the stick.
+# The hand moves by 0.1 m to each side, 1.5 times a second. The point C of the stick stays at rest.
+# The horizontal scale is larger than the vertical one. The slower the hand, the higher C; below
+# 0.788 swings a second it is above the top of the stick.
 
 print(f"its pendulum length is {length:.3f} m; its top stays at rest at", end=" ")
 print(f"{rc.conical_pendulum.revolutions_per_second(STICK - length):.4f} swings a second")
 
 # %%
-# A pendulum of the right length, standing on its head in the hand, carries the stick at each frequency.
+# A pendulum of the right length, standing on its head in the hand, carries the stick at each
+# frequency.
 
 print("swings a second  at rest above the hand, m  top over hand  pendulum that can carry it, m  it alone")
 for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
@@ -49,7 +51,8 @@ for swings in (0.6, 0.788, 1.0, 1.5, 2.0):
     print(f"{back:15.3f}  {rest:24.3f}  {round(float(top), 3) + 0.0:+13.3f}  {thread:29.3f}  {alone:8.3f}")
 
 # %%
-# On the left, three frequencies. On the right, the length of that pendulum with the broomstick, and with a plummet.
+# On the left, three frequencies. On the right, the length of that pendulum with the broomstick, and
+# with a plummet.
 
 figure, (stand, curve) = panels(2, [1.5, 1], height=5.0)
 APART, HAND = 0.5, 0.1  # m, between neighbouring axes; how far the hand goes to each side

@@ -23,9 +23,10 @@ axes.set(aspect="equal", xlabel="distance from axis / a", ylabel="height / a")
 plt.show()
 
 # %%
-# The picture shows the shape with two half waves: it turns about the axis, seen from the side. The speed has five shapes, one
-# with one half wave, one with two, and three with three. The table has the inclination of each thread, the lowest first, its
-# error bound, and the stability. ``complete`` is true: it has been proved that there are no other shapes at this speed.
+# The picture shows the shape with two half waves: it turns about the axis, seen from the side. The
+# speed has five shapes, one with one half wave, one with two, and three with three. The table has
+# the inclination of each thread, the lowest first, its error bound, and the stability. ``complete``
+# is true: it has been proved that there are no other shapes at this speed.
 
 print(f"three point masses at {SPEED} sqrt(g/a): {len(shapes)} shapes, {'all' if shapes.complete else 'at least'}")
 print("half waves  inclinations, degrees   error bound  stability")
@@ -34,7 +35,8 @@ for shape in shapes:
     print(f"{shape.half_waves:10}   {degrees}   {shape.error_bound:11.1e}  {shape.stability().verdict}")
 
 # %%
-# Two of the shapes belong to an isolated branch. It does not leave the vertical: both appear together at a fold.
+# Two of the shapes belong to an isolated branch. It does not leave the vertical: both appear
+# together at a fold.
 
 diagram = rc.branches(chain, max_angular_speed=5.0, gravity=1.0)
 born = diagram[3]
@@ -75,7 +77,8 @@ curves.set_ylabel("inclination of the lowest thread (°)")
 plt.show()
 
 # %%
-# To try next: a speed below the fold, ``SPEED = 3.5``, for which the last picture has fewer panels.
+# To try next: four masses. ``rc.steady_shapes(rc.Chain.uniform_plummets(4, length=4.0),
+# angular_speed=SPEED, gravity=1.0)`` has eight shapes.
 #
-# Checked: ``tests/python/test_steady_shapes.py`` has the shapes by Newton's method in 40 digits, and the numbers of shapes
-# and the speed of the fold as known from elsewhere.
+# Checked: ``tests/python/test_steady_shapes.py`` has the shapes by Newton's method in 40 digits,
+# and the numbers of shapes and the speed of the fold as known from elsewhere.

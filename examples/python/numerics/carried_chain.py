@@ -25,9 +25,9 @@ axes.legend(loc="upper left", fontsize="small")
 plt.show()
 
 # %%
-# The dot is the hand, 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1 (9)) the chain is on the
-# same side as the hand. At each whirl speed the free end changes to the other side. Between two whirl speeds there is a speed
-# at which a given link stays on the axis.
+# The dot is the hand, 10 mm from the axis. Below its first whirl speed (Greenhill 1908, section 1
+# (9)) the chain is on the same side as the hand. At each whirl speed the free end changes to the
+# other side. Between two whirl speeds there is a speed at which a given link stays on the axis.
 
 print("turns a second  modes passed  free end, mm  over the hand's 10 mm")
 for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
@@ -86,6 +86,7 @@ time.legend(**BELOW)
 plt.show()
 
 # %%
-# The theory has no damping, which limits the motion near a whirl speed. To try next: another place to pluck.
+# The theory has no damping, which limits the motion near a whirl speed. To try next: another place
+# to pluck.
 #
 # Checked: ``tests/python/test_response.py``, against linear algebra in 50 digits.

@@ -32,11 +32,13 @@ axes.get_legend().remove()
 plt.show()
 
 # %%
-# The vibration starts in one plane, at the left. Along 120 wheels at 5 turns a second the motion in that plane (blue) goes
-# over into motion across it (pink), and back. The bars above are the plane seen along the string.
+# The vibration starts in one plane, at the left. Along 120 wheels at 5 turns a second the motion in
+# that plane (blue) goes over into motion across it (pink), and back. The bars above are the plane
+# seen along the string.
 #
-# Greenhill (1908) section 2, after Thomson: a vibration in a plane is the sum of two circular waves, one with the spin and
-# one against it. Their wavelengths differ, so the plane turns from link to link.
+# Greenhill (1908) section 2, after Thomson: a vibration in a plane is the sum of two circular
+# waves, one with the spin and one against it. Their wavelengths differ, so the plane turns from
+# link to link.
 
 print("wheels at    links in a wave  links in a wave  the plane turns   in a")
 print("turns/s       with the spin   against it       degrees a link    half turn, links")
@@ -48,8 +50,8 @@ for turns in (0.0, 2.0, 5.0, 8.0):
     print(f"{turns:9.1f}  {2 * np.pi / forward:16.2f}  {2 * np.pi / backward:15.2f}  {turn:15.3f}  {half}".rstrip())
 
 # %%
-# Above, the speeds of both waves against the phase from link to link; they differ more, the faster the wheels spin. Below,
-# the vibration of the first picture.
+# Above, the speeds of both waves against the phase from link to link; they differ more, the faster
+# the wheels spin. Below, the vibration of the first picture.
 
 figure, (waves, plane) = plt.subplots(2, 1, figsize=(8, 6.5), layout="constrained")
 phase = np.linspace(0.02, np.pi, 200)
@@ -59,8 +61,8 @@ for turns, colour in ((0.0, "C0"), (5.0, "C1"), (8.0, "C2")):
     waves.plot(np.degrees(phase), -found.backward, color=colour, linestyle="--")
 waves.plot([], [], color="0.3", linestyle="--", label="against the spin")
 waves.axhline(VIBRATION, color="0.6", linewidth=0.8, label="the vibration below")
-waves.set(xlabel="phase from link to link (°)", ylabel="speed (rad/s)", title="circular waves with the spin and against it")
-waves.set(xlim=(0, 180), ylim=(0, None))
+waves.set(xlabel="phase from link to link (°)", ylabel="speed (rad/s)", xlim=(0, 180), ylim=(0, None))
+waves.set_title("circular waves with the spin and against it")
 waves.legend()
 string(5.0).plot_vibration(VIBRATION, links=120, ax=plane)
 plane.set_title("a vibration of 3 rad/s along 120 wheels at 5 turns/s")

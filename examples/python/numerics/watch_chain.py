@@ -22,16 +22,16 @@ axes.set(xlabel="offset, largest = 1", ylabel="depth (m)", ylim=(0.37, -0.01))
 plt.show()
 
 # %%
-# The chain whirls steadily in one shape for each mode. The picture shows the fourth, seen from the side at seven moments of
-# half a turn. Dots mark the nodes, the points on the axis.
+# The chain whirls steadily in one shape for each mode. The picture shows the fourth, seen from the
+# side at seven moments of half a turn. Dots mark the nodes, the points on the axis.
 #
 # The first mode turns once a second. Higher modes turn faster and have one node more each.
 
 print(modes)
 
 # %%
-# The continuous chain has the heights 4 L / j², with the zeros j of the Bessel function J₀. ``rc.Cord`` is that chain. The
-# last column is the relative difference of 120 links from it.
+# The continuous chain has the heights 4 L / j², with the zeros j of the Bessel function J₀.
+# ``rc.Cord`` is that chain. The last column is the relative difference of 120 links from it.
 
 continuous = rc.modes(rc.Cord(0.36), count=5)
 print("mode  rpm  rpm, continuous  relative difference of the height")
@@ -50,6 +50,8 @@ modes.plot()
 plt.show()
 
 # %%
-# To try next: ``rc.Chain.uniform_rods(12, length=0.36)``. The difference is about a hundred times larger.
+# To try next: ``rc.Chain.uniform_rods(12, length=0.36)``. The difference is about a hundred times
+# larger.
 #
-# Checked: the heights of the links are in 40 digits in ``examples/scenes/watch_chain.expected.json``.
+# Checked: the heights of the links are in 40 digits in
+# ``examples/scenes/watch_chain.expected.json``.
