@@ -22,8 +22,11 @@ def order(name: str) -> tuple[int, str]:
 
 
 def picture_first(_: Any, name: str, source: list[str]) -> None:
-    """Moves the first picture of a program's page before the code that draws it."""
-    if name.startswith("gallery/") and (picture := re.search(r"\n\.\. image-sg:: .*?\n(?=\n*\S)", source[0], re.DOTALL)):
-        before, after = source[0][: picture.start()], source[0][picture.end() :]
-        head, mark, code = before.partition(".. GENERATED FROM PYTHON SOURCE LINES")
-        source[0] = head + picture[0].lstrip("\n") + "\n\n" + mark + code + "\n\n" + after
+    """Moves the first picture of a program's page before the code that draws it. Its text is the title of the page."""
+    picture = re.search(r"\n(\.\. image-sg:: .*?\n)(?=\n*\S)", source[0], re.DOTALL)
+    if name.startswith("gallery/") and picture:
+        [title] = re.findall(r"^(.+)\n=+$", source[0], re.MULTILINE)
+        first = re.sub(r":alt: .*", lambda _: f":alt: {title}", picture[1])
+        rest = source[0].replace(picture[0], "\n", 1)
+        mark = ".. GENERATED FROM PYTHON SOURCE LINES"
+        source[0] = rest.replace(mark, f"{first}\n{mark}", 1)
