@@ -12,6 +12,7 @@ import jupyter_server_mathjax
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path.insert(0, str(HERE / "site"))
+from gallery_pictures import picture_first  # noqa: E402
 
 project, author, copyright = "revchain", "the revchain developers", "the revchain developers"
 release = version = metadata.version("revchain")
@@ -32,7 +33,8 @@ extensions = [
 ]
 if (ROOT / "out/web/index.html").exists():
     tags.add("live")  # noqa: F821
-exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst", "gallery/*.ipynb"]
+exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/[!i]*.rst",
+                    "gallery/*/sg_execution_times.rst", "gallery/**.ipynb"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 nb_execution_mode = "off"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
@@ -50,7 +52,10 @@ sphinx_gallery_conf = {
     "filename_pattern": r"/[a-z]\w+\.py$",
     "ignore_pattern": r"(^|/)draw_",
     "image_scrapers": ("gallery_pictures.scrape",),
-    "within_subsection_order": "gallery_pictures.programs_before_experiments",
+    "within_subsection_order": "gallery_pictures.order",
+    "capture_repr": ("_repr_html_",),
+    "remove_config_comments": True,
+    "show_signature": False,
     "reset_modules": (),
     "show_memory": False,
     "min_reported_time": 1e9,
@@ -92,3 +97,4 @@ def copy_mathjax(app, _):
 
 def setup(app):
     app.connect("build-finished", copy_mathjax)
+    app.connect("source-read", picture_first)

@@ -1,23 +1,32 @@
 # SPDX-License-Identifier: MPL-2.0
-"""How the gallery takes the pictures that programs write, and in which order it shows the programs."""
+"""Pictures and order of the gallery: which pictures a program makes, where they are on its page, which program is first."""
 
-import shutil
+import re
 from pathlib import Path
 from typing import Any
 
-from sphinx_gallery.scrapers import figure_rst
+from sphinx_gallery.scrapers import matplotlib_scraper
+
+FIRST = ["crane", "swing_carousel", "chair_o_plane", "troposkien", "pipe_from_ship", "whirling_chain_3d", "watch_chain"]
 
 
-def scrape(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:
-    """Takes every picture that a program has written beside itself."""
-    names = block_vars["image_path_iterator"]
-    taken = []
-    for written in sorted(Path(block_vars["src_file"]).parent.glob("*.svg")):
-        name = Path(next(names)).with_suffix(".svg")
-        shutil.move(written, name)
-        taken.append(str(name))
-    return figure_rst(taken, gallery_conf["src_dir"])
+def scrape(*given: Any) -> str:
+    """Takes the figures of pyplot, as SVG."""
+    return matplotlib_scraper(*given, format="svg", metadata={"Date": None})
 
 
-def programs_before_experiments(name: str) -> tuple[bool, str]:
-    return Path(name).name.startswith("experiment"), name
+def order(name: str) -> tuple[int, str]:
+    """The programs of `FIRST` before the others of their group, which are in the order of their names."""
+    stem = Path(name).stem
+    return FIRST.index(stem) if stem in FIRST else len(FIRST), stem
+
+
+def picture_first(_: Any, name: str, source: list[str]) -> None:
+    """Moves the first picture of a program's page before the code that draws it. Its text is the title of the page."""
+    picture = re.search(r"\n(\.\. image-sg:: .*?\n)(?=\n*\S)", source[0], re.DOTALL)
+    if name.startswith("gallery/") and picture:
+        [title] = re.findall(r"^(.+)\n=+$", source[0], re.MULTILINE)
+        first = re.sub(r":alt: .*", lambda _: f":alt: {title}", picture[1])
+        rest = source[0].replace(picture[0], "\n", 1)
+        mark = ".. GENERATED FROM PYTHON SOURCE LINES"
+        source[0] = rest.replace(mark, f"{first}\n{mark}", 1)

@@ -119,7 +119,7 @@ TEST_CASE("a silent bell is the clamped one", "[linear]") {
     const Numbers x{18, 0.52, 0.08, 500, 0.15, 0.2, 0.30};
     auto silent = x;
     silent[5] = revchain::bell_and_clapper_with_ratio(chain_of(x), 1.0)[5];
-    CHECK(std::abs(static_cast<double>(silent[5]) - 0.177) < 0.05);  // examples/python/silent_bell.py
+    CHECK(std::abs(static_cast<double>(silent[5]) - 0.177) < 0.05);  // examples/python/engineering/silent_bell.py
     const auto found = revchain::bell_and_clapper(chain_of(silent));
     CHECK(std::abs(found.inclination_ratio[0] - 1) < 1e-14);
     CHECK(std::abs(found.mismatch) < 1e-15);

@@ -445,6 +445,11 @@ def test_the_view_of_a_notebook_is_the_page(tmp_path):
     shown = shapes.show(figures=[0], time_scale=0.5, height=500)._repr_html_()
     page = re.search(r'<iframe srcdoc="([^"]*)" style="width: 100%; height: 500px; border: 0"></iframe>', shown)[1]
     assert html.unescape(page) == (tmp_path / "shapes.html").read_text(encoding="utf-8")
+    shapes.to_html(tmp_path / "solid.html", figures=[0], time_scale=0.5)
+    shown = shapes.show(figures=[0], time_scale=0.5, solid=True)._repr_html_()
+    assert html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1]) == (tmp_path / "solid.html").read_text(encoding="utf-8")
+    with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: no figure may turn more than 5000 times"):
+        shapes.show(duration=800, time_scale=1000.0, solid=True)
     with pytest.raises(ValueError, match=r"revchain\.SteadyShapes\.show: height must be positive and finite, got 0"):
         shapes.show(height=0)
 

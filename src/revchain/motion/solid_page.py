@@ -15,10 +15,14 @@ from .solid import glb_of
 
 def write_viewer(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
     """One file that needs no other and no network."""
+    path.write_text(viewer_of(film, progress), encoding="utf-8")
+
+
+def viewer_of(film: Film, progress: Callable[[int, int], None]) -> str:
+    """The text of the page."""
     solid = base64.b64encode(glb_of(film, progress)).decode()
     page, script = (_text(name) for name in ("viewer.html", "viewer.min.js"))
-    page = page.replace("@script@", script).replace("@solid@", solid).replace("@title@", html.escape(film.system))
-    path.write_text(page, encoding="utf-8")
+    return page.replace("@script@", script).replace("@solid@", solid).replace("@title@", html.escape(film.system))
 
 
 def _text(name: str) -> str:

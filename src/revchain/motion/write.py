@@ -19,7 +19,7 @@ from .frames import write_gif, write_mp4
 from .grid import write_grid, write_xdmf
 from .page import page_of, write_page
 from .solid import write_glb
-from .solid_page import write_viewer
+from .solid_page import viewer_of, write_viewer
 from .staging import Asked, staged
 
 RATES = (0.1, 1000.0)  # frames in a second
@@ -78,11 +78,8 @@ def write_film(
     if ending == ".gif":
         rate = 100 / max(2, round(100 / rate))  # its clock counts hundredths of a second
     film = _film(result, place, figures, time_scale, duration, rate)
-    turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
-    if method in ("to_glb", "to_html") and turns > MOST_TURNS:
-        raise ValueError(
-            f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns"
-        )
+    if method in ("to_glb", "to_html"):
+        _check_turns(film, place)
     if writers[ending] is write_grid and not film.is_rigid:
         raise ValueError(
             f"{place}: this result is another at every instant; path must end in .xdmf, got {os.fspath(path)}"
@@ -105,12 +102,23 @@ class View:
 
 
 def show_film(
-    result: Any, figures: Iterable[int] | None, time_scale: float | None, duration: float | None, height: float
+    result: Any,
+    figures: Iterable[int] | None,
+    time_scale: float | None,
+    duration: float | None,
+    height: float,
+    solid: bool,
 ) -> View:
     """See `Moving.show`."""
     place = f"revchain.{type(result).__name__}.show"
     tall = one_positive(place, "height", height)
-    return View(page_of(_film(result, place, figures, time_scale, duration, 25.0)), tall)
+    if solid:
+        require_for(".html", "to_html")
+    film = _film(result, place, figures, time_scale, duration, 25.0)
+    if not solid:
+        return View(page_of(film), tall)
+    _check_turns(film, place)
+    return View(viewer_of(film, _silent), tall)
 
 
 def _film(
@@ -119,6 +127,15 @@ def _film(
     given = {"time_scale": time_scale, "duration": duration}
     numbers = {name: None if value is None else one_positive(place, name, value) for name, value in given.items()}
     return staged(result, Asked(place, figures, numbers["time_scale"], numbers["duration"], rate))
+
+
+def _check_turns(film: Film, place: str) -> None:
+    """Refuse a solid with too many turns."""
+    turns = max(float(np.abs(figure.phase).max()) for figure in film.figures) / (2 * np.pi)
+    if turns > MOST_TURNS:
+        raise ValueError(
+            f"{place}: no figure may turn more than {MOST_TURNS} times; lower time_scale or duration, got {turns:g} turns"
+        )
 
 
 def _silent(done: int, total: int) -> None:

@@ -7,14 +7,15 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.transforms import ScaledTranslation
 
 from .style import STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from ..results.branches import Branch
     from ..results.shapes import SteadyShape
@@ -24,8 +25,8 @@ COLOURS: list[str] = matplotlib.rcParams["axes.prop_cycle"].by_key()["color"]
 
 
 def panels(count: int, widths: Sequence[float] | None = None, height: float = 4.5) -> tuple[Figure, Any]:
-    """A figure with `count` panels side by side, 8 inches wide."""
-    figure = Figure(figsize=(8, height), layout="constrained")
+    """A figure of pyplot with `count` panels side by side, 8 inches wide."""
+    figure = plt.figure(figsize=(8, height), layout="constrained")
     return figure, figure.subplots(1, count, width_ratios=widths, squeeze=False)[0]
 
 
@@ -34,6 +35,17 @@ def hang(axes: Axes, offset: Any, depth: Any, *, weights: Iterable[float] = (), 
     (drawn,) = axes.plot(offset, depth, **line)
     for y, z, size in zip(offset, depth, weights, strict=False):
         axes.scatter(y, z, s=size, color=drawn.get_color(), alpha=drawn.get_alpha(), linewidth=0, zorder=3)
+
+
+def whirling(axes: Axes, offset: Any, depth: Any, **line: Any) -> None:
+    """Draw a chain that whirls, seen from the side at seven moments of half a turn, the last of them strong."""
+    for view in np.cos(np.linspace(np.pi, 0, 7)):
+        axes.plot(view * np.asarray(offset), depth, **{"color": "C0", "linewidth": 2.5, "alpha": 1.0 if view == 1 else 0.2, **line})
+
+
+def picture() -> tuple[Figure, Axes]:
+    """A small figure of pyplot for one object."""
+    return plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 
 
 def side_view(axes: Axes, title: str, *, bottom: float, top: float = 0.05, half_width: float) -> None:

@@ -91,8 +91,9 @@ class Moving:
         time_scale: float | None = None,
         duration: float | None = None,
         height: int = 640,
+        solid: bool = False,
     ) -> Any:
-        """Show the motion in a notebook: the page that `animate` writes, in the output of the cell.
+        """Show the motion in a notebook, in the output of the cell: the page that `animate` or `to_html` writes.
 
         Parameters
         ----------
@@ -104,17 +105,21 @@ class Moving:
             As in `animate`.
         height : int
             Height of the view in pixels.
+        solid : bool
+            Show the solid in three dimensions, as `to_html`, not lines. The view then has 605 KB more.
 
         Returns
         -------
         object
-            The view, which a notebook shows if the call is the last line of a cell. It needs no package and no connection,
-            and still works when the notebook is opened without Python.
+            The view, which a notebook shows if the call is the last line of a cell. It needs no connection, and still
+            works when the notebook is opened without Python.
 
         Raises
         ------
         ValueError
             As `animate`.
+        ImportError
+            If `solid` and pygltflib is not installed; the message says how to install it.
 
         Examples
         --------
@@ -124,7 +129,7 @@ class Moving:
         """
         from ..motion.write import show_film
 
-        return show_film(self, figures, time_scale, duration, height)
+        return show_film(self, figures, time_scale, duration, height, solid)
 
     def to_glb(
         self,

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment IX: a whirling chain drawn out
-=========================================
+"""Experiment IX: a whirling chain drawn out (skipping rope)
+=========================================================
 
 When the ends of a whirling chain are drawn apart, it keeps its angular momentum and turns faster.
-
-Checked: ``tests/python/test_closed_motions.py`` (without gravity) and ``tests/python/test_held.py`` (with gravity).
 """
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, legend_below, panels, save
+from revchain.plots.programs import COLOURS, legend_below, panels, picture, whirling
 
 LENGTH, SPAN, TURNS = 2.0, 1.0, 3.0  # m of chain, m between the hands, turns a second at first
 MASS = 0.05  # kg/m, a light chain
@@ -18,6 +17,21 @@ LINKS = 100
 
 start = rc.SkippingRope(span=SPAN, length=LENGTH, angular_speed=2 * np.pi * TURNS)
 ropes = [start, *(start.drawn_to(span) for span in (1.3, 1.5, 1.7, 1.8))]
+places = np.linspace(0, LENGTH, 2001)
+at = start.at_arc(places)
+figure, axes = picture()
+for view in np.cos(np.linspace(np.pi, 0, 7)):
+    axes.plot(at.x, view * at.offset, color=COLOURS[0], linewidth=2.5, alpha=1.0 if view == 1 else 0.2)
+axes.plot([0, SPAN], [0, 0], "o", color="black", markersize=12)
+axes.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", aspect="equal")
+plt.show()
+
+# %%
+# Two metres of chain between two hands 1 m apart, like a skipping rope, seen from the side at seven
+# moments of half a turn. The dots are the hands.
+#
+# The hands draw the ends apart. The moment of inertia falls and the speed rises; the hands do work.
+
 print("span, m  sag, m  turns a second  moment of inertia, kg m^2  pull along the axis, N  work done, J")
 for rope in ropes:
     turns = rope.angular_speed / (2 * np.pi)
@@ -25,11 +39,15 @@ for rope in ropes:
     pull = rope.tension_in_the_middle * MASS * 9.80665
     numbers = (rope.span, rope.sag, turns, MASS * rope.moment_of_inertia, pull, energy - first)
     print("{:7.2f}  {:6.3f}  {:14.3f}  {:24.5f}  {:22.1f}  {:12.2f}".format(*numbers))
-print(f"at first the centrifugal force on the middle is {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
+force = start.sag * start.angular_speed**2 / 9.80665
+print(f"at first the centrifugal force on the middle is {force:.1f} times its weight")
+
+# %%
+# With gravity, one end above the other, the widest point is below the middle. The slower the chain,
+# the lower that point.
 
 held = rc.Held(rc.Cord(LENGTH, mass=MASS * LENGTH), span=SPAN)
 linked = rc.Held(rc.Chain.uniform_rods(LINKS, length=LENGTH, mass=MASS * LENGTH), span=SPAN)
-places = np.linspace(0, LENGTH, 2001)
 print(f"with gravity, one end {SPAN:.0f} m above the other: rope, and {LINKS} links instead of it:")
 print("turns a second  sag, m  of links  widest below the middle, m  pull along the axis, N: above  below")
 upright = {}
@@ -44,7 +62,12 @@ for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
 (folded,) = rc.modes(rc.Cord(longer), 1).frequency
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
-print(f"up to {folded:.4f} turns a second, the first whirl speed of a chain of {longer} m, it hangs folded along the axis")
+print(f"up to {folded:.4f} turns a second, the first whirl speed of a chain of {longer} m,", end=" ")
+print("it hangs folded along the axis")
+
+# %%
+# On the left, the chain drawn out. In the middle, the speed against the span. On the right, the
+# chain with gravity.
 
 figure, (side, curve, vertical) = panels(3, [1.7, 1, 1])
 for rope, colour in zip(ropes, COLOURS, strict=False):
@@ -69,4 +92,10 @@ vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
 vertical.set(xlabel="distance from axis (m)", ylabel="height above the lower hand (m)", title="with gravity")
 vertical.set_aspect("equal")
 legend_below(vertical, ncols=3, title="turns/s", handlelength=1, columnspacing=1)
-save(figure, "experiment_09_drawn_out")
+plt.show()
+
+# %%
+# To try next: another first speed, ``TURNS = 6.0``: the shapes without gravity are the same.
+#
+# Checked: ``tests/python/test_closed_motions.py`` (without gravity) and
+# ``tests/python/test_held.py`` (with gravity).

@@ -1,19 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment V: Thomson's four cases
-==================================
+"""Experiment V: Thomson's four cases of two weights on a thread
+=============================================================
 
-Two weights on one thread, the second at different places: Thomson's four cases of Greenhill's Fig. 4.
-
-Checked: ``tests/python/test_closed_forms.py``, with mpmath.
+Two weights on one thread, the upper one at different places: Thomson's four cases of Greenhill's Fig. 4.
 """
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 import revchain as rc
-from revchain.plots.programs import COLOURS, hang, legend_below, panels, save, side_view
+from revchain.plots.programs import COLOURS, hang, legend_below, panels, picture, side_view, whirling
 
 THREAD = 1.0  # m, the whole of it
 A = THREAD / 2  # the paper's a; x is how far the upper weight sits above the middle
+
+slow = rc.modes(rc.Chain(weight=[1, 2], length=[0.75, 0.25]))
+figure, axes = picture()
+whirling(axes, 0.15 * slow.shape[0] / slow.shape[0].max(), [1, 0.25, 0])
+axes.scatter(0.15 * slow.shape[0, :2] / slow.shape[0].max(), [1, 0.25], s=[120, 240], color=COLOURS[0], zorder=3)
+axes.set(xlabel="distance from axis (m)", ylabel="depth (m)", ylim=(1.08, -0.05), xlim=(-0.35, 0.35))
+plt.show()
+
+# %%
+# The upper weight is twice the lower one and sits a quarter of the way down. The picture shows the
+# slower mode.
+#
+# The table has both conical heights in parts of half the thread, and the speeds.
 
 print("upper/lower weight  upper weight at, m  conical heights/a  turns a second  ratio of periods")
 for heavier, at in [(2, 0.25), (2, 0.75), (2, 0.5), (3, 0.5)]:
@@ -21,6 +33,11 @@ for heavier, at in [(2, 0.25), (2, 0.75), (2, 0.5), (3, 0.5)]:
     turns = rc.conical_pendulum.revolutions_per_second(heights)
     numbers = "{:.6f} {:.6f}   {:.4f} {:.4f}".format(*heights / A, *turns)
     print(f"{heavier:18}  {at:18.2f}  {numbers}  {turns[1] / turns[0]:16.4f}")
+
+# %%
+# On the left, four modes. C₁ is on the axis, where the line of the lower thread meets it: one
+# conical height above the lowest weight. On the right, both conical heights for every place of the
+# upper weight; dots are the four modes.
 
 figure, axes = panels(5, [1, 1, 1, 1, 2.4], height=5.0)
 for number, panel in enumerate(axes[:4]):
@@ -46,4 +63,10 @@ for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:
 axes[4].plot([-0.5, -0.5, 0.5, 0.5], 2 * [1 + 0.5**0.5, 1 - 0.5**0.5], "o", color="black", markersize=4)
 axes[4].set(xlabel="place x/a of the upper weight", ylabel="conical height/a", title="W₂ anywhere", ylim=(0, 2))
 legend_below(axes[4], ncols=1)
-save(figure, "experiment_05_thomson")
+plt.show()
+
+# %%
+# To try next: weights in the ratio 100. In the middle of the thread the two heights come close to
+# each other.
+#
+# Checked: ``tests/python/test_closed_forms.py``, with mpmath.
