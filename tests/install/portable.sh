@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# tests/install/portable.sh [JOBS]: builds the Python module as `pip install .` does elsewhere, which chooses among
+# instruction sets at run time, into build/portable, and runs the tests of the questions with it (./test --all).
+set -euo pipefail
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+cd "$root"
+site=build/portable/site python=${VIRTUAL_ENV:-.venv}/bin/python
+"$python" -m pip install --quiet --no-deps --no-build-isolation --upgrade --target "$site" \
+  -Cbuild-dir=build/portable/tree . 2>&1 | { grep -v 'WARNING: Target directory' || true; }
+export PYTHONPATH=$root/$site
+"$python" -c 'import revchain; assert "portable" in revchain.__file__, revchain.__file__'
+tests=(modes batch claims models rig_modes response sensitivity steady_shapes rig_shapes branches cord_modes held light_links)
+"$python" -m pytest -q -n "${1:-2}" -m 'not slow' $(printf "tests/python/test_%s.py " "${tests[@]}")
