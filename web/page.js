@@ -205,7 +205,7 @@ function showModes() {
     const {forward, backward, other, growth} = modes;
     const sides = backward ? `${forward} forward and ${backward} backward modes` : plural(forward, 'mode');
     const growing =
-        growth > 0 ? ` Straight it is unstable: a disturbance grows e-fold in ${digits(1 / growth, 3)} s.` : '';
+        growth > 0 ? ` Straight, the chain is unstable: a disturbance grows by a factor of e in ${digits(1 / growth, 3)} s.` : '';
     $('modes-said').textContent =
         `${sides}${other ? `, ${other} other solutions` : ''}.${growing} Bounds are relative${modes.complete ? ' and proved' : ''}.`;
     showCards(
@@ -237,7 +237,7 @@ function showDiagram() {
         write(
             said,
             `${plural(diagram.branches.length, 'branch').replace('branchs', 'branches')} up to ${digits(top)} rad/s. ${
-                diagram.complete ? 'Proved: there are no others.' : 'Whether there are others is not proved.'
+                diagram.complete ? 'Proved: there are no others.' : 'Not proved: there may be others.'
             } ●\u00a0stable, ○\u00a0not.`,
         );
     drawDiagram($('diagram'), {
@@ -253,18 +253,18 @@ function showDiagram() {
 /** What is known of a shape's stability, as a sentence. */
 function stabilityOf({verdict, growth}) {
     if (verdict === 'unstable')
-        return `Unstable: a disturbance grows e-fold in ${digits(1 / (growth * Math.abs(state.speed)), 3)} s.`;
-    if (verdict === 'minimum') return 'Stable, also with friction.';
-    if (verdict === 'spectrally stable') return 'Stable, but friction at the pins may destroy it.';
-    return verdict === 'undecided' ? 'Its stability is not decided.' : '';
+        return `Unstable: a disturbance grows by a factor of e in ${digits(1 / (growth * Math.abs(state.speed)), 3)} s.`;
+    if (verdict === 'minimum') return 'Stable, even with friction.';
+    if (verdict === 'spectrally stable') return 'Stable, but friction at the pins may destabilize it.';
+    return verdict === 'undecided' ? 'Stability undecided.' : '';
 }
 
 const boundOf = (what, bound, unit) =>
-    Number.isFinite(bound) ? `${what} at most ${shortBound(bound)}${unit}: proved.` : `${what}: no bound is proved.`;
+    Number.isFinite(bound) ? `${what} at most ${shortBound(bound)}${unit} (proved).` : `${what}: no proved bound.`;
 
 function captionOf(figure) {
     if (figure.isMode) {
-        const motion = `Small motion at ${digits(figure.speed, 8)} rad/s, drawn large.`;
+        const motion = `Small motion at ${digits(figure.speed, 8)} rad/s, enlarged.`;
         return `${motion} ${boundOf('Relative error of the speed', figure.speedBound, '')}`;
     }
     if (figure.isStraight)
@@ -272,7 +272,7 @@ function captionOf(figure) {
             ? 'The chain hangs straight at this speed.'
             : `${plural(figure.links.length, 'link')}, ${digits(totalLength(state))} m`;
     const place = `Free end ${digits(figure.offset[0], 6)} m from the axis`;
-    const pull = `pull at the support ${digits(figure.tension * state.gravity)} N`;
+    const pull = `tension at the support ${digits(figure.tension * state.gravity)} N`;
     return `${place}; ${pull}. ${boundOf('Error of every angle', figure.bound, ' rad')} ${stabilityOf(figure)}`;
 }
 

@@ -35,7 +35,7 @@ def test_modes_turn_at_their_own_speeds():
         whirled = figure.scale[0] * found.shape[k] * np.exp(1j * found.angular_speed[k] * 0.1 * 30 / 25)
         assert np.allclose(figure.in_space(30), whirled, atol=1e-15)
     assert {figure.label.split()[-1] for figure in shown.figures} == {"forward", "backward"}
-    assert shown.words == "gravity 9.80665 m/s²; 10 times slower than in reality; offsets exaggerated"
+    assert shown.words == "gravity 9.80665 m/s²; 10 times slower than real time; offsets exaggerated"
 
 
 def test_the_pace():
@@ -49,7 +49,7 @@ def test_the_pace():
     one = film(rc.modes(CHAIN, 1))
     assert abs(one.figures[0].phase[1] * one.frames - TURN) < 1e-12
     assert pace(1.0) == "in real time"
-    assert (pace(0.125), pace(20.0)) == ("8 times slower than in reality", "20 times faster than in reality")
+    assert (pace(0.125), pace(20.0)) == ("8 times slower than real time", "20 times faster than real time")
 
 
 @pytest.mark.parametrize("kind", ["shapes", "shapes of a carousel", "shapes of a blade", "shapes on arms", "shape"])
@@ -415,7 +415,7 @@ def test_nothing_to_show(tmp_path):
         (rc.branches(CHAIN, max_angular_speed=0.5), "there is no branch to draw"),
         (
             rc.response(CHAIN, angular_speed=[3.0, 4.0], pins=[0, 1]),
-            "every pin is needed; ask the response without pins=",
+            "every pin is needed; compute the response without pins=",
         ),
         (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
         (rc.swing(CHAIN, RELEASED, None, [1.0]), "needs two times or more"),

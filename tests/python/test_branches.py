@@ -140,7 +140,7 @@ def test_pictures():
     ]
     (above,) = ax.child_axes  # speeds of births stand above the frame: no label hides a loop
     assert [text.get_text() for text in above.get_xticklabels()] == ["6.0542"] and len(ax.texts) == 0
-    assert above.get_xlabel() == "pairs born at"
+    assert above.get_xlabel() == "pairs appear at"
     for thing in (diagram, diagram[0]):
         quantities = ("tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy")
         labels = [thing.plot(quantity=quantity).get_ylabel() for quantity in quantities]

@@ -509,7 +509,7 @@ def test_the_example_in_the_help_works(run, repository, name):
     code, _, err = run(*arguments)
     assert (program, code, err) == ("revchain", 0, "")
     flat = " ".join(run(name, "--help")[1].split())
-    assert f"Example: {example} Files written: {told}. Exit codes: 0 all is well;" in flat
+    assert f"Example: {example} Files written: {told}. Exit codes: 0 success;" in flat
     named = {word for option, word in itertools.pairwise(arguments) if option in ("--plot", "--json", "--csv", "--out")}
     extra = {"run": {"out"}, "new": {"crane.toml"}}.get(name, set())
     assert set(files()) - before == named | extra

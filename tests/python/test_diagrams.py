@@ -126,7 +126,7 @@ def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     shape = shapes_of(random_chain("plummets", 4, 3), 0.15)[0]
     figure, forces = shape.force_diagram().plot()
-    assert figure.get_xlabel() == "distance from axis (m)" and forces.get_ylabel() == "force upwards (N)"
+    assert figure.get_xlabel() == "distance from axis (m)" and forces.get_ylabel() == "vertical force (N)"
     letters = {text.get_text() for text in forces.texts}
     assert {"$O$", "$N$", "$Q_1$", "$Q_4$", "$P_1$", "$W_4$"} <= letters
     assert figure.figure is forces.figure
@@ -136,7 +136,7 @@ def test_pictures(tmp_path):
     many = rc.steady_shapes(rc.Chain.uniform_plummets(30, length=1.0), conical_height=0.4)[0].force_diagram()
     many.plot()[0].figure.savefig(tmp_path / "many.png")
     polygon, rays = rc.funicular_polygon([1, 2, 1], [0, 1, 2, 3, 4], 2.0).plot()
-    assert rays.get_title() == "diagram of force"
+    assert rays.get_title() == "force diagram"
     polygon.figure.savefig(tmp_path / "line.png")
 
 

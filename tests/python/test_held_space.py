@@ -106,7 +106,7 @@ def test_a_shape_out_of_the_plane_of_two_arms():
     assert sorted(place[1, 1] for place in out) == pytest.approx([-1.2822, 1.2822], abs=1e-4)
     assert not shapes.complete and shapes.undecided.size == 0
     assert "2 shapes" in repr(shapes) and "there may be more" in repr(shapes)
-    assert "both ends are off the axis: shapes that leave the plane of the ends are not looked for" in repr(shapes)
+    assert "both ends are off the axis: shapes that leave the plane of the ends are not searched for" in repr(shapes)
 
 
 if __name__ == "__main__":

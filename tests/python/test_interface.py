@@ -125,8 +125,8 @@ QUESTIONS = {
     "sensitivity": lambda system: rc.modes(system, 2).sensitivity,
     "uncertainty": lambda system: rc.modes(system, 2).uncertainty(mass=0.05),
 }
-BENT = {name: "is bent.*ask steady_shapes" for name in ("held, span", "held cord, span")}
-TAUT = {name: "ask steady_shapes" for name in ("held", "held cord")}
+BENT = {name: "is bent.*(ask|use) steady_shapes" for name in ("held, span", "held cord, span")}
+TAUT = {name: "(ask|use) steady_shapes" for name in ("held", "held cord")}
 CELLS = {  # question: system: None for an answer, or words of the reason and of what to ask instead
     "modes": BENT,
     "count_modes": BENT,
@@ -134,8 +134,8 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "steady_shape": TAUT,
     "branches": TAUT,
     "branch": TAUT,
-    "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
-    "swing": {"held": "ask its modes"},
+    "response": {"cord": "use its chain: cord.chain", "held": "(ask|use) steady_shapes"},
+    "swing": {"held": "use its modes"},
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
     "fit": dict.fromkeys(BENT, "is bent.*tune with top_tension"),
     "explain": BENT,
@@ -377,7 +377,7 @@ def test_classes_of_results_can_be_imported(repository):
 
 def test_what_does_not_scale_with_gravity():
     held = rc.Held(rc.Chain.uniform_rods(5, length=1.0, mass=1.0), tension=30.0)
-    with pytest.raises(ValueError, match="tension in newtons.*ask revchain.modes again"):
+    with pytest.raises(ValueError, match="tension in newtons.*call revchain.modes again"):
         rc.modes(held).at(gravity=1.62)
     by_weight = rc.Held(rc.Chain.uniform_rods(5, length=1.0, weight=1.0), tension=30.0)
     moon = rc.modes(by_weight, gravity=1.62)

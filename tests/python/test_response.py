@@ -182,7 +182,7 @@ def test_resonance():
     assert np.isinf(found.error_bound[[0, 2]]).all() and np.isnan(found.offset[[0, 2], :2]).all()
     assert found.offset[1].tolist() == [-4.0, 0.0, 1.0]
     assert found.modes_below.tolist() == [0, 1, 1]
-    assert repr(found).startswith("support carried round a circle of ") and repr(found).count("nan") >= 2
+    assert repr(found).startswith("support moving in a circle of radius ") and repr(found).count("nan") >= 2
     plummet = rc.Chain(weight=1.0, length=0.75)  # offset height / (height - length)
     found = rc.response(plummet, conical_height=[[0.75, 1.5], [0.375, 3.0]])
     assert found.offset.shape == (2, 2, 2) and found.resonant.tolist() == [[True, False], [False, False]]

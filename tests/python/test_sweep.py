@@ -708,7 +708,7 @@ def test_ctrl_c_ends_cleanly(start):
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out) == (130, "")
-    assert err == "revchain: interrupted; the same command goes on from a.csv.partial\n"
+    assert err == "revchain: interrupted; repeat the command to continue from a.csv.partial\n"
     assert files() == ["a.csv.partial", "a.toml"]
 
 
@@ -990,7 +990,7 @@ def test_pictures():
     law = {"normal": [1.0, 0.1], "name": "$% a $"}
     scattered = rc.sweep(study(BODIES, {"links[0].mass": law, "links[0].length": uniform(1, 2)}, samples=500))
     ax = scattered.plot("conical_height")
-    assert ax.get_xlabel() == "conical height (m), % from its median" and len(ax.get_legend().get_texts()) == 4
+    assert ax.get_xlabel() == "conical height (m), % above its median" and len(ax.get_legend().get_texts()) == 4
     height = scattered["conical_height"][:, 0]
     assert f"mode 1: median {np.median(height):.4g}" in ax.get_legend().get_texts()[0].get_text()
     heights, edges = (ax.patches[0].get_xy()[:, k] for k in (1, 0))

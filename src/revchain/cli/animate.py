@@ -36,27 +36,27 @@ def animate(
     question: Annotated[
         str | None,
         typer.Option(
-            "--ask", metavar="|".join(QUESTIONS), help="What is shown; the first that the scene asks if left out."
+            "--ask", metavar="|".join(QUESTIONS), help="Question to show; the first one of the scene if left out."
         ),
     ] = None,
     figures: Annotated[
         str | None,
         typer.Option(
             metavar='"1; 3"',
-            help="Modes by their numbers; shapes and branches by their places, from 0. The first six if left out.",
+            help="Modes by number; shapes and branches by index, from 0. The first six if left out.",
         ),
     ] = None,
     time_scale: Annotated[
         float | None, typer.Option(metavar="X", help="Seconds of motion in one second of film; 1 is real time.")
     ] = None,
-    duration: Annotated[float | None, typer.Option(metavar="S", help="Seconds of film.")] = None,
+    duration: Annotated[float | None, typer.Option(metavar="S", help="Length of the film in seconds.")] = None,
     frames_per_second: Annotated[
-        float | None, typer.Option(metavar="K", help="25 if left out; not of .html and .glb.")
+        float | None, typer.Option(metavar="K", help="Frames in a second of film; 25 if left out. Not for .html and .glb.")
     ] = None,
     gravity: Gravity = None,
     quiet: Quiet = False,
 ) -> None:
-    """See it move: write a film, a page that plays it, or a solid for three-dimensional viewers."""
+    """Show the motion: write a film, a page that plays it, or a solid for three-dimensional viewers."""
     ending = out.suffix.lower()
     if ending not in METHODS:
         raise Stop(f"--out: {out} must end in {', '.join(METHODS)}", ExitCode.WRONG_USAGE)

@@ -43,7 +43,7 @@ def run(arguments: list[str] | None = None) -> int:
 @guarded
 def validate(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
-    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1 and keep comments.")] = False,
+    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1, keeping comments.")] = False,
 ) -> None:
     """Check scene files without answering them."""
     bad = 0
@@ -102,6 +102,6 @@ def new(
 
 @app.command(epilog=epilog("schema"))
 @guarded
-def schema(study: Annotated[bool, typer.Option("--study", help="Print that of study files.")] = False) -> None:
+def schema(study: Annotated[bool, typer.Option("--study", help="Print the schema of study files.")] = False) -> None:
     """Print the JSON Schema of scene files, for editors."""
     sys.stdout.write(json.dumps(study_schema() if study else json_schema(), indent=2) + "\n")

@@ -34,7 +34,7 @@ SceneFile = Annotated[
     Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")
 ]
 Gravity = Annotated[
-    str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit, instead of that of the scene.")
+    str | None, typer.Option(metavar="G", help="Gravity in m/s^2 or with a unit; overrides that of the scene.")
 ]
 Units = Annotated[str, typer.Option(metavar="deg|rad", help="Unit of angles in tables; files have radians.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no table and no progress bar.")]
@@ -54,7 +54,7 @@ COMMON: dict[str, tuple[Any, Any]] = {
 def run(
     scene: SceneFile,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for reports, numbers, pictures; out/SCENE if left out.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for reports, numbers and pictures; out/SCENE if left out.")
     ] = None,
     gravity: Gravity = None,
     units: Units = "deg",

@@ -18,8 +18,8 @@ class ExitCode(IntEnum):
 
 
 MEANING = {
-    ExitCode.OK: "all is well",
-    ExitCode.TOLERANCE_NOT_MET: "the answer does not meet the tolerance asked for",
+    ExitCode.OK: "success",
+    ExitCode.TOLERANCE_NOT_MET: "the answer does not meet the requested tolerance",
     ExitCode.WRONG_USAGE: "wrong usage, or a package is missing",
     ExitCode.SCENE_INVALID: "a scene is invalid",
     ExitCode.OUTPUT_FAILED: "an output cannot be written",

@@ -26,7 +26,7 @@ UNREADABLE: Any = typer.BadParameter.__mro__[1]  # click's UsageError, which not
 
 EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
 
-_ON_REQUEST = "only those of --plot, --json and --csv"
+_ON_REQUEST = "only those given by --plot, --json and --csv"
 # Of each command: a command line that works in a copy of the repository, and the files that the command writes.
 USE: dict[str, tuple[str, str]] = {
     "run": (
@@ -44,15 +44,15 @@ USE: dict[str, tuple[str, str]] = {
         'revchain branches examples/scenes/chair_o_plane.toml --max-angular-speed "20 rpm" --plot branches.png',
         _ON_REQUEST,
     ),
-    "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those of --json and --csv"),
-    "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the one of --out"),
+    "explain": ("revchain explain examples/scenes/watch_chain.toml --rtol 1e-3", "only those given by --json and --csv"),
+    "animate": ("revchain animate examples/scenes/two_weights.toml --out weights.html", "the file given by --out"),
     "sweep": (
         "revchain sweep examples/studies/two_weights.toml --out weights.csv",
-        "the results (--out, or STUDY.csv in the current folder) and the picture of --plot; "
-        "RESULTS.partial while it computes, or if it is interrupted",
+        "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
+        "while it computes, or if it is interrupted",
     ),
     "validate": ("revchain validate examples/scenes/watch_chain.toml", "none; with --upgrade the scenes themselves"),
-    "new": ("revchain new crane.toml", "the one named, or scene.toml; with --study study.toml. Existing files only with --force"),
+    "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
 }
 NEVER = {  # exit codes that a command does not have

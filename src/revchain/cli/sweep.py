@@ -79,7 +79,7 @@ def sweep(
                 warnings.simplefilter("always", UserWarning)
                 found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:
-            raise Stop(f"interrupted; the same command goes on from {out}.partial", ExitCode.INTERRUPTED) from None
+            raise Stop(f"interrupted; repeat the command to continue from {out}.partial", ExitCode.INTERRUPTED) from None
         except OSError:
             raise
         except ValueError as error:

@@ -44,7 +44,7 @@ class Strike(NamedTuple):
 
 
 class BellAndClapper(Result):
-    """Both modes of a bell and its clapper, and their distance from swinging as one piece; see `bell_and_clapper`.
+    """The two modes of a bell and its clapper, and how far they are from swinging as one piece; see `bell_and_clapper`.
 
     Examples
     --------
@@ -251,7 +251,7 @@ def _clearance(place: str, clearance: float) -> float:
 
 
 def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
-    """Return the modes of a bell and its clapper, and their distance from swinging as one piece.
+    """Return the modes of a bell and its clapper, and how far they are from swinging as one piece.
 
     Parameters
     ----------

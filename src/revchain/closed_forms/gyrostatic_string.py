@@ -203,7 +203,7 @@ class GyrostaticString:
         >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0)
         >>> string.plot().get_xlabel()
-        'phase from link to link (degrees)'
+        'phase difference between links (degrees)'
         """
         from ..plots.closed_forms import plot_waves
 

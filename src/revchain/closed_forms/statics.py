@@ -72,11 +72,11 @@ class FunicularPolygon(Result):
     >>> import revchain as rc
     >>> rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
     FunicularPolygon: 2 weights, horizontal tension 0.5
-    point    place    height   weight  tension of the next side
-        0  0.00000   0.00000      nan                   1.11803
-        1  1.00000  -2.00000  1.00000                  0.500000
-        2  2.00000  -2.00000  1.00000                   1.11803
-        3  3.00000   0.00000      nan                       nan
+    point    place    height   weight  tension in next segment
+        0  0.00000   0.00000      nan                  1.11803
+        1  1.00000  -2.00000  1.00000                 0.500000
+        2  2.00000  -2.00000  1.00000                  1.11803
+        3  3.00000   0.00000      nan                      nan
     """
 
     __slots__ = ()
@@ -153,7 +153,7 @@ class FunicularPolygon(Result):
             Column("place", self.place, "place"),
             Column("height", self.height, "height"),
             Column("weight", np.concatenate([gap, self.weight, gap]), "weight"),
-            Column("tension", np.concatenate([self.tension, gap]), "tension of the next side"),
+            Column("tension", np.concatenate([self.tension, gap]), "tension in next segment"),
             Column("rise", np.concatenate([self.rise, gap])),
         ]
         size, pull = len(self.weight), self.horizontal_tension

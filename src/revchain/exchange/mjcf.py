@@ -37,8 +37,8 @@ def to_mjcf(
     Parameters
     ----------
     system : Chain, Rig, SteadyShape or SteadyShapes
-        A system is at rest in the keyframe of the model. A shape is a keyframe from which MuJoCo stays in steady motion;
-        a list of shapes gives one keyframe for each.
+        A system is at rest in the keyframe of the model. A shape is a keyframe from which MuJoCo continues the steady
+        motion; a list of shapes gives one keyframe per shape.
     path : path-like, optional
         Where to write the text.
     gravity : float, optional
@@ -49,7 +49,7 @@ def to_mjcf(
     Returns
     -------
     str
-        The model as XML, with all digits. Masses are in kg: weights over gravity.
+        The model as XML, with all digits. Masses are in kg: weights divided by gravity.
 
     Raises
     ------
@@ -58,17 +58,18 @@ def to_mjcf(
         inertia, links that meet at a pin without mass, or more than 490 links; if `gravity` is given with a shape; or if
         the file cannot be written.
     TypeError
-        If `system` is none of these.
+        If `system` is of another class.
 
     Notes
     -----
     A ``turntable`` turns about the vertical and carries the upper pin. Each link has two hinges there: ``inclination``, in
-    the turning plane, and ``sideways``, out of it. In steady motion only the turntable, and wheels, turn. A turntable on the
-    axis exerts no torque on the chain. One that carries the support round has so great a moment of inertia that it keeps its
-    speed to 12 digits. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
+    the turning plane, and ``sideways``, out of it. In steady motion only the turntable and the wheels turn. A turntable
+    on the axis exerts no torque on the chain. One with an arm has a moment of inertia large enough to keep its speed to
+    12 digits. A link with a flywheel has a wheel with half of its mass, which carries the same angular momentum.
 
-    MuJoCo takes no moment of inertia below 1e-15 kg m^2. Each link gets this much more about all axes, as a small ball would
-    have. It does not change steady motion; it changes disturbed motion by the ratio to the moment of inertia about the pin.
+    MuJoCo accepts no moment of inertia below 1e-15 kg m^2. This amount is added to each link about all axes, as for a
+    small ball. Steady motion is unchanged; disturbed motion changes by the ratio of this amount to the moment of
+    inertia about the pin.
 
     Examples
     --------

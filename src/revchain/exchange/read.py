@@ -31,14 +31,14 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
     Returns
     -------
     Chain or Rig
-        By mass; a `Rig` where the model has a support that is carried round, or held by springs, or axial moments of inertia
-        that turn with it. Masses, lengths, centroids and radii of gyration are those of the model to the last digit.
+        By mass; a `Rig` if the model has a support on an arm or on springs, or axial moments of inertia that turn with
+        it. Masses, lengths, centroids and radii of gyration equal those of the model to the last digit.
 
     Raises
     ------
     ValueError
-        If the model is no serial chain of straight links hung by hinges or ball joints without friction; the message names
-        the body or joint and says why.
+        If the model is not a serial chain of straight links hung by hinges or ball joints without friction; the message
+        names the body or joint and says why.
     ImportError
         If mujoco is not installed; the message says how to install it.
     OSError
@@ -46,10 +46,11 @@ def from_mjcf(source: str | os.PathLike[str]) -> Chain | Rig:
 
     Notes
     -----
-    The lower pin of a link is where the next body is hinged. The free end of the lowest link is its only site, the place of a
-    body without mass fixed to it, or else the far end of its geoms. A hinge about the vertical above all links is a turntable
-    that keeps its speed. Links without a turntable, or on ball joints, do not spin about their own axes: their moments of
-    inertia about these do not matter and are left out. Contacts, keyframes and gravity are not read.
+    The lower pin of a link is where the next body is hinged. The free end of the lowest link is its only site, the
+    position of a massless body fixed to it, or else the far end of its geoms. A hinge about the vertical above all
+    links is a turntable that keeps its speed. Links without a turntable, or on ball joints, do not spin about their own
+    axes: their moments of inertia about these axes have no effect and are left out. Contacts, keyframes and gravity are
+    not read.
 
     Examples
     --------

@@ -43,14 +43,14 @@ def to_urdf(
     Raises
     ------
     ValueError
-        As `to_mjcf`; and for a support on a spring and for flywheels, which URDF cannot describe.
+        As for `to_mjcf`; also for a support on a spring or flywheels, which URDF cannot describe.
     TypeError
-        If `system` is none of these.
+        If `system` is of another class.
 
     Notes
     -----
-    The joints are those of `to_mjcf`. A joint of URDF has one axis, so that a link of next to no mass, 2e-14 kg, is between
-    the two axes of each pin.
+    The joints are those of `to_mjcf`. A URDF joint has one axis, so a link of negligible mass, 2e-14 kg, is placed
+    between the two axes of each pin.
 
     Examples
     --------

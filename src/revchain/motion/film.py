@@ -200,4 +200,4 @@ def pace(time_scale: float) -> str:
     if time_scale == 1:
         return "in real time"
     slower = time_scale < 1
-    return f"{1 / time_scale if slower else time_scale:.3g} times {'slower' if slower else 'faster'} than in reality"
+    return f"{1 / time_scale if slower else time_scale:.3g} times {'slower' if slower else 'faster'} than real time"

@@ -226,7 +226,7 @@ def _shape_or_none(branch: Any, point: int) -> Any:
 def _(found: Response, asked: Asked) -> Film:
     asked.only_one()
     if found.pins.shape != (found.system.size + 1,) or not np.array_equal(found.pins, np.arange(found.pins.size)):
-        raise ValueError(f"{asked.place}: every pin is needed; ask the response without pins=")
+        raise ValueError(f"{asked.place}: every pin is needed; compute the response without pins=")
     height = Straight(found.system).height
     speed, offset = found.angular_speed.reshape(-1), found.offset.reshape(-1, found.pins.size)
     known = np.isfinite(offset).all(axis=1)

@@ -56,7 +56,7 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
             born = int(folds[np.argmin(speed[folds])])
             births.append((float(speed[born]), colour))
     _mark_births(ax, births)
-    _label(ax, branches, "speed over the first critical speed", QUANTITIES, quantity)
+    _label(ax, branches, "speed / first critical speed", QUANTITIES, quantity)
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
@@ -78,7 +78,7 @@ def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
         return
     above = ax.secondary_xaxis("top")
     above.set_xticks(ticks, [f"{at:.5g}" for at in ticks], rotation=90, fontsize="small")
-    above.set_xlabel("pairs born at", fontsize="small")
+    above.set_xlabel("pairs appear at", fontsize="small")
 
 
 def _values(branch: Branch | HeldBranch, quantity: str) -> Floats:
@@ -104,7 +104,7 @@ def _label(
 
 HELD_QUANTITIES = {
     "largest_offset": "largest distance from axis (m)",
-    "lowest_inclination": "lowest link to the upward vertical (degrees)",
+    "lowest_inclination": "lowest link from the upward vertical (degrees)",
     "top_tension": "tension at the upper end (N)",
     "moment_of_inertia": "moment of inertia (kg m^2)",
 }

@@ -111,7 +111,7 @@ def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) ->
     forces.plot([min(reach), max(reach)], [-scale * height] * 2, color="0.6", linewidth=0.9, zorder=1)
     _letter(forces, "O", 0.0, 0.0, right=bool(ray[0, 0] < 0))
     _letter(forces, "N", 0.0, -scale * height, right=False, below=True)
-    _finish(forces, "force sideways (N)", "force upwards (N)", "diagram of force")
+    _finish(forces, "horizontal force (N)", "vertical force (N)", "force diagram")
     if not plummets:
         legend_outside(forces)
     return figure, forces
@@ -138,8 +138,8 @@ def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | 
         for j in range(1, len(x) - 1):
             _letter(left, f"P_{j}", x[j], z[j], below=True)
             _letter(forces, f"W_{j}", pull, 0.5 * float(rise[j - 1] + rise[j]))
-    _finish(left, "distance along (m)", "height (m)", "funicular polygon")
-    _finish(forces, "force sideways (N)", "force upwards (N)", "diagram of force")
+    _finish(left, "horizontal distance (m)", "height (m)", "funicular polygon")
+    _finish(forces, "horizontal force (N)", "vertical force (N)", "force diagram")
     return left, forces
 
 
@@ -202,7 +202,7 @@ def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
     labels = ["with the spin", "against the spin"][:: 1 if string.momentum >= 0 else -1]
     for speed, color, label in zip(both, ("C0", "C3"), labels, strict=True):
         ax.plot(np.degrees(phase), speed, color=color, label=label)
-    ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
+    ax.set(xlabel="phase difference between links (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
     usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
     ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
     legend_outside(ax)
@@ -214,12 +214,12 @@ def plot_vibration(turn: float, phase: float, links: int, ax: Axes | None) -> Ax
     ax = axes_or_new(ax, 8.0, 4.0)
     pin = np.arange(links + 1)
     wave, angle = np.cos(phase * pin), turn * pin
-    ax.plot(pin, wave * np.cos(angle), color="C0", linewidth=1.2, label="in the plane it starts in")
-    ax.plot(pin, wave * np.sin(angle), color="C3", linewidth=1.2, label="across it")
+    ax.plot(pin, wave * np.cos(angle), color="C0", linewidth=1.2, label="in the initial plane")
+    ax.plot(pin, wave * np.sin(angle), color="C3", linewidth=1.2, label="perpendicular to it")
     for at in np.unique(np.linspace(0, links, min(MAX_LINKS_SEEN, links) + 1).astype(int)):
         across, along = 0.45 * np.sin(turn * at) * links / 30, 0.22 * np.cos(turn * at)
         ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
     ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
-    ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
+    ax.set(xlabel="link", ylabel="offset / amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
     legend_outside(ax)
     return ax

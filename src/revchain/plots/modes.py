@@ -214,7 +214,7 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     straight.finish(ax)
     ax.set_xlim(-1.3, max(1.3, straight.reach()))
     if straight.few:
-        ax.set_xlabel("dots: centres of gravity, larger where heavier; rings: pins;\nbars: rods of the same inertia", fontsize="small")
+        ax.set_xlabel("dots: centres of gravity (larger = heavier);\nrings: pins; bars: rods of equal inertia", fontsize="small")
     ax.set_xticks([])
     if isinstance(system, Rig) and system._floats:
         ax.set_facecolor(FLUID)
@@ -289,14 +289,14 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
         _draw_mode(ax, modes, straight, int(row), at)
     if not len(rows):
         rate = digits(modes.other.growth_rate.max(initial=0.0), 4)  # type: ignore[attr-defined]
-        said = f"no steady\nmotion:\nfalls away as\nexp({rate} t),\nt in s"
+        said = f"no steady\nmotion:\ngrows as\nexp({rate} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels, fontsize="small")
     ax.set_xlim(-SPACING / 2, aside + SPACING * (columns - 0.5))
     straight.finish(ax)
     if len(rows) or carried is not None:
         turn = "\n" if columns < 4 else " "
-        ax.set_xlabel(f"offset from the axis, own scale each;{turn}rings mark the nodes", fontsize="small")
+        ax.set_xlabel(f"offset from the axis, each mode to its own scale;{turn}rings mark the nodes", fontsize="small")
     if rigged and system._floats:
         ax.set_facecolor(FLUID)
     return ax

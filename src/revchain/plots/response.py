@@ -119,7 +119,7 @@ def plot_whirl_swing(found: WhirlSwing, ax: Axes | None, kind: str, pins: Iterab
         ax.plot(0.0, 0.0, marker="+", color="0.4", zorder=0)
         ax.set(xlabel="x (m)", ylabel="y (m)")
     else:
-        ax.set(xlabel="time (s)", ylabel="distance from the axis along x, dashed along y (m)")
+        ax.set(xlabel="time (s)", ylabel="offset (m): x solid, y dashed")
     if chosen:
         legend_outside(ax)
     return ax
@@ -171,7 +171,7 @@ def _swing(
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
-    ax.set(xlabel="distance from axis (m), own scale", ylabel="depth below the support (m)")
+    ax.set(xlabel="distance from axis (m), not to scale", ylabel="depth below the support (m)")
     if drawn.size:
         legend_outside(ax, title=f"{drawn.size} of {order.size} times" if drawn.size < order.size else None)
     return ax

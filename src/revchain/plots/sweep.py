@@ -92,7 +92,7 @@ def _histograms(values: np.ndarray[Any, Any], block: Block, ax: Axes) -> Axes:
             text = f"{label}: median {median:.4g}\n5 to 95 %: {low:.4g} to {high:.4g}"
             bins = min(max(found.size // 100, 10), 50)
             ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=f"C{k}", label=text)
-    ax.set(xlabel=f"{_label(block)}, % from its median", ylabel="share of the points per %")
+    ax.set(xlabel=f"{_label(block)}, % above its median", ylabel="fraction of points per %")
     if ax.has_data():
         legend_outside(ax)
     return ax

@@ -168,7 +168,7 @@ def branches(
     budget: int = 3_000_000,
     proof_budget: int = 1_000_000,
 ) -> Branches | CordBranches | HeldBranches:
-    """Return all branches of steady shapes up to a speed, isolated ones too; ``complete`` says if none can be missing.
+    """Return all branches of steady shapes up to a speed, including isolated ones, and whether any can be missing.
 
     Parameters
     ----------
@@ -208,8 +208,8 @@ def branches(
 
     Notes
     -----
-    A listed shape that matches no branch lies on an isolated branch, which is then followed both ways. ``consistent`` is
-    true if every list is proved complete and each of its shapes matches exactly one branch.
+    A listed shape that matches no branch lies on an isolated branch, which is then followed in both directions.
+    ``consistent`` is true if every list is proved complete and each of its shapes matches exactly one branch.
 
     Loops can open and close between two of the speeds. Interval arithmetic therefore splits the plane of conical height
     and tangent of the lowest link until each part has no fold, or has all its shapes on one curve through a known branch.
@@ -310,8 +310,9 @@ def steady_shape(
     angular_speed : float
         Speed, rad/s.
     tip_inclination : float
-        Size of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an inverted
-        link between pi/2 and pi. The link may lean either way; with the support off the axis it leans outwards.
+        Magnitude of the inclination of the lowest link (of a cord: of its free end), rad: between 0 and pi/2, for an
+        inverted link between pi/2 and pi. The link may lean either way; with the support off the axis it leans
+        outwards.
     tip_radius : float
         Distance of the free end from the axis, m, on either side.
     top_tension : float

@@ -50,8 +50,8 @@ def explain(
     Notes
     -----
     The choice depends on the size and kind of the chain and on the modes and the tolerance, not on the numbers of each link.
-    Where the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the next
-    one, in most cases bisection. ``Modes.method`` names the method that was used. Cost: some microseconds.
+    If the chosen method cannot prove its bound, as happens for links that differ by large factors, `modes` takes the
+    next one, usually bisection. ``Modes.method`` names the method that was used. Cost: a few microseconds.
 
     Examples
     --------

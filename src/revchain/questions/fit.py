@@ -40,7 +40,7 @@ def fit(
     vary: str | Iterable[str] | Mapping[str, float],
     gravity: float = STANDARD_GRAVITY,
 ) -> Fitted:
-    """Return the values of several data that bring a system closest to measured speeds, by least squares.
+    """Return the values of several data that best fit measured speeds, by least squares.
 
     Parameters
     ----------

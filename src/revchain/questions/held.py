@@ -42,7 +42,7 @@ def held_shape(
             f"{place}: a held system has no free end; give conical_height, angular_speed or top_tension, got {name}"
         )
     if every:
-        raise ValueError(f"{place}: all=True is not available for a Held; ask branches for the shapes along a branch")
+        raise ValueError(f"{place}: all=True is not available for a Held; use branches for the shapes along a branch")
     most = max(held.size - 1, 1) * (1 if held.is_on_axis else 2)
     if isinstance(held.system, Chain) and mode > most:
         raise ValueError(f"{place}: mode must be from 1 to {most}, got {mode}")
@@ -58,7 +58,7 @@ def held_shape(
         if name != "top_tension":
             raise
         what = str(error).partition(": ")[2].rpartition(", got ")[0]  # the number there is asked / gravity
-        raise ValueError(f"{place}: {what}; ask branches for the tensions that it has, got {value:g}") from None
+        raise ValueError(f"{place}: {what}; use branches for the tensions that it has, got {value:g}") from None
     kind: Any = HeldShape if isinstance(held.system, Chain) else HeldCordShape
     shape: HeldShape | HeldCordShape = kind._made(
         found,
@@ -74,9 +74,9 @@ def _span(place: str, held: Held) -> float:
     """The span of a held system; a ValueError if it is under a tension or has no gravity."""
     if held.span is None:
         raise ValueError(
-            f"{place}: is for a system held at a span; under a tension ask steady_shapes at a speed, or modes"
+            f"{place}: is for a system held at a span; under a tension use steady_shapes at a speed, or modes"
         )
     if held.weightless:
         why = "a shape is the same at every speed" if held.is_firm else "there are no branches"
-        raise ValueError(f"{place}: without gravity {why}; ask steady_shapes")
+        raise ValueError(f"{place}: without gravity {why}; use steady_shapes")
     return held.span

@@ -89,8 +89,8 @@ def modes(
 ) -> Modes | RigModes | CordModes:
     """Return the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
-    The whirl speed of small amplitude of a chain hung from a fixed point is the natural angular frequency of its swing
-    in a plane.
+    For a chain hung from a fixed point, the small-amplitude whirl speed equals the natural angular frequency of its
+    swing in a plane.
 
     Parameters
     ----------
@@ -126,7 +126,8 @@ def modes(
         float64 arrays, ``conical_height + conical_height_low``, `error_bound` bounds the error of that sum (3e-29 for one
         link, 1e-24 for 2000), and shapes are float64.
     certify : bool
-        Whether to return for each height of a chain or a rig the interval that contains it and the counts that prove it.
+        Whether to return, for each height of a chain or a rig, the interval that contains it and the counts that prove
+        it.
     threads : int, optional
         Number of threads for the heights and shapes of chains and rigs; 0 for all processors. Results are bitwise equal
         for any number.
@@ -140,11 +141,11 @@ def modes(
     Raises
     ------
     ValueError
-        If the modes asked for do not exist or are chosen in two ways, a window is not a pair (low, high) with low below
-        high, `rtol` is NaN or negative, or `method` or `precision` is unknown; if a rig comes with `method` or
-        `precision`; if a rig has more than 20,000 links and its speeds may be complex (inverted links or driven wheels
-        together with momentum, floats in fluid that turns); if a held system is not under a tension that exceeds its
-        weight.
+        If the requested modes do not exist or are specified in two ways, a window is not a pair (low, high) with low
+        below high, `rtol` is NaN or negative, or `method` or `precision` is unknown; if `method` or `precision` is
+        given for a rig; if a rig has more than 20,000 links and its speeds may be complex (inverted links or driven
+        wheels together with momentum, floats in rotating fluid); if a held system is not under a tension that exceeds
+        its weight.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
 
@@ -323,7 +324,7 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held | _core.HeldC
     """The compiled system of a chain or cord that a tension holds straight; a ValueError if it is not so held."""
     if held.span is not None:
         raise ValueError(
-            f"{place}: a chain or cord held at a span is bent and has no critical speeds; ask steady_shapes, and the stability "
+            f"{place}: a chain or cord held at a span is bent and has no critical speeds; use steady_shapes, and the stability "
             f"of a shape, got span {held.span:g}"
         )
     least = 0.0 if held.weightless else held._force(gravity) * held._total
@@ -401,7 +402,7 @@ def count_modes(
     ------
     ValueError
         If both or neither of height and speed are given, or a number is out of its range; if `modes` refuses the system;
-        if rounding leaves the number for a rig in doubt.
+        if, for a rig, rounding leaves the count uncertain.
 
     Notes
     -----

@@ -50,11 +50,11 @@ def response(
     Parameters
     ----------
     system : Chain or Rig
-        A chain of N links, or a rig. With a spring at the support, its place of rest moves.
+        A chain of N links, or a rig. With a spring at the support, its rest position moves.
     conical_height : array_like, optional
         Conical heights ``gravity / angular_speed**2``, m, any shape. Give either this or `angular_speed`.
     angular_speed : array_like, optional
-        Speeds in rad/s, positive; for a rig with flywheels, negative ones too (backward).
+        Speeds in rad/s, positive; for a rig with flywheels also negative (backward).
     gravity : float, optional
         Acceleration of gravity, m/s^2, for `angular_speed` and for flywheels; standard gravity if left out.
     support_radius : float, optional
@@ -107,7 +107,7 @@ def response(
     """
     place = "revchain.response"
     either_sense, own = False, 1.0
-    refuse_other(place, system, (Chain, Rig), {Cord: "ask its chain: cord.chain(100)", Held: "ask steady_shapes"})
+    refuse_other(place, system, (Chain, Rig), {Cord: "use its chain: cord.chain(100)", Held: "use steady_shapes"})
     if isinstance(system, Rig):
         either_sense, own = system.has_momentum, system.support.radius or 1.0
     if (conical_height is None) == (angular_speed is None):
@@ -213,7 +213,7 @@ def swing(
     arc_length: ArrayLike | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Swing | CordSwing | WhirlSwing:
-    """Return the small free oscillations of a hanging chain, rig or cord from any start, by superposition of modes.
+    """Return the small free oscillations of a hanging chain, rig or cord from any initial state, as a sum of modes.
 
     The motion is in one plane; its natural angular frequencies are the whirl speeds of `modes`. Motions in the two
     horizontal directions are independent: call the function for each. Flywheels with momentum turn the plane of the
@@ -234,8 +234,8 @@ def swing(
     count : int, optional
         Number of modes, slowest first; if left out, all, or 40 for a cord. With momentum, modes of both directions count.
     arc_length : array_like, optional
-        For a cord: distances from the free end of the places to return, m, ascending. They must go from 0 to the length
-        if `offset` or `velocity` are numbers. If left out, the places are evenly spaced: one for each number, or 101.
+        For a cord: distances from the free end of the points to return, m, ascending. They must go from 0 to the length
+        if `offset` or `velocity` are numbers. If left out, the points are evenly spaced: one for each number, or 101.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
 
@@ -253,7 +253,7 @@ def swing(
     ValueError
         If `system` is a `Held`; if a number is not finite, a start has another length or moves a firm support, `count`
         exceeds the number of modes, or weights differ by more than a factor of 1e123; if a function jumps, or `arc_length`
-        comes with a chain. For a rig: if its straight position is unstable (the message gives the rate of growth), if its
+        comes with a chain. For a rig: if its straight position is unstable (the message gives the growth rate), if its
         support is carried round (use `response`), if the fluid turns, if it has momentum and pins without inertia, or if a
         start is complex without momentum.
 
@@ -293,7 +293,7 @@ def swing(
     (-0.0959, True)
     """
     place = "revchain.swing"
-    refuse_other(place, system, (Chain, Rig, Cord), {Held: "ask its modes"})
+    refuse_other(place, system, (Chain, Rig, Cord), {Held: "use its modes"})
     times = floats(place, "time", time)
     if times.ndim > 1:
         raise ValueError(f"{place}: time must be a number or have one axis, got an array of shape {times.shape}")
@@ -341,7 +341,7 @@ def _start(place: str, name: str, value: Any, system: Chain | Rig) -> Any:
         array = floats(place, name, value)
     elif not (isinstance(system, Rig) and system.has_momentum):
         raise ValueError(
-            f"{place}: {name} must be real: without momentum of flywheels the two horizontal directions are independent; ask "
+            f"{place}: {name} must be real: without momentum of flywheels the two horizontal directions are independent; solve "
             f"for each, got {shown(value)}"
         )
     if array.shape not in ((size,), (size + 1,)):

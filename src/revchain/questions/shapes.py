@@ -56,16 +56,16 @@ def steady_shapes(
         the list is empty and not complete. Held chains: 300,000 if left out, at 1 to 2 microseconds each; with 0
         completeness is not proved.
     hanging_only : bool, optional
-        Chains and rigs: whether to leave out shapes in which a link stands, that is, makes more than a right angle with
+        Chains and rigs: whether to leave out shapes in which a link is inverted, that is, at more than a right angle to
         the downward vertical. For a rig: whether to leave out shapes with other links inverted than those of the rig.
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_half_waves : int, optional
-        Held systems: largest number of half waves to look for.
+        Held systems: largest number of half waves to search for.
     prove : bool, optional
         Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
     scanned : int, optional
-        Cords whose shapes no theorem counts: number of offsets of the free end to examine.
+        Cords for which no theorem counts the shapes: number of offsets of the free end to examine.
     threads : int, optional
         Number of threads for chains and rigs; 0 for all processors. Results are bitwise equal for any number. Threads
         share the refinement of the shapes, not the search, which is about half of the work.
@@ -80,25 +80,26 @@ def steady_shapes(
         at a positive offset is given (if that is 0, the one with a positive inclination of the lowest inclined link). If
         the support is carried round there are no mirror images; outwards is positive. The order is by half waves, then by
         inclination of the lowest link. ``complete`` is true if it is proved that none is missing among those asked for. Inclinations are within
-        the proved ``error_bound``, mostly 2.2e-16. The list is empty and complete if the height exceeds that of the first
-        mode, in any posture.
+        the proved ``error_bound``, usually 2.2e-16. The list is empty and complete if the height exceeds that of the
+        first mode, in any posture.
 
         Cords: ordered by half waves. ``complete`` is true if a theorem counts the shapes: there is then one for each
         critical height above the given height. This holds for a uniform cord with or without a tip, and for a density
         ``s**p`` without a tip, or with a tip if p is below 0. It also holds if at most one critical height lies above the
         given one. Otherwise a shape that exists only between two scanned offsets is missed.
 
-        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among those of equally many, the
-        shape that is reached from the nearly straight chain without gravity, as the ends approach and gravity then grows,
-        comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose lowest
-        link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the line
-        between the ends (with springs: between their places of rest). ``missing`` lists the half waves without a shape.
-        Held chains: ``complete`` is true if it is proved that there are no other shapes of so many half waves; else
-        ``undecided`` gives the inclinations of the lowest link at which others may start. The proof mostly succeeds for
-        one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more it often leaves a few
-        hundredths of a radian; for more half waves it seldom succeeds. If both ends are off the axis, a shape need not lie
-        in a plane. Only shapes in the plane of the ends are looked for, and ``complete`` is false. Held cords: ``complete`` is true for a span without
-        gravity, which has one shape for each number of half waves.
+        Held systems: shapes of 1 to `max_half_waves` half waves, ordered by half waves. Among shapes with equally many,
+        the one that is reached from the nearly straight chain without gravity, as the ends approach and gravity then
+        grows, comes first. Each link points along the pull on it, as a thread does. Of two mirror images the one whose
+        lowest link leads outwards is given; ends off the axis have no mirror images. Half waves are counted about the
+        line between the ends (with springs: between their rest positions). ``missing`` lists the half waves without a
+        shape. Held chains: ``complete`` is true if it is proved that there are no other shapes with these numbers of
+        half waves; else ``undecided`` gives the inclinations of the lowest link at which others may start. The proof
+        usually succeeds for one half wave of 3 to 9 links with ``l <= a`` and mass at every pin. With 20 links and more
+        it often leaves a few hundredths of a radian; for more half waves it seldom succeeds. If both ends are off the
+        axis, a shape need not lie in a plane. Only shapes in the plane of the ends are searched for, and ``complete``
+        is false. Held cords: ``complete`` is true for a span without gravity, which has one shape for each number of
+        half waves.
 
     Raises
     ------
@@ -112,18 +113,18 @@ def steady_shapes(
     Notes
     -----
     Chains and rigs. Method: interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908),
-    section 8 (4), (12), then Newton's method on all pins in double-double. A link that stands, or whose
+    section 8 (4), (12), then Newton's method on all pins in double-double. A link that is inverted, or whose
     ``pendulum_length > length``, can have three inclinations under one load; all are followed. The list is not complete
     exactly at a critical speed or where two shapes start, or if the budget ends. For heights below about 2e-15 of the
     longest link it is empty and not complete: double-double cannot represent the offsets from which the tensions follow.
-    Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four plummets. The number
-    of shapes and the time about double with each link; if links may stand they grow fourfold.
+    Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for all 64 shapes of four plummets. The
+    number of shapes and the time roughly double with each link; if links may be inverted they quadruple.
 
-    Cords. Method: power series along the cord, Newton's method on the place where it crosses the axis. Inclinations, and
-    offsets divided by the length, are within ``error_estimate``.
+    Cords. Method: power series along the cord, Newton's method on the point where it crosses the axis. Inclinations,
+    and offsets divided by the length, are within ``error_estimate``.
 
-    Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is mostly
-    proved; places of cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
+    Held systems. Accuracy: inclinations of chains are correctly rounded to within 1e-20, with a bound that is usually
+    proved; positions on cords are within 1e-13 of the length. Completeness: Krawczyk's test on the pull along the
     lowest link and its inclination, 0.05 to 0.5 s.
 
     Examples
@@ -145,8 +146,8 @@ def steady_shapes(
     1 hanging shape at 1.25660 rad/s (12.00 rpm), proved complete
     shape  half waves  lowest link (°)  top link (°)  free end: from axis (m)  above support (m)  top tension  error (rad)
         1           1           21.824        21.824                   2.4870            -3.7133       861.76      2.2e-16
-    inclinations: to the downward vertical; error: proved bound of every inclination
-    with links above their pins (hanging_only=False) there may be more
+    inclinations: from the downward vertical; error: proved bound on every inclination
+    hanging_only=False also looks for shapes with links above their pins
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 

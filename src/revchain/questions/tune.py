@@ -40,7 +40,7 @@ def tune(
     gravity: float = STANDARD_GRAVITY,
     between: tuple[float, float] | None = None,
 ) -> Tuned:
-    """Return the value of one datum that gives a mode a wanted speed.
+    """Return the value of one datum for which a mode has a given speed.
 
     Parameters
     ----------
@@ -63,11 +63,11 @@ def tune(
         Number of the mode, from 1 for the slowest; for a rig with flywheels among those of the direction of the speed; at a
         span the number of half waves.
     angular_speed : float, optional
-        Wanted whirl speed, rad/s; for a rig it may be negative.
+        Required whirl speed, rad/s; for a rig it may be negative.
     conical_height : float, optional
-        Wanted conical height, m, instead of `angular_speed`.
+        Required conical height, m, instead of `angular_speed`.
     top_tension : float, optional
-        For a system held at a span, which is bent at every speed: wanted tension at the upper end at that speed (see
+        For a system held at a span, which is bent at every speed: required tension at the upper end at that speed (see
         `steady_shape`), in N or the unit of the weights.
     gravity : float, optional
         Acceleration of gravity, m/s^2; standard gravity if left out.
@@ -85,8 +85,8 @@ def tune(
     Raises
     ------
     ValueError
-        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, the link would
-        stand instead of hang in the range, or there is no such mode; if a system held at a span comes without
+        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, the link
+        would be inverted somewhere in the range, or there is no such mode; if a system held at a span comes without
         `top_tension`, or another system with it.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
@@ -96,18 +96,19 @@ def tune(
     A link of a chain: at a given height, the rest of the chain acts as a spring at each pin of the link. The values of a
     centroid or a length are then roots of a quadratic, those of a radius of gyration or a length in proportion the root of
     a linear equation. Proved counts select the values of this mode and bound their errors. The height rises with a length
-    in proportion and with a radius of gyration; with other data it may have extremes. A mass loads every link above; the
+    in proportion and with a radius of gyration; with other data it may have extrema. A mass loads every link above; the
     search then takes steps that cannot miss a value, because the relative change of a height never exceeds that of the
     mass.
 
     A rig has one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
-    modes of the new rig tell the number of the mode.
+    modes of the new rig give the number of the mode.
 
-    All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extremes between
-    them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two values
-    whose speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is False. A held
-    system has at most one tension or mass for each speed; `complete` is then True if it is found. At a span with
-    `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error is an estimate.
+    All other data of rigs, cords and held systems are searched: the speed is computed at 65 values and at extrema
+    between them, and each pair of neighbours that encloses the wanted speed is bisected. The error bound is that of two
+    values whose speeds, with their own bounds, enclose the wanted one. The search may miss values, so `complete` is
+    False. A held system has at most one tension or mass for each speed; `complete` is then True if it is found. At a
+    span with `top_tension` the speed is that of `steady_shape`, the fastest on the branch, and its error is an
+    estimate.
 
     Examples
     --------
@@ -147,8 +148,8 @@ def tune(
     bent = isinstance(system, Held) and system.span is not None
     if bent and top_tension is None:
         raise ValueError(
-            f"{_PLACE}: a system held at a span is bent and has no critical speed; also give top_tension, the wanted tension "
-            "at the upper end"
+            f"{_PLACE}: a system held at a span is bent and has no critical speed; also give top_tension, the "
+            "required tension at the upper end"
         )
     if top_tension is not None and not bent:
         raise ValueError(f"{_PLACE}: top_tension is for a system held at a span; leave it out, got {shown(top_tension)}")

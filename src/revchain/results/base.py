@@ -77,7 +77,7 @@ class Result(Unchangeable):
             Result._kinds[cls.__name__] = cls
 
     def __init__(self) -> None:
-        raise TypeError(f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; ask the question")
+        raise TypeError(f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; call a question, such as revchain.modes")
 
     @classmethod
     def _made(cls, core: Any, **parts: Any) -> Self:

@@ -128,7 +128,7 @@ def _no_sensitivity(shape: Any) -> ShapeSensitivity:
 
 
 class CordShape(_Bent):
-    """One steady shape of a cord hung from one end. The places of its arrays are dense where the cord bends sharply.
+    """One steady shape of a cord hung from one end. The points of its arrays are closest where the cord bends sharply.
 
     Examples
     --------
@@ -151,8 +151,8 @@ class CordShape(_Bent):
         lambda s: s._found().error_bound,
         part=True,
     )
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: an AttributeError.", _no_sensitivity)
-    _note: ClassVar[str] = "lower end: inclination to the downward vertical there; error: estimated"
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
+    _note: ClassVar[str] = "lower end: inclination there from the downward vertical; error: estimated"
     _place_note: ClassVar[str] = "arc lengths from the free end, heights above the support"
 
     def at(self, arc_length: ArrayLike) -> Place:
@@ -237,7 +237,7 @@ class _HeldShape(_Bent):
 
     __slots__ = ()
     tension: Field[Floats] = Field(
-        "Size of the force at each pin or place, N or in the unit of the weights.",
+        "Magnitude of the force at each pin or place, N or in the unit of the weights.",
         forced("height_times_tension"),
         part=True,
     )
@@ -255,7 +255,7 @@ class _HeldShape(_Bent):
     residual: Field[float] = Field(
         "Largest unbalanced force divided by the tension, or largest gap at an end divided by the length.", part=True
     )
-    _note: ClassVar[str] = "lower end: inclination there to the upward vertical"
+    _note: ClassVar[str] = "lower end: inclination there from the upward vertical"
     _place_note: ClassVar[str] = "heights above the lower end"
 
     @property
@@ -304,7 +304,8 @@ class HeldShape(_HeldShape):
         "Inclination of the upward force at each pin (`tension`) to the vertical, rad, shape (N + 1,).", part=True
     )
     joint_angle: Field[Floats] = Field(
-        "Inclination of the link below each pin less that of the link above it, rad, shape (N + 1,); beyond the ends 0.",
+        "Inclination of the link below each pin minus that of the link above it, rad, shape (N + 1,); 0 beyond the "
+        "ends.",
         lambda s: -np.diff(s.inclination, prepend=0.0, append=0.0),
     )
     reaction: Field[Floats] = Field(
@@ -424,7 +425,7 @@ class HeldCordShape(_HeldShape):
         """
         driven = is_driven("revchain.HeldCordShape.stability", frame)
         return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: an AttributeError.", _no_sensitivity)
+    sensitivity: Field[ShapeSensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return offset, height, inclination and tension at distances along the cord.

@@ -73,7 +73,8 @@ class Branch(Result, Moving):
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
     mode: Field[int | None] = Field(
-        "Number of the mode at which the branch leaves the vertical; 1 for a branch from rest; None for an isolated branch.",
+        "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None for "
+        "an isolated branch.",
         lambda b: b._found().mode or None,
         part=True,
     )
@@ -83,8 +84,8 @@ class Branch(Result, Moving):
         part=True,
     )
     arc: Field[Floats] = Field(
-        "Arc length of the branch from its first point, without unit: the root of the mean square of the links' "
-        "``d arsinh(tan(inclination))`` plus the square of ``d log(conical_height)``, summed up.",
+        "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
+        "arsinh(tan(inclination))`` plus the square of ``d log(conical_height)``, summed up.",
         part=True,
     )
     conical_height: Field[Floats] = Field("Conical height of the speed, m.", part=True)
@@ -98,26 +99,32 @@ class Branch(Result, Moving):
     )
     tip_radius: Field[Floats] = Field("Signed offset of the free end from the axis, m.", part=True)
     top_tension: Field[Floats] = Field(
-        "Size of the reaction at the topmost pin, N or in the unit of the weights.", forced("top_tension"), part=True
+        "Magnitude of the reaction at the topmost pin, N or in the unit of the weights.",
+        forced("top_tension"),
+        part=True,
     )
     moment_of_inertia: Field[Floats] = Field(
         "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
     )
     effective_energy: Field[Floats] = Field(
-        "Potential energy less half the moment of inertia times the speed squared, J.", forced("effective_energy"), part=True
+        "Potential energy minus half the moment of inertia times the speed squared, J.",
+        forced("effective_energy"),
+        part=True,
     )
     half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", part=True)
     folds: Field[Whole] = Field(
-        "Indices of the points at which the conical height has a local extreme: two shapes start or meet there.", part=True
-    )
-    end: Field[str] = Field(
-        "Reason of the end. ``'height'``: the given conical height is reached. ``'closed'``: the branch is back at its "
-        "start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` is reached. ``'stuck'``: no "
-        "step passed every check. ``'slow'``: it approaches rest. ``'slack'``: flywheels cancel the tension of a link, which "
-        "becomes horizontal. ``'loose'``: the spring at the support no longer holds the chain.",
+        "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
         part=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("Numbers of the question, to compute shapes later.", part=True)
+    end: Field[str] = Field(
+        "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
+        "back at its start. ``'vertical'``: it is back at the straight chain. ``'budget'``: `max_points` is reached. "
+        "``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. ``'slack'``: flywheels cancel the "
+        "tension of a link, which becomes horizontal. ``'loose'``: the spring at the support no longer holds the "
+        "chain.",
+        part=True,
+    )
+    asked: Field[tuple[Any, ...]] = Field("Arguments of the call, used to compute shapes later.", part=True)
 
     def shape(self, point: int) -> SteadyShape:
         """Return the shape at a point of the branch.
@@ -154,7 +161,7 @@ class Branch(Result, Moving):
         angular_speed: float | None = None,
         gravity: float | None = None,
     ) -> tuple[SteadyShape, ...]:
-        """Return the shapes of the branch at a speed, as far as the branch was followed.
+        """Return the shapes at a speed on the part of the branch that was followed.
 
         Parameters
         ----------
@@ -333,7 +340,7 @@ class Branches(Results[Branch], Moving):
         part=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is also proved that no branch is missing, not even a loop between two of these speeds.", part=True
+        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds.", part=True
     )
     looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", part=True)
     remark: Field[str] = Field("A sentence that says what may be missing.", part=True)
@@ -366,7 +373,7 @@ class Branches(Results[Branch], Moving):
         >>> import revchain as rc
         >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
         >>> ax.get_xlabel()
-        'speed over the first critical speed'
+        'speed / first critical speed'
         """
         from ..plots.branches import plot_branches
 

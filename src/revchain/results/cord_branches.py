@@ -35,8 +35,8 @@ class CordBranch(Branch):
         part=True,
     )
     arc: Field[Floats] = Field(
-        "Arc length of the branch from its first point, without unit: the root of the squares of "
-        "``d arsinh(tan(tip_inclination))`` and ``d log(conical_height)``, summed up.",
+        "Arc length of the branch from its first point, dimensionless: the root of the squares of ``d "
+        "arsinh(tan(tip_inclination))`` and ``d log(conical_height)``, summed up.",
         part=True,
     )
 
@@ -76,7 +76,7 @@ class CordBranch(Branch):
         angular_speed: float | None = None,
         gravity: float | None = None,
     ) -> tuple[CordShape, ...]:
-        """Return the shapes of the branch at a speed, as far as the branch was followed.
+        """Return the shapes at a speed on the part of the branch that was followed.
 
         Parameters
         ----------
@@ -143,7 +143,7 @@ class CordBranch(Branch):
         """
         place = "revchain.CordBranch.stability_windows"
         is_driven(place, frame)
-        raise ValueError(f"{place}: is for chains; ask the stability of shapes: branch.shape(-1).stability()")
+        raise ValueError(f"{place}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
 
     def _again(self) -> Any:
         core = self.system._compiled

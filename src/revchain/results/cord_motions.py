@@ -107,9 +107,9 @@ class CordSwing(Result, Moving):
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
             Column("time", self.time, "time (s)"),
-            Column("lowest_offset", self.offset[:, 0], "lowest place (m)"),
-            Column("lowest_velocity", self.velocity[:, 0], "lowest place (m/s)"),
-            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest place (m)"),
+            Column("lowest_offset", self.offset[:, 0], "lowest point (m)"),
+            Column("lowest_velocity", self.velocity[:, 0], "lowest point (m/s)"),
+            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest point (m)"),
             Column("offset", self.offset, axes=("place",)),
             Column("velocity", self.velocity, axes=("place",)),
         ]

@@ -41,7 +41,7 @@ class CordDerivatives(_ByDatum):
     tension: Field[Floats] = Field("Numbers for the tension, shape (k,); see `CordSensitivity.tension`.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Numbers by datum", self._columns())
+        return Sheet("mode", "Values by datum", self._columns())
 
 
 class CordSensitivity(_ByDatum):

@@ -83,7 +83,7 @@ class ForceDiagram(Result):
         >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.5)[0]
         >>> figure, forces = shape.force_diagram().plot()
         >>> forces.get_title()
-        'diagram of force'
+        'force diagram'
         """
         from ..plots.closed_forms import plot_force_diagram
 

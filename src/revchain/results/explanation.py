@@ -36,7 +36,7 @@ class Explanation(Result):
     meets_tolerance: Field[bool] = Field(
         "Whether the chosen method is within `rtol`; if not, no method is, and it is the most accurate one.", part=True
     )
-    rtol: Field[float] = Field("Wanted relative tolerance; 0 for the best possible.", part=True)
+    rtol: Field[float] = Field("Requested relative tolerance; 0 for the best possible.", part=True)
 
     @property
     def rows(self) -> tuple[MethodEstimate, ...]:

@@ -15,7 +15,7 @@ _MOST_LINES = 8
 
 
 class Fitted(Result):
-    """Values of p data that bring a system closest to m measured speeds, with uncertainties; returned by `fit`.
+    """Values of p data that best fit m measured speeds, with uncertainties; returned by `fit`.
 
     Examples
     --------
@@ -72,7 +72,7 @@ class Fitted(Result):
     )
     computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", part=True)
     residual: Field[Floats] = Field(
-        "Measured speeds less computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed
+        "Measured speeds minus computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed
     )
     normalized_residual: Field[Floats] = Field(
         "Residuals divided by the uncertainties of the measured speeds, shape (m,).",
@@ -84,7 +84,7 @@ class Fitted(Result):
         part=True,
     )
     degrees_of_freedom: Field[int] = Field(
-        "Number of measurements less number of data, m - p, plus the number of undetermined combinations of data.",
+        "Number of measurements minus number of data, m - p, plus the number of undetermined combinations of data.",
         part=True,
     )
     undetermined: Field[tuple[tuple[str, ...], ...]] = Field(

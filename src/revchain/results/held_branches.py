@@ -76,10 +76,10 @@ class HeldBranch(Result, Moving):
         part=True,
     )
     end: Field[str] = Field(
-        "Reason of the end. ``'slack'``: a link becomes slack or turns over (the last speed is within a measured 2e-5, "
-        "relative). ``'folded'``: a cord hangs folded along the axis. ``'speed'``: the greatest speed is reached again. "
-        "``'rest'``: with ends off the axis the chain hangs as at rest, at a conical height of 10,000 lengths. "
-        "``'budget'``: 3000 steps are done.",
+        "Reason why the branch ends. ``'slack'``: a link becomes slack or turns over (the last speed is within a "
+        "measured 2e-5, relative). ``'folded'``: a cord hangs folded along the axis. ``'speed'``: the greatest speed "
+        "is reached again. ``'rest'``: with ends off the axis the chain hangs as at rest, at a conical height of "
+        "10,000 lengths. ``'budget'``: 3000 steps are done.",
         part=True,
     )
     asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.", part=True)

@@ -72,10 +72,10 @@ class Certificate(Result):
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
             Column("mode", self.number, "mode"),
-            Column("lower", self.lower, "height is above (m)", 17),
-            Column("upper", self.upper, "and up to (m)", 17),
-            Column("above_lower", self.above_lower, "heights above the first"),
-            Column("above_upper", self.above_upper, "and above the second"),
+            Column("lower", self.lower, "height above (m)", 17),
+            Column("upper", self.upper, "height at most (m)", 17),
+            Column("above_lower", self.above_lower, "heights > lower"),
+            Column("above_upper", self.above_upper, "heights > upper"),
         ]
         columns += _rest("lower", self.lower, self.lower_low) + _rest("upper", self.upper, self.upper_low)
         return Sheet("mode", "Certificate: intervals proved to hold the conical heights", columns)
@@ -161,11 +161,11 @@ class Modes(Result, Moving):
         "each mode is 1, and the free end is positive."
     )
     residual: Field[Numbers] = Field(
-        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the sizes of "
-        "the forces at a pin."
+        "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
+        "magnitudes of the forces at a pin."
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
-        "For each mode the distances from the free end along the chain at which it crosses the axis, without the "
+        "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the "
         "support."
     )
     certificate: Field[Certificate | None] = Field(
@@ -176,9 +176,9 @@ class Modes(Result, Moving):
     method: Field[str] = Field("The method that found the heights.", part=True)
     status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", part=True)
     precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", part=True)
-    rtol: Field[float | None] = Field("Wanted relative tolerance; None for full accuracy.", part=True)
+    rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.", part=True)
     sensitivity: Field[Sensitivity | RigSensitivity] = Field(
-        "Derivatives with respect to each datum of each link. Cost: 2 microseconds for each link and mode.",
+        "Derivatives with respect to each datum of each link. Cost: 2 microseconds per link and mode.",
         lambda m: _sensitivity(m),
     )
 
@@ -215,7 +215,7 @@ class Modes(Result, Moving):
         if isinstance(self.system, Rig) or held:
             what = "a system held by a tension in newtons" if held else "a rig"
             raise ValueError(
-                f"revchain.{type(self).__name__}.at: {what} has other modes at another gravity; ask revchain.modes again"
+                f"revchain.{type(self).__name__}.at: {what} has other modes at another gravity; call revchain.modes again"
             )
         speeds = ("angular_speed", "frequency", "rpm", "period")
         kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}
@@ -272,7 +272,7 @@ class Modes(Result, Moving):
         if not isinstance(self.system, Chain):
             raise ValueError(
                 "revchain.Modes.uncertainty: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the "
-                "datum and ask again"
+                "datum and call modes again"
             )
         given = {
             "mass": mass,
@@ -287,7 +287,7 @@ class Modes(Result, Moving):
     def plot(
         self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
     ) -> Axes:
-        """Draw the system at rest and beside it the mode shapes, each along its own axis; rings mark the nodes.
+        """Draw the system at rest and, beside it, the mode shapes, each along its own axis; rings mark the nodes.
 
         Forward modes of a rig with flywheels are blue, backward ones red; inverted links are thick.
 
@@ -454,7 +454,8 @@ class RigModes(Modes):
     __slots__ = ()
     number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,), from 1.", part=True)
     direction: Field[Whole] = Field(
-        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum both are alike, and all are 1.",
+        "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum the directions do not differ, "
+        "and all are 1.",
         part=True,
     )
     angular_speed: Field[Numbers] = Field(
@@ -465,19 +466,23 @@ class RigModes(Modes):
     speed_error_bound: Field[Floats] = Field("Proved bound of the relative error of each speed, shape (k,).", part=True)
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
     certificate: Field[Certificate | None] = Field(
-        "The proof of the error bounds with ``certify=True``, else None. Its counts are those of the mode's direction.",
+        "The proof of the error bounds with ``certify=True``, else None. Its counts are for the direction of each "
+        "mode.",
         lambda m: _certificate(m.number, m._found().certificate),
         part=True,
     )
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    rtol: Field[float | None] = Field("Wanted relative tolerance; None if left out. Rigs have full accuracy.", part=True)
+    rtol: Field[float | None] = Field(
+        "Requested relative tolerance; None if left out. Rigs have full accuracy.", part=True
+    )
     available: Field[tuple[int, int]] = Field("Number of existing modes, forward and backward.", part=True)
     has_momentum: Field[bool] = Field(
         "Whether a flywheel has constant momentum, so that the two directions differ.", part=True
     )
     other_available: Field[int] = Field("Number of solutions that are not steady motions, found by counting.", part=True)
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond for each and each link.",
+        "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond per solution and "
+        "link.",
         lambda m: m._others(),
     )
     slack_link: Field[Whole] = Field(
@@ -617,7 +622,7 @@ class RigModes(Modes):
 
 
 class CordModes(Modes):
-    """The k modes of a cord, slowest first, with shapes at any place.
+    """The k modes of a cord, slowest first, with shapes at any point.
 
     For a cord held straight at both ends, distances start at its lower end.
 
@@ -858,7 +863,7 @@ def _sensitivity(modes: Modes) -> Any:
     if not isinstance(modes.system, Chain):
         raise UnavailableError(
             "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum "
-            "and ask again"
+            "and call modes again"
         )
     return sensitivity.of_modes(modes)
 

@@ -55,8 +55,8 @@ class Response(Result, Moving):
     conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).", part=True)
     support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
     pins: Field[Whole] = Field(
-        "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and `offset` "
-        "has no axis for pins.",
+        "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and "
+        "`offset` has no dimension for pins.",
         part=True,
     )
     offset: Field[Floats] = Field(
@@ -72,8 +72,8 @@ class Response(Result, Moving):
         part=True,
     )
     modes_below: Field[Whole] = Field(
-        "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance that "
-        "cannot be separated from the speed does not count.",
+        "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance "
+        "that cannot be separated from the speed is not counted.",
         part=True,
     )
     reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
@@ -161,14 +161,14 @@ class Response(Result, Moving):
             Column("offset", offset, axes=("pin",)),
         ]
         notes = [
-            "negative: against the support; nan: a resonance",
-            "error bound: of every offset, over the largest, by rounding; pull: of the chain, outwards",
+            "negative: opposite to the support; nan: at a resonance",
+            "error bound: rounding error over the largest offset; pull: outward force on the support",
             "steady motion of small amplitude, without damping",
         ]
         base = getattr(self.system, "chain", self.system)
         if farthest.max(initial=0.0, where=np.isfinite(farthest)) - abs(self.support_radius) > BENT * base.total_length:
-            notes.append("some offsets are not small beside the chain: there steady_shapes has the real ones")
-        heading = f"support carried round a circle of {self.support_radius:g} m, or to and fro as far"
+            notes.append("some offsets are not small compared with the chain: use steady_shapes there")
+        heading = f"support moving in a circle of radius {self.support_radius:g} m, or to and fro with this amplitude"
         facts = {"gravity": self.gravity, "support_radius": self.support_radius, "pins": self.pins}
         return Sheet("speed", heading, columns, facts, notes, spread=True)
 
@@ -223,13 +223,13 @@ class Swing(Result, Moving):
     )
     sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
     start: Field[Floats] = Field(
-        "Offsets at time 0, shape (N + 1,): those given; pins without inertia move at once to where their neighbours pull "
-        "them.",
+        "Offsets at time 0, shape (N + 1,): those given; pins without inertia move at once to the positions where "
+        "their neighbours pull them.",
         part=True,
     )
     projected: Field[bool] = Field("Whether `start` differs from the given offsets.", part=True)
     energy_left_out: Field[float] = Field(
-        "Upper bound of the energy of the start that is not in the modes used.", part=True
+        "Upper bound on the initial energy that is not in the modes used.", part=True
     )
     truncation_error: Field[Floats] = Field(
         "Proved bound of the effect of the modes not used on each offset at any time, shape (N + 1,).", part=True
@@ -243,7 +243,7 @@ class Swing(Result, Moving):
     def plot(
         self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,)
     ) -> Axes:
-        """Draw the chain at the given times, or offsets of pins against time.
+        """Draw the chain at the given times, or the offsets of pins against time.
 
         Parameters
         ----------
@@ -354,20 +354,20 @@ class WhirlSwing(Result, Moving):
         "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
     )
     energy: Field[Floats] = Field(
-        "Energy of each whirl, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps a "
-        "standing link from falling.",
+        "Energy of each whirl, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps "
+        "an inverted link from falling.",
         part=True,
     )
     shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.", part=True)
     energy_left_out: Field[float] = Field(
-        "Upper bound of the energy of the start that is not in the whirls used; infinite if a link stands.", part=True
+        "Upper bound on the initial energy that is not in the whirls used; infinite if a link is inverted.", part=True
     )
     truncation_error: Field[Floats] = Field(
         "Proved bound of the effect of the whirls not used on each offset at any time, shape (N + 1,).", part=True
     )
     error_bound: Field[Floats] = Field(
         "Proved bound of the rounding error of each offset as a sum of the whirls used, shape (T,); infinite if a link "
-        "stands.",
+        "is inverted.",
         part=True,
     )
 

@@ -140,7 +140,7 @@ class Moving:
         duration: float | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> None:
-        """Write the motion as a solid, a binary glTF file that three-dimensional viewers and presentations play.
+        """Write the motion as a solid: a binary glTF file for 3D viewers and presentations.
 
         Upwards is y, in metres. Each figure is a node with its axis and a node ``turning``, whose rotation is an
         animation channel; in that are the links, bodies, rods of the same inertia, flywheels, the support and its arm.
@@ -197,7 +197,7 @@ class Moving:
         duration: float | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> None:
-        """Write a page that shows the solid of `to_glb` in three dimensions and plays it.
+        """Write a page that shows and animates the solid of `to_glb` in three dimensions.
 
         The page is one file: the solid and its viewer, three.js, are inside. It opens in any browser that has WebGL and
         needs no network. `animate` with a path that ends in ``.html`` writes a lighter page, which draws lines.

@@ -74,7 +74,7 @@ class Derivatives(_ByDatum):
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Numbers by datum; the lowest link is shown", self._columns())
+        return Sheet("mode", "Values by datum; the lowest link is shown", self._columns())
 
 
 class Sensitivity(_ByDatum):
@@ -187,7 +187,7 @@ class Uncertainty(Result):
             Column("relative", self.relative, "relative, of the height"),
             Column("angular_speed", self.angular_speed, "of the speed (rad/s)"),
             Column("period", self.period, "of the period (s)"),
-            Column("largest", [self._most(row) for row in range(len(self.largest))], "most comes from"),
+            Column("largest", [self._most(row) for row in range(len(self.largest))], "largest part from"),
         ]
         return Sheet("mode", "Standard deviations", columns)
 
@@ -303,7 +303,7 @@ class RigDerivatives(_ByRigDatum):
     support_mass: Field[Floats] = Field("Numbers for the mass that moves with the support, shape (k,).", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        return Sheet("mode", "Numbers by datum; the lowest link is shown", self._columns())
+        return Sheet("mode", "Values by datum; the lowest link is shown", self._columns())
 
 
 class RigSensitivity(_ByRigDatum):

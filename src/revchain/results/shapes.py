@@ -74,8 +74,9 @@ class Stability(Result):
         part=True,
     )
     exponent_error: Field[Floats] = Field(
-        "Estimate of the error of each exponent, by rounding of the shape, of its tensions and of all that follows (of a cord: "
-        "the difference of two discretisations, at least). It is large where two exponents meet, or one is near 0.",
+        "Estimate of the error of each exponent due to rounding in the shape, its tensions and all later steps (for a "
+        "cord, at least the difference of two discretisations). It is large where two exponents meet, or one is near "
+        "0.",
         part=True,
     )
     internal_damping: Field[Floats] = Field(
@@ -91,7 +92,8 @@ class Stability(Result):
         part=True,
     )
     growth_rate: Field[float] = Field(
-        "Largest real part of the exponents, in units of the turning speed; NaN in a fluid that turns, where it is unknown.",
+        "Largest real part of the exponents, in units of the turning speed; NaN in a rotating fluid, where it is "
+        "unknown.",
         part=True,
     )
     margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", part=True)
@@ -112,7 +114,7 @@ class Stability(Result):
         ]
         facts = {name: getattr(self, name) for name in ("frame", "verdict", "growth_rate", "margin")}
         heading = f"Stability ({self.frame}): {self.verdict}, growth rate {self.growth_rate:.3g} n"
-        notes = ["without damping; the last columns: what a unit of it adds to the growth, 1/s"]
+        notes = ["without damping; last two columns: growth rate added by a unit of damping, 1/s"]
         return Sheet("exponent", heading, columns, facts | {"negative_directions": self.negative_directions}, notes)
 
 
@@ -232,7 +234,7 @@ class SteadyShape(Shape):
     )
     height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).", part=True)
     tension: Field[Floats] = Field(
-        "Size of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
+        "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
         forced("tension"),
         part=True,
     )
@@ -240,7 +242,8 @@ class SteadyShape(Shape):
         "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,).", part=True
     )
     joint_angle: Field[Floats] = Field(
-        "Inclination of each link less that of the link above it, rad, shape (N,); of the top link its inclination.",
+        "Inclination of each link minus that of the link above it, rad, shape (N,); for the top link, its own "
+        "inclination.",
         lambda s: s.inclination - np.append(s.inclination[1:], 0.0),
     )
     reaction: Field[Floats] = Field(
@@ -256,20 +259,22 @@ class SteadyShape(Shape):
         part=True,
     )
     condition: Field[float] = Field(
-        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each weight and "
-        "each centrifugal force changes by up to this part of itself, with any sign.",
+        "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each "
+        "weight and each centrifugal force changes by up to this fraction, with any sign.",
         part=True,
     )
     moment_of_inertia: Field[float] = Field(
         "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
     )
     effective_energy: Field[float] = Field(
-        "Potential energy less half the moment of inertia times the speed squared, J; it is stationary at a steady shape.",
+        "Potential energy minus half the moment of inertia times the speed squared, J; it is stationary at a steady "
+        "shape.",
         forced("effective_energy"),
         part=True,
     )
     sensitivity: Field[ShapeSensitivity] = Field(
-        "Derivatives of inclinations, offsets and tensions by the speed and by each datum; see `ShapeSensitivity`.",
+        "Derivatives of inclinations, offsets and tensions with respect to the speed and each datum; see "
+        "`ShapeSensitivity`.",
         shape_sensitivity,
     )
     angular_momentum: Field[float] = Field(
@@ -437,7 +442,7 @@ class SteadyShape(Shape):
         return Sheet("link", heading, columns, facts, notes)
 
 
-    _note: ClassVar[str] = "inclinations: to the downward vertical; error: proved bound of every inclination"
+    _note: ClassVar[str] = "inclinations: from the downward vertical; error: proved bound on every inclination"
 
     @classmethod
     def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
@@ -492,9 +497,10 @@ class SteadyShapes(Results[Any], Moving):
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
     complete: Field[bool] = Field(
-        "Whether it is proved that no shape is missing: of a chain or rig no hanging shape, or with ``hanging_only=False`` none "
-        "at all; of a held system none of up to `max_half_waves` half waves. False if both ends of a held chain are off the "
-        "axis: shapes may then leave their plane, and such shapes are not looked for.",
+        "Whether it is proved that no shape is missing: for a chain or rig no hanging shape, or with "
+        "``hanging_only=False`` no shape at all; for a held system no shape with up to `max_half_waves` half waves. "
+        "False if both ends of a held chain are off the axis: shapes may then leave their plane, and such shapes are "
+        "not searched for.",
         part=True,
     )
     undecided: Field[Floats] = Field(
@@ -514,7 +520,7 @@ class SteadyShapes(Results[Any], Moving):
     )
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw all shapes over one another, true to scale, coloured by half waves.
+        """Draw all shapes in one picture, true to scale, coloured by half waves.
 
         Parameters
         ----------
@@ -576,10 +582,10 @@ class SteadyShapes(Results[Any], Moving):
             columns += kind._columns(self)
             notes = [kind._note]
         if isinstance(self.system, Held) and not self.system.is_planar:
-            notes.append("both ends are off the axis: shapes that leave the plane of the ends are not looked for")
+            notes.append("both ends are off the axis: shapes that leave the plane of the ends are not searched for")
         if self._posture():
             other = "with links above their pins" if self._posture() == "hanging" else "in other postures"
-            notes.append(f"{other} (hanging_only=False) there may be more")
+            notes.append(f"hanging_only=False also looks for shapes {other}")
         names = ("gravity", "angular_speed", "conical_height", "complete", "hanging_only", "undecided", "missing")
         heading = self._how_many(at_speed(self.angular_speed))
         facts = {name: getattr(self, name) for name in names}

@@ -52,7 +52,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
 
 
 def load(path: str | os.PathLike[str]) -> Any:
-    """Return a result from a file that its method `save` wrote.
+    """Return a result from a file written by its method `save`.
 
     Parameters
     ----------

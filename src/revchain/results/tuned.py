@@ -13,7 +13,7 @@ Pair = tuple[float, float]
 
 
 class Tuned(Result):
-    """The value of a datum that gives a mode a wanted speed; returned by `tune`.
+    """The value of a datum for which a mode has a given speed; returned by `tune`.
 
     Examples
     --------

@@ -17,7 +17,7 @@ class Problem(NamedTuple):
 
 
 class SceneError(ValueError):
-    """The error for a scene or study that cannot be read or answered; it lists all problems with their places.
+    """The error for a scene or study that cannot be read or answered; it lists all problems and where they are.
 
     Attributes
     ----------

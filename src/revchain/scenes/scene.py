@@ -167,7 +167,7 @@ class Scene(Table, frozen=True):
         return scene
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data, without keys that have their default.
+        """Return the scene as plain data, without keys at their default values.
 
         Returns
         -------
@@ -361,7 +361,7 @@ class Scene(Table, frozen=True):
 
     @property
     def is_held(self) -> bool:
-        """Whether the lower end is held, too."""
+        """Whether the lower end is also held."""
         return self.held is not UNSET
 
 
@@ -430,8 +430,8 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     Raises
     ------
     SceneError
-        If the file cannot be read or is not a valid scene. The error is a ValueError; it has the file, and the line, the
-        column, the key and the reason of each problem.
+        If the file cannot be read or is not a valid scene. The error is a ValueError; it gives the file and, for each
+        problem, the line, column, key and reason.
 
     Examples
     --------

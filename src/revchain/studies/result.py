@@ -131,7 +131,7 @@ class SweepResult(Result):
 
     @property
     def refused(self) -> dict[int, str]:
-        """Reasons of the first twenty refused points, by the number of the point."""
+        """Reasons why the first twenty refused points were refused, by point number."""
         points = np.flatnonzero(self._one("status") == REFUSED)[:MAX_SENTENCES].tolist()
         return {point: self._plan.refusal(point) for point in points}
 

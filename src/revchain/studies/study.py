@@ -141,7 +141,7 @@ class Study(Table, frozen=True):
         return study
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as plain data, without keys that have their default.
+        """Return the study as plain data, without keys at their default values.
 
         Returns
         -------
@@ -255,8 +255,8 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     SceneError
-        If the file cannot be read or is not a valid study. The error is a ValueError; it has the file, and the line, the
-        column, the key and the reason of each problem.
+        If the file cannot be read or is not a valid study. The error is a ValueError; it gives the file and, for each
+        problem, the line, column, key and reason.
 
     Examples
     --------

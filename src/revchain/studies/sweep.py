@@ -48,10 +48,10 @@ def sweep(
     study : Study, path-like or dict
         The study, its file, or its data.
     out : path-like, optional
-        File for the results, for other programs: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). It appears when all points
-        are done. Until then finished chunks are stored in the folder ``OUT.partial`` beside it. After an interruption or a
-        kill the same call continues and does not compute finished chunks again. (To store the result for `revchain.load`
-        use `SweepResult.save`.)
+        File for the results, for other programs: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). It is written when all
+        points are done. Until then finished chunks are stored in the folder ``OUT.partial`` beside it. After an
+        interruption or a kill, the same call continues without recomputing finished chunks. (To store the result for
+        `revchain.load`, use `SweepResult.save`.)
     executor : concurrent.futures.Executor, optional
         Executor for the chunks, such as a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster; threads
         if left out. It is not shut down.
@@ -75,14 +75,14 @@ def sweep(
         If `out` cannot be written, another run is writing it, or its partial folder has points of another study (the error
         is also a ValueError). Finished chunks stay.
     ValueError
-        If `out` has another ending, `threads` comes with `executor`, or a number is below 1.
+        If `out` has another extension, `threads` is given with `executor`, or a number is below 1.
     ImportError
         If a package that writes `out` is missing; the message says how to install it.
 
     Notes
     -----
     Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to `revchain.conical_heights` in
-    batches, also with an `rtol` that these meet. Other points are solved one by one, in C++ unless the system is held at
+    batches, also with an `rtol` that it meets. Other points are solved one by one, in C++ unless the system is held at
     both ends or a method or precision is given. A point that its scene refuses has the status ``refused`` and no numbers.
     Cost: that of the functions `modes`, `steady_shapes` and `response`.
 

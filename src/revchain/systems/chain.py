@@ -56,9 +56,9 @@ class Chain(System):
     ValueError
         If a number is not real and finite, or has a unit of another kind; if arrays have more than one dimension or
         different lengths, or there are no links; if a length is not positive, a mass is negative, the lowest link has
-        no mass, or the sum of the masses overflows; if a radius of gyration is imaginary, or a link would stand instead
-        of hang; if `centroid` comes without exactly one of `pendulum_length` and `radius_of_gyration`; if `order` is
-        another word.
+        no mass, or the sum of the masses overflows; if a radius of gyration is imaginary, or a link would be inverted;
+        if `centroid` is given without exactly one of `pendulum_length` and `radius_of_gyration`; if `order` is any
+        other word.
 
     Notes
     -----
@@ -255,7 +255,8 @@ class Chain(System):
 
     @property
     def taper(self) -> float | None:
-        """Exponent of the line density, if `tapered` made the chain; None for any other, also one derived from it."""
+        """Exponent of the line density, if `tapered` made the chain; None for any other chain, including one derived "
+        "from it."""
         return self._compiled.taper
 
     @property
@@ -265,7 +266,7 @@ class Chain(System):
 
     @property
     def mode_count(self) -> int:
-        """Number of modes: `size`, less one for each massless link that has no motion of its own."""
+        """Number of modes: `size`, minus one for each massless link that has no motion of its own."""
         return self._compiled.mode_count
 
     @property
@@ -275,12 +276,12 @@ class Chain(System):
 
     @property
     def total_mass(self) -> float:
-        """Mass of all links together, kg; an AttributeError if the chain was given by weight."""
+        """Total mass of the links, kg; an AttributeError if the chain was given by weight."""
         return self._measured("total_mass", True) and self._compiled.total_weight
 
     @property
     def total_weight(self) -> float:
-        """Weight of all links together; an AttributeError if the chain was given by mass."""
+        """Total weight of the links; an AttributeError if the chain was given by mass."""
         return self._measured("total_weight", False) and self._compiled.total_weight
 
     @property
@@ -312,8 +313,8 @@ class Chain(System):
 
     @property
     def pendulum_length(self) -> Floats:
-        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the
-        centre of gravity lies in the upper pin; read-only."""
+        """Length of the equivalent simple pendulum of each link, m, shape (N,); infinite if the centre of gravity is "
+        "at the upper pin; read-only."""
         return self._column(self._compiled.pendulum_length)
 
     @property

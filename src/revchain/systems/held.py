@@ -123,7 +123,7 @@ class Held(System):
 
     @property
     def is_on_axis(self) -> bool:
-        """Whether both ends (with springs: their places of rest) are on the axis, so that shapes have mirror images."""
+        """Whether both ends (with springs: their rest positions) are on the axis, so that shapes have mirror images."""
         return self.lower.radius == self.upper.radius == 0.0
 
     @property

@@ -70,19 +70,20 @@ def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
 
 
 class Support(_Fitting):
-    """The support of the uppermost pin: firm, on a sideways spring, or carried round in a circle.
+    """The support of the uppermost pin: firm, on a horizontal spring, or moving in a circle.
 
     A rig without a support hangs from a firm point on the axis.
 
     Parameters
     ----------
     stiffness : float
-        Sideways stiffness of the spring, N/m, positive; infinite for a firm support.
+        Horizontal stiffness of the spring, N/m, positive; infinite for a firm support.
     mass, weight : float, optional
-        Mass (kg) or weight (N) that moves sideways with the pin, in the same quantity as the chain. It needs a stiffness.
+        Mass (kg) or weight (N) that moves horizontally with the pin, in the same quantity as the chain. It needs a
+        stiffness.
     radius : float
-        Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is that of the
-        place of rest. At an end of a `Held` it may be negative: on the other side of the axis.
+        Radius of the circle in which the support is carried round, m; 0 on the axis. With a spring it is the radius of
+        its rest position. At an end of a `Held` it may be negative: on the other side of the axis.
 
     Raises
     ------
@@ -165,8 +166,8 @@ class Flywheel(_Fitting):
     driven : array_like of bool
         Whether a motor turns the wheel relative to its link.
     momentum : array_like
-        Constant angular momentum of each wheel along the axis of its link, instead of the four above, kg m^2/s; for a
-        chain given by weight, in weight times length times time.
+        Constant angular momentum of each wheel along the axis of its link, instead of the four quantities above, kg
+        m^2/s; for a chain given by weight, in weight times length times time.
     axial_moment : array_like, optional
         With `momentum`: moment of inertia of the turning parts of each link about its axis, kg m^2; for a chain given
         by weight, in weight times length squared.
@@ -174,7 +175,7 @@ class Flywheel(_Fitting):
     Raises
     ------
     ValueError
-        If a number is not finite or is negative where it must not be, or if the arguments do not go together.
+        If a number is not finite or is negative where it must not be, or if the arguments are inconsistent.
 
     Notes
     -----
@@ -327,7 +328,7 @@ class Displaced(_Fitting):
 
 
 class Rig(System):
-    """A chain with a support, flywheels, a fluid or inverted links; what is left out costs nothing.
+    """A chain with a support, flywheels, a fluid or inverted links; parts left out cost no time.
 
     Parameters
     ----------
@@ -352,7 +353,7 @@ class Rig(System):
         If a number is out of its range, an array does not have one number for each link, or masses are mixed with
         weights; the message names the link.
     TypeError
-        If an argument has another class.
+        If an argument is of another class.
 
     Notes
     -----

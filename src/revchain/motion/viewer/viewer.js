@@ -31,7 +31,7 @@ function rendering() {
 
 function pace(scale) {
   if (Math.abs(scale - 1) < 1e-9) return "in real time";
-  return `${Number((scale < 1 ? 1 / scale : scale).toPrecision(3))} times ${scale < 1 ? "slower" : "faster"} than in reality`;
+  return `${Number((scale < 1 ? 1 / scale : scale).toPrecision(3))} times ${scale < 1 ? "slower" : "faster"} than real time`;
 }
 
 function child(object, name) { return object.children.find((each) => each.userData.name === name); }
