@@ -346,7 +346,7 @@ def test_whirl_speeds_between_springs_against_a_dense_pencil(ends, seed):
         (lambda c: rc.Held(c, span=1.0, upper=Support(radius=3.0)), "ends must be nearer to each other than the length 2"),
         (lambda c: rc.Held(c, span=1.0, upper=Support(stiffness=1.0, weight=2.0)), "upper: the chain was given by mass"),
         (lambda c: rc.Held(rc.Cord(2.0, mass=1.0), span=1.0, lower=ARMS[0]), r"firm point on the axis; cut it into links"),
-        (lambda c: rc.modes(rc.Held(c, span=1.0, lower=ARMS[0])), "is bent.*(ask|use) steady_shapes"),
+        (lambda c: rc.modes(rc.Held(c, span=1.0, lower=ARMS[0])), "is bent.*use steady_shapes"),
         (lambda c: rc.steady_shape(rc.Held(c, span=1.0, lower=SPRINGS[0]), top_tension=90.0), "with springs give"),
         (lambda c: rc.steady_shape(rc.Held(c, span=1.0, lower=ARMS[0]), mode=9, angular_speed=9.0), "mode must be from 1 to 4"),
         (lambda c: rc.branch(rc.Held(c, span=1.0, lower=ARMS[0]), 4, max_angular_speed=3.0), "mode must be that of a branch"),

@@ -125,8 +125,8 @@ QUESTIONS = {
     "sensitivity": lambda system: rc.modes(system, 2).sensitivity,
     "uncertainty": lambda system: rc.modes(system, 2).uncertainty(mass=0.05),
 }
-BENT = {name: "is bent.*(ask|use) steady_shapes" for name in ("held, span", "held cord, span")}
-TAUT = {name: "(ask|use) steady_shapes" for name in ("held", "held cord")}
+BENT = {name: "is bent.*use steady_shapes" for name in ("held, span", "held cord, span")}
+TAUT = {name: "use steady_shapes" for name in ("held", "held cord")}
 CELLS = {  # question: system: None for an answer, or words of the reason and of what to ask instead
     "modes": BENT,
     "count_modes": BENT,
@@ -134,7 +134,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "steady_shape": TAUT,
     "branches": TAUT,
     "branch": TAUT,
-    "response": {"cord": "use its chain: cord.chain", "held": "(ask|use) steady_shapes"},
+    "response": {"cord": "use its chain: cord.chain", "held": "use steady_shapes"},
     "swing": {"held": "use its modes"},
     "tune": dict.fromkeys(BENT, "is bent.*give top_tension"),
     "fit": dict.fromkeys(BENT, "is bent.*tune with top_tension"),

@@ -73,10 +73,10 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
 /// The span of what is held, of whose shapes at every speed a question is.
 inline double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
-        throw_invalid(place, "is for what is held at a span; under a tension ask steady_shapes at each speed, or modes",
+        throw_invalid(place, "is for what is held at a span; under a tension use steady_shapes at each speed, or modes",
                       by.tension->high);
     if (by.weightless)
-        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) ask steady_shapes");
+        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) use steady_shapes");
     return *by.span;
 }
 
@@ -99,7 +99,7 @@ auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeigh
         by,
         {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
     if (auto shape = at_height(span, height)) return *shape;
-    throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
+    throw_invalid(place, "the branch does not reach this conical height; branches says how far it goes",
                   static_cast<double>(height));
 }
 

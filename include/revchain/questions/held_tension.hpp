@@ -19,7 +19,7 @@ template <class System>
 Wide<double> lower_tension(std::string_view place, const Held<System>& held, double gravity) {
     if (held.by().span)
         throw_invalid(place,
-                      "a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; ask "
+                      "a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; use "
                       "steady_shapes for its shapes and stability for small motions about one; span",
                       *held.by().span);
     const Wide<double> upper = *held.by().tension;

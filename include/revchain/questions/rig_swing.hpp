@@ -23,7 +23,7 @@ namespace detail {
 /// The rig as it swings: links do not turn about their own axes, so that what turns with them plays no part.
 inline Rig swinging(std::string_view place, const Rig& rig) {
     if (rig.support().radius != 0)
-        throw_invalid(place, "the support is carried round: it does not let the rig swing; ask response",
+        throw_invalid(place, "the support is carried round: it does not let the rig swing; use response",
                       rig.support().radius);
     if (rig.fluid() == Fluid::turning)
         for (Index m = 0; m < rig.size(); ++m)
@@ -250,7 +250,7 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
     using S = DoubleDouble;
     constexpr std::string_view place = "swing";
     if (given.has_momentum())
-        detail::throw_invalid(place, "momentum of flywheels turns the plane of the swing; ask whirl_swing");
+        detail::throw_invalid(place, "momentum of flywheels turns the plane of the swing; use whirl_swing");
     const Rig rig = detail::swinging(place, given);
     const bool yields = !rig.support().is_firm();
     const Vector<double> from = detail::checked_start(place, rig.size(), yields, "offset", options.offset);
@@ -281,7 +281,7 @@ REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions
     constexpr std::string_view place = "whirl_swing";
     const Rig rig = detail::swinging(place, given);
     if (!rig.has_momentum())
-        detail::throw_invalid(place, "no flywheel has momentum: the two level directions are independent; ask swing");
+        detail::throw_invalid(place, "no flywheel has momentum: the two level directions are independent; use swing");
     const bool yields = !rig.support().is_firm();
     const auto from = detail::checked_start(place, rig.size(), yields, "offset", options.offset);
     const auto speed = detail::checked_start(place, rig.size(), yields, "velocity", options.velocity);
