@@ -312,12 +312,12 @@ TEST_CASE("swing of rigs: what it refuses", "[linear][rigs]") {
     const auto refused = [&](const revchain::Rigging& with, const char* why) {
         CHECK_THROWS_WITH(revchain::swing(Rig(chain, with), {.offset = from, .time = {1.0}}), ContainsSubstring(why));
     };
-    refused({.support = revchain::carried_round(0.1)}, "ask response");
+    refused({.support = revchain::carried_round(0.1)}, "use response");
     refused({.fluid = revchain::Fluid::turning, .displaced = {{0.1}, {0.1}}}, "swings in a fluid at rest");
     refused({.posture = {revchain::Posture::hangs, revchain::Posture::stands}}, "growth rate of small offsets");
-    refused({.flywheels = {{0.1, 0}, {}}}, "ask whirl_swing");
+    refused({.flywheels = {{0.1, 0}, {}}}, "use whirl_swing");
     refused({.displaced = {revchain::displaced_by(chain.link(0), 2.0), {}}}, "growth rate of small offsets");
-    CHECK_THROWS_WITH(revchain::whirl_swing(Rig(chain, {}), {.time = {1.0}}), ContainsSubstring("ask swing"));
+    CHECK_THROWS_WITH(revchain::whirl_swing(Rig(chain, {}), {.time = {1.0}}), ContainsSubstring("use swing"));
     const Vector<double> moved = Eigen::Vector3d(0.01, 0.02, 0.1);
     CHECK_THROWS_WITH(revchain::swing(Rig(chain, {}), {.offset = moved, .time = {1.0}}),
                       ContainsSubstring("offset of the support must be 0"));

@@ -118,7 +118,7 @@ def test_refused_when_asked(base, method, words):
 
 
 def test_systems_that_have_no_answer():
-    with pytest.raises(ValueError, match="carried round: it does not let the rig swing; ask response"):
+    with pytest.raises(ValueError, match="carried round: it does not let the rig swing; use response"):
         scene(CAROUSEL).swing(offset=[0.1])
     with pytest.raises(ValueError, match="is not available for a"):
         scene(BLADE).response(angular_speed=3.0)
@@ -237,7 +237,7 @@ def test_held_scenes_by_command(run, tmp_path):
         (("shapes", "--max-half-waves", 2), "--max-half-waves: is for a chain held at both ends, got 2"),
         (("shapes", "--gravity", "-1"), "--gravity: must be positive, got -1"),
         (("response", "--angular-speed", "-1 to 2"), "--angular-speed.from: must be positive, got -1"),
-        (("swing", "--offset", "1; 2"), "the support is carried round: it does not let the rig swing; ask response"),
+        (("swing", "--offset", "1; 2"), "the support is carried round: it does not let the rig swing; use response"),
         (("shapes", "--plot", "x.txt"), "--plot: x.txt must end in .png, .svg, .pdf"),
     ],
 )

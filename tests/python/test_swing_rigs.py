@@ -115,7 +115,7 @@ def test_pictures():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"radius": 0.1}, "ask response, got 0.1"),
+        ({"radius": 0.1}, "use response, got 0.1"),
         ({"displaced": 0.1, "fluid": "turning"}, 'rest: write "still", got 0.1'),
         ({"inverted": [False, True]}, "growth rate of small offsets from the straight rig must be 0"),
         ({"displaced": [5.0, 0.0]}, "growth rate of small offsets"),
