@@ -132,7 +132,8 @@ class RigRoots {
             if (const auto found = count(at, forward); found.proved) return found.above;
         }
         throw_invalid(place,
-                      "rounding leaves in doubt how many whirl speeds of this rig lie below it; use a height a little beside it",
+                      "rounding leaves in doubt how many whirl speeds of this rig lie below it; use one "
+                      "a little beside it",
                       value);
     }
 
