@@ -13,7 +13,7 @@ import numpy as np
 
 from ..results.files import naming, written_aside
 from ..systems.extras import require
-from ..systems.numbers import file_path, one_positive, shown
+from ..systems.numbers import boolean, file_path, one_positive, shown
 from .film import Film
 from .frames import write_gif, write_mp4
 from .grid import write_grid, write_xdmf
@@ -111,7 +111,7 @@ def show_film(
 ) -> View:
     """See `Moving.show`."""
     place = f"revchain.{type(result).__name__}.show"
-    tall = one_positive(place, "height", height)
+    tall, solid = one_positive(place, "height", height), boolean(place, "solid", solid)
     if solid:
         require_for(".html", "to_html")
     film = _film(result, place, figures, time_scale, duration, 25.0)

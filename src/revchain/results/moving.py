@@ -118,6 +118,8 @@ class Moving:
         ------
         ValueError
             As `animate`.
+        TypeError
+            If `solid` is not True or False.
         ImportError
             If `solid` and pygltflib is not installed; the message says how to install it.
 
