@@ -12,11 +12,11 @@ import jupyter_server_mathjax
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path.insert(0, str(HERE / "site"))
-from gallery_pictures import picture_first  # noqa: E402
 
 project, author, copyright = "revchain", "the revchain developers", "the revchain developers"
 release = version = metadata.version("revchain")
 extensions = [
+    "gallery_pictures",
     "generated_pages",
     "glossary_index",
     "search_questions",
@@ -97,4 +97,3 @@ def copy_mathjax(app, _):
 
 def setup(app):
     app.connect("build-finished", copy_mathjax)
-    app.connect("source-read", picture_first)

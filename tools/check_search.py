@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""python tools/check_search.py FOLDER: the search of a site finds what visitors look for.
+"""python tools/check_search.py FOLDER: checks that visitors find their page with the search of a site.
 
 An engineer's words are in a title or in the index. What visitors type leads to its page, which is the first or the second
 result: the scripts of the site's search page are run by node.

@@ -30,3 +30,8 @@ def picture_first(_: Any, name: str, source: list[str]) -> None:
         rest = source[0].replace(picture[0], "\n", 1)
         mark = ".. GENERATED FROM PYTHON SOURCE LINES"
         source[0] = rest.replace(mark, f"{first}\n{mark}", 1)
+
+
+def setup(app: Any) -> dict[str, bool]:
+    app.connect("source-read", picture_first)
+    return {"parallel_read_safe": True}

@@ -6,6 +6,7 @@ The words of each question become keywords of the pages that its row links to, a
 
 from __future__ import annotations
 
+import functools
 import json
 import posixpath
 import re
@@ -17,8 +18,9 @@ from docutils import nodes
 HERE = Path(__file__).parent
 
 
+@functools.cache
 def questions(folder: Path) -> list[tuple[str, list[str]]]:
-    """Each question, and the names of the pages that its answer links to."""
+    """The questions of the page in `folder`, each with the names of the pages to which its answer links."""
     found = []
     for line in (folder / "questions.md").read_text(encoding="utf-8").splitlines():
         if not (row := re.fullmatch(r"\| (.*?) \| (.*) \|", line)):

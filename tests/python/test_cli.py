@@ -501,7 +501,7 @@ def test_schema(run):
 
 @pytest.mark.parametrize("name", USE)
 def test_the_example_in_the_help_works(run, repository, name):
-    """And writes the files that the help says: none, or those of the options."""
+    """The example ends without an error. It writes the files that the help names, and no others."""
     Path("examples").symlink_to(repository / "examples")
     example, told = USE[name]
     before = set(files())

@@ -218,7 +218,7 @@ def test_notebooks_of_programs(path):
 
 
 def run_alone(python, path, folder):
-    """What a program of the gallery prints where it has been downloaded: in an empty folder, without a screen."""
+    """Copies a program of the gallery to an empty folder, runs it there without a screen, and returns what it prints."""
     copied = shutil.copy(path, folder)
     done = python(PYTHON / "draw_programs.py", copied)
     assert done.returncode == 0, done.stderr
@@ -385,7 +385,7 @@ def test_python_of_pages(python, tmp_path, page):
 
 
 def test_table_of_questions():
-    """What docs/systems.md says of each cell is what `test_interface.py` tests."""
+    """The table of docs/systems.md says "yes" where `test_interface.py` expects an answer, and only there."""
     cells = runpy.run_path(str(ROOT / "tests/python/test_interface.py"))["CELLS"]
     table = (ROOT / "docs/systems.md").read_text("utf-8").partition("| question | Chain |")[2].partition("\n\n")[0]
     rows = [line.strip("|").split("|") for line in table.splitlines()[2:]]

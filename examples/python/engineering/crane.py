@@ -34,7 +34,7 @@ plt.show()
 # block on the same side, as in the picture, and with the load and the block on opposite sides.
 # ``modes.plot()`` shows both, with their speeds. The offsets are exaggerated.
 #
-# Both speeds rise when the rope is wound in.
+# Both whirl speeds rise as the rope is wound in.
 
 print("rope, m  slower and faster whirl speed, rad/s")
 for rope in np.arange(4.0, 29.0, 4.0):

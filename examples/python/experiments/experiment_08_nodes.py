@@ -24,7 +24,7 @@ plt.show()
 
 # %%
 # The third mode, seen from the side at seven moments of half a turn. Dots are the nodes: points of
-# the chain that stay on the axis. Touch the whirling chain there, and it goes on.
+# the chain that stay on the axis. If you touch the whirling chain there, it keeps whirling.
 #
 # The table compares a continuous chain with 400 links.
 

@@ -70,7 +70,7 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
                      const Put& put, const Take& take, Progress* progress) {
     parallel_for(at.size(), pencil::most_driven_together, [&](std::size_t begin, std::size_t end) {
         simd([&](auto registers) REVCHAIN_INLINED {
-            // Of the 16 registers of AVX2 four lanes take more than there are: half as fast as two lanes.
+            // AVX2 has 16 registers. Four lanes need more, and take twice the time of two lanes.
             using V = Pack<double, registers.bytes == 32 ? 2 : registers.doubles>;
             constexpr bool fused = registers.fused;
             constexpr std::size_t together = pencil::driven_together<V>;

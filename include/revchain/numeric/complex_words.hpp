@@ -7,8 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Products and quotients of complex numbers of two words. The standard leaves those of its own for such scalars open,
-/// and libc++ does not compile them. These are found first, by Eigen too.
+/// Products and quotients of complex numbers of two words, which Eigen finds, too. For such scalars the standard does
+/// not specify the operators of std::complex, and those of libc++ do not compile.
 inline std::complex<DoubleDouble> operator*(const std::complex<DoubleDouble>& x, const std::complex<DoubleDouble>& y) {
     return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
 }

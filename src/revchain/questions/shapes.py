@@ -61,7 +61,7 @@ def steady_shapes(
     direction : {1, -1}, optional
         Direction of rotation; only a rig with flywheels depends on it.
     max_half_waves : int, optional
-        Held systems: largest number of half waves to search for.
+        For `Held` systems: search only for shapes with at most this number of half waves.
     prove : bool, optional
         Held chains: whether to prove error bounds and completeness; else the bounds are estimates.
     scanned : int, optional

@@ -210,8 +210,8 @@ void leave_open(const Bracket<Far>& part, Result& result) {
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
-/// Whether a link lies so near the horizontal that offsets in double-double tell the support's no better than to 1e-16:
-/// a tangent t is known from them to 1e-32 t^2 of itself.
+/// Whether a link lies so near the horizontal that a support on a spring may be found at a wrong offset: from offsets
+/// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
 inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
         if (std::abs(static_cast<double>(detail::tangent_in(found, links, m))) > 1e8) return true;
@@ -236,7 +236,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
             shape = described<Shape>(links, height, *found);
             shape.error_bound = error, shape.condition = condition;
         }
-        if (shape.error_bound < 0x1p-48 && !is_all_but_level(links.links, *found)) return;
+        if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
     }
     // or the tangents
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
