@@ -12,7 +12,7 @@
 #include <cstring>
 #include <string>
 
-#include "revchain/models/with_dense.hpp"
+#include "dense_model.hpp"
 #include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"

@@ -19,7 +19,6 @@ STYLE = {
     "continuous chain": ("#D55E00", "o"),
     "tapered chain": ("#7B3FA0", "h"),
     "coarse chain": ("#009E73", "D"),
-    "single precision": ("#332288", "<"),
     "aberth": ("#56B4E9", "P"),
     "interpolated": ("#0072B2", "X"),
     "condensed": ("#0072B2", "o"),

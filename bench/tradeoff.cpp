@@ -20,7 +20,7 @@
 #include <map>
 #include <random>
 
-#include "revchain/models/with_dense.hpp"
+#include "dense_model.hpp"
 #include "revchain/modes.hpp"
 #include "timing.hpp"
 #include "tradeoff/height_truth.hpp"

@@ -3,7 +3,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/models/with_dense.hpp"
+#include "revchain/models/heights.hpp"
 
 namespace {
 
@@ -14,7 +14,7 @@ using revchain::Index;
 py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
                    std::optional<double> time_budget) {
     const auto choice =
-        revchain::select(revchain::height_models_with_dense, chain, {first, count, rtol, inclination}, time_budget);
+        revchain::select(revchain::height_models, chain, {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -35,7 +35,7 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
                       std::optional<double> time_budget) {
     return answered(aside(chain, nullptr, [=](const Chain& own) {
         const revchain::Question question{first, count, rtol, inclination};
-        return revchain::solve(revchain::height_models_with_dense, own, question, time_budget);
+        return revchain::solve(revchain::height_models, own, question, time_budget);
     }));
 }
 
@@ -43,7 +43,7 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
 py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
                     const std::string& model) {
     return answered(aside(chain, nullptr, [=](const Chain& own) {
-        return revchain::solve_by(revchain::height_models_with_dense, model, own, {first, count, rtol, inclination});
+        return revchain::solve_by(revchain::height_models, model, own, {first, count, rtol, inclination});
     }));
 }
 
@@ -52,7 +52,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
 void bind_models(py::module_& module) {
     py::list names;
     std::apply([&](const auto&... models) { (names.append(py::str(models.name.data(), models.name.size())), ...); },
-               revchain::height_models_with_dense);
+               revchain::height_models);
     module.attr("MODELS") = py::tuple(names);
     module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
     module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);

@@ -3,7 +3,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 REVCHAIN_ANSWER_BY(CoarseChain);
-REVCHAIN_ANSWER_BY(SinglePrecision);
 REVCHAIN_ANSWER_BY(Aberth);
 REVCHAIN_ANSWER_BY(Interpolated);
 REVCHAIN_ANSWER_BY(Condensed);

@@ -250,7 +250,7 @@ def test_methods_by_name_are_those_models_or_refuse():
     long, chain = rc.Chain.uniform_plummets(1000, length=2.0), rc.Chain.uniform_plummets(30)
     formulas = {"Laguerre asymptotics", "continuous chain", "coarse chain"}
     applies = {row.name for row in rc.explain(long, 3, rtol=1e-3).rows if row.applies}
-    assert applies == formulas | {"single precision", "condensed", "bisection"}
+    assert applies == formulas | {"condensed", "bisection"}
     with pytest.raises(ValueError, match="method 'coarse chain' goes with count, first and rtol alone"):
         rc.modes(long, conical_height=(0.1, 1.0), method="coarse chain")
     for name in ("dense", "aberth", "Laguerre asymptotics", "continuous chain"):

@@ -51,24 +51,22 @@ void restore_order(Heights<T>& heights) {
         }
 }
 
-/// Heights number `range` to within `goal` (relative) by bisection in P, float or double, on the plain pencil, each
-/// proved by two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about
-/// where `goal` is below 8 ulp of P for each link.
-/// Cost for each link: 5 ns, 7 ns for each three bits and 8 modes (float: 5), and 24 ns a mode for the proof.
-template <std::floating_point P>
-std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
+/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved by two counts there.
+/// Nothing where there is no such pencil or rounding leaves one in doubt: about where `goal` is below 8 ulp for each
+/// link. Cost for each link: 5 ns, 7 ns for each three bits and 8 modes, and 24 ns a mode for the proof.
+inline std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
                                              const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const auto brackets =
-        pencil::bisect(pencil::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
-                       static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
+        pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal,
+                       std::ldexp(chain.total_length(), -chain.units().length_exponent), finished);
     Heights<double> result(brackets.size());
     std::atomic<bool> proved = true;
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && proved; ++i) {
-            const double start = pencil::between<double>(brackets[i].lower, brackets[i].upper);
+            const double start = pencil::between(brackets[i].lower, brackets[i].upper);
             const Index j = range.first - 1 + static_cast<Index>(i);
             if (!pencil::lies_within<double>(*pencil, j, start, goal / 2)) proved = false;
             result[i] = {start, pencil::bound_of_margin<double>(goal / 2), start};
@@ -129,7 +127,7 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     const auto half_way = [&](Index done) { advance(options.progress, 0.5 * static_cast<double>(done) / count); };
     if constexpr (std::is_same_v<T, double>)
         if (loose)
-            if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
+            if (auto found = loose_heights(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
     if constexpr (std::is_same_v<T, double>)
         if (auto found =

@@ -13,8 +13,8 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The models among which `modes` chooses; where no tolerance is given, among those whose bounds are proved. The last
 /// always answers.
-inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain, SinglePrecision,
-                            Aberth, Interpolated, Condensed, Bisection>
+inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain, Aberth,
+                            Interpolated, Condensed, Bisection>
     for_modes{};
 
 /// The question that these options ask about a range of modes. Without a tolerance bounds have to be proved.
@@ -31,7 +31,6 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 #define REVCHAIN_ANSWER_BY(model) \
     template Answer answer_by(const models::model&, const Chain<double>&, const ChainKind&, const Question&)
 extern REVCHAIN_ANSWER_BY(CoarseChain);
-extern REVCHAIN_ANSWER_BY(SinglePrecision);
 extern REVCHAIN_ANSWER_BY(Aberth);
 extern REVCHAIN_ANSWER_BY(Interpolated);
 extern REVCHAIN_ANSWER_BY(Condensed);

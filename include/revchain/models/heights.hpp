@@ -10,8 +10,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
 /// that are not small and for tolerances below what a double holds. The last always answers.
 inline constexpr std::tuple<models::ClosedForms, models::ConicalPendulum, models::EqualPlummets,
-                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::SinglePrecision,
-                            models::Aberth, models::Interpolated, models::Condensed, models::DoubleDoubleBisection,
+                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::Aberth,
+                            models::Interpolated, models::Condensed, models::DoubleDoubleBisection,
                             models::FiniteAmplitude, models::Bisection>
     height_models{};
 

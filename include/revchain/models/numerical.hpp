@@ -40,36 +40,12 @@ inline double goal(const Question& question) { return std::min(question.rtol, 0.
 
 /// Seconds of bisection without double words: passes over all links for each digit, and one proof for each mode. To
 /// begin a pass costs as much as six links.
-inline double loose_cost(double links, double rtol, Index count, double pass) {
+inline double loose_cost(double links, double rtol, Index count) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
-    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));
+    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + 8.5e-9 * (3 + each * digits));
 }
 }  // namespace detail
-
-/// Counts in single precision, eight to a register, and two of each height in double for the proof: loose tolerances.
-/// The predicted bound is one that was always proved in tests/cpp/models/models.cpp.
-struct SinglePrecision {
-    static constexpr std::string_view name = "single precision";
-    static constexpr bool is_proved = true;
-
-    Fit applies(const ChainKind& kind, const Question&) const {
-        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        return {};
-    }
-    double error_bound(const ChainKind& kind, const Question& question) const {
-        return std::max(detail::goal(question), 1e-8 * (100 + detail::real(kind.size)));
-    }
-    double cost(const ChainKind& kind, const Question& question) const {
-        return detail::loose_cost(detail::real(kind.size), error_bound(kind, question), question.count, 5.7e-9);
-    }
-    template <std::same_as<double> T>
-    Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
-        const auto found = revchain::detail::loose_heights<float>(chain, detail::range_of(question),
-                                                                  error_bound(kind, question) * (1 - 1e-6));
-        return detail::answered(chain, found);
-    }
-};
 
 /// Counts until every mode has an interval of its own. Then, where the tolerance makes that cheaper, more counts; else
 /// Rayleigh quotients of eight shapes at a time, to 2 ulp. Any chain, any modes.
@@ -85,7 +61,7 @@ struct Bisection {
         return counts_pay(kind, question) ? loose_cost(kind, question) : full_cost(kind, question);
     }
     static double loose_cost(const ChainKind& kind, const Question& question) {
-        return detail::loose_cost(detail::real(kind.size), question.rtol, question.count, 8.5e-9);
+        return detail::loose_cost(detail::real(kind.size), question.rtol, question.count);
     }
     static double full_cost(const ChainKind& kind, const Question& question) {
         const double count = detail::real(question.count), links = detail::real(kind.size);

@@ -185,32 +185,6 @@ TEST_CASE("coarse chains: links far apart in length, weight, centroid and radius
     CHECK(worst <= 1);
 }
 
-TEST_CASE("single precision: proved as far as it says") {
-    Random random(35);
-    int found = 0, asked = 0;
-    double worst = 0;
-    for (int i = 0; i < 300; ++i) {
-        const Chain<double> chain = random_chain(random, static_cast<Index>(random.log_between(1, 20'000)));
-        const Index count = std::min<Index>(chain.mode_count(), 1 + i % 4);
-        const Question question{.first = 1 + (chain.mode_count() - count) * (i % 3) / 50,
-                                .count = count,
-                                .rtol = i % 5 == 0 ? 0 : random.log_between(1e-7, 1)};
-        const ChainKind kind(chain);
-        const models::SinglePrecision model;
-        ++asked;
-        const Answer answer = model.solve(chain, kind, question);
-        if (!answer.found) continue;
-        ++found;
-        CHECK(answer.worst_bound() <= model.error_bound(kind, question));
-        ModesOptions<double> options{.first = question.first, .count = count};
-        worst = std::max(worst, worst_share(answer, modes(chain, options)));
-    }
-    CAPTURE(found, asked, worst);
-    CHECK(found > 0.98 * asked);
-    CHECK(worst <= 1);
-    CHECK(worst > 0.5);
-}
-
 TEST_CASE("any chain, any tolerance: a model that keeps it, or it is said") {
     Random random(33);
     double worst = 0;

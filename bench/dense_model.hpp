@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/linear/pencils.hpp"
-#include "revchain/models/numerical.hpp"
+#include "revchain/models/heights.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
 
@@ -10,8 +10,7 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// The textbook method, for comparison: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes.
 /// Assembling adds neighbouring stiffnesses, which loses the slowest modes of long or unlike chains; counts on the
-/// chain's elements prove how much. It is never the cheapest, and a header of its own because it takes seconds to
-/// compile. Cost: about 1.4 ns N^3.
+/// chain's elements prove how much. It is never the cheapest. Cost: about 1.4 ns N^3.
 struct Dense {
     static constexpr std::string_view name = "dense";
     static constexpr Index most_links = 300;
@@ -50,3 +49,9 @@ struct Dense {
 };
 
 }  // namespace revchain::models
+
+namespace revchain::inline REVCHAIN_BUILD {
+
+inline constexpr auto height_models_with_dense = std::tuple_cat(height_models, std::tuple<models::Dense>{});
+
+}  // namespace revchain
