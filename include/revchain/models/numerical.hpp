@@ -38,12 +38,12 @@ inline Answer answered(const Chain<double>& chain, const std::optional<revchain:
 /// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
 inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
-/// Seconds of bisection without double words: passes over all links for each digit, and one proof for each mode. To
-/// begin a pass costs as much as six links.
-inline double loose_cost(double links, double rtol, Index count) {
+/// Seconds of bisection without double words: passes over all links for each digit, of `pass` seconds a link, and one
+/// proof for each mode. To begin a pass costs as much as six links.
+inline double loose_cost(double links, double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
-    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + 8.5e-9 * (3 + each * digits));
+    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));
 }
 }  // namespace detail
 
@@ -61,7 +61,7 @@ struct Bisection {
         return counts_pay(kind, question) ? loose_cost(kind, question) : full_cost(kind, question);
     }
     static double loose_cost(const ChainKind& kind, const Question& question) {
-        return detail::loose_cost(detail::real(kind.size), question.rtol, question.count);
+        return detail::loose_cost(detail::real(kind.size), question.rtol, question.count, 8.5e-9);
     }
     static double full_cost(const ChainKind& kind, const Question& question) {
         const double count = detail::real(question.count), links = detail::real(kind.size);
