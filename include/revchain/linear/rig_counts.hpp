@@ -10,7 +10,7 @@
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/proved_roots.hpp"
-#include "revchain/pencil/signed_twisted.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
 namespace revchain::inline REVCHAIN_BUILD::detail {
@@ -28,6 +28,21 @@ class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
         : pencil_(std::move(pencil)), pace_(pace), base_(base), sign_(sign), side_(side) {}
+
+    /// Counts in double, for `bisect`.
+    struct Counter {
+        pencil::SignedPencil<double> rounded;
+        Index base, sign;
+        double side;
+
+        template <std::size_t N>
+        friend std::array<Index, N> count_above(const Counter& counter, std::array<double, N> shifts) {
+            for (double& shift : shifts) shift *= counter.side;
+            auto above = pencil::count_above(counter.rounded, shifts);
+            for (Index& count : above) count = counter.base + counter.sign * count;
+            return above;
+        }
+    };
 
     const pencil::SignedPencil<RigWord>& pencil() const { return pencil_; }
 
@@ -50,24 +65,28 @@ class CountedRoots {
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
     std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
                                                   const std::function<void(Index)>& finished) const {
-        return pencil::bisect(pencil::SignedCounter<double>(pencil_, base_, sign_, side_), first, count,
-                              2 * epsilon<double>(), start, finished);
+        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
+        return pencil::bisect(counter, first, count, 2 * epsilon<double>(), start, finished);
     }
 
     /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
     FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
+        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) { return counted(shifts); };
         RigWord x(pencil::between(bracket.lower, bracket.upper));
         for (int round = 0; round < 3; ++round) {
             const RigWord root =
-                side * pencil::rayleigh_root(pencil_, pencil::twisted_vector(pencil_, side * x), side * x);
+                side * pencil::rayleigh_quotient(pencil_, pencil::twisted_vector(pencil_, side * x), side * x);
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
-            const RigWord out = given_out(x), reach = out * RigWord(margin);
-            if (pencil::bracketed(counted<2>({out - reach, out + reach}), j)) return {x, margin};
+            if (pencil::root_within(in_pairs, j, given_out(x), margin)) return {x, margin};
         }
-        return bisected(j, pencil::between(bracket.lower, bracket.upper));
+        // by proved counts alone, as far as they go
+        const RigWord guess(pencil::between(bracket.lower, bracket.upper));
+        const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
+        if (!found) return {guess};
+        return {found->middle(), found->reach(given_out(found->middle()))};
     }
 
     /// A proved count of the roots above x.
@@ -82,7 +101,7 @@ class CountedRoots {
     template <std::size_t N>
     std::array<pencil::CertifiedCount, N> counted(std::array<RigWord, N> x) const {
         for (RigWord& one : x) one = RigWord(static_cast<double>(side_)) * one;
-        auto result = pencil::certified_count<RigWord, N>(pencil_, x);
+        auto result = pencil::certified_count(pencil_, x);
         for (auto& one : result) one.above = base_ + sign_ * one.above;
         return result;
     }
@@ -90,17 +109,6 @@ class CountedRoots {
     /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a height.
     RigWord given_out(const RigWord& x) const {
         return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
-    }
-
-    /// By proved counts alone, as far as they go.
-    FoundRoot bisected(Index j, double guess) const {
-        const auto count = [&](const std::array<RigWord, 2>& shifts) { return counted<2>(shifts); };
-        const auto found = pencil::proved_interval(count, j, RigWord(guess), epsilon<double>() / 4);
-        if (!found) return {RigWord(guess)};
-        const auto& [lower, upper] = *found;
-        const RigWord x = found->middle(), out = given_out(x);
-        const double worst = std::max(static_cast<double>(out - lower), static_cast<double>(upper - out));
-        return {x, worst / static_cast<double>(lower) * (1 + 8 * epsilon<double>())};
     }
 
     pencil::SignedPencil<RigWord> pencil_;
@@ -160,7 +168,8 @@ inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(const Rig& rig
 
 /// The roots of a range of numbers, from 1, where every stiffness is positive and no mass negative: eight at a time, to
 /// an ulp of what is given out. Nothing where that is not proved. `elements` is the pencil of `roots`.
-inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord>& elements,
+template <bool Spins>
+std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord, Spins>& elements,
                                                             const CountedRoots& roots, const ModeRange& range,
                                                             Index available, double guess,
                                                             const std::function<void(Index)>& finished) {
@@ -168,11 +177,8 @@ inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::Elemen
     const FloatingPointStateGuard quiet;
     const auto counter = pencil::rounded<double>(elements);
     const auto certified = [&](double x) { return roots.certified(RigWord(x)); };
-    const auto find = [&](auto spinning) {
-        return pencil::proved_range<spinning.value>(elements, counter, certified, range.first - 1, range.count,
-                                                    available, guess, worst_unrounded_root, finished);
-    };
-    const auto proved = elements.spin.empty() ? find(std::false_type()) : find(std::true_type());
+    const auto proved = pencil::proved_range(elements, counter, certified, range.first - 1, range.count, available,
+                                             guess, worst_unrounded_root, finished);
     if (!proved) return std::nullopt;
     std::vector<FoundRoot> found;
     found.reserve(proved->size());

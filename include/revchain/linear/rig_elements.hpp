@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "revchain/pencil/signed.hpp"
+#include "revchain/pencil/element.hpp"
 #include "revchain/rig.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -28,7 +28,7 @@ namespace detail {
 /// along with the rest: no equation holds them.
 inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
-    const auto& [k, s, lower, upper, cross, error] = e;
+    const auto& [k, s, lower, upper, cross, error, weight, determinant] = e;
     return k == none && s == none && lower == none && upper == none && cross == none &&
            error.stiffness + error.spin + error.lower + error.upper + error.cross == 0;
 }

@@ -12,12 +12,14 @@
 /// The part of `rig_modes` that finds shapes.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Finds shapes of rigged chains from the roots of their modes.
+/// Finds shapes of rigged chains from the roots of their modes. `Spins`: of the elements whose shapes are found eight at
+/// a time.
+template <bool Spins = false>
 class RigShapeFinder {
    public:
     /// `elements`: the pencil once more, where shapes can be found eight at a time; else null.
     RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense,
-                   std::shared_ptr<const pencil::ElementPencil<RigWord>> elements, std::vector<RigWord> roots,
+                   std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements, std::vector<RigWord> roots,
                    Index threads)
         : threads_(threads),
           chain_(rig.chain()),
@@ -30,10 +32,8 @@ class RigShapeFinder {
     ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
         const Threads used("modes", threads_);
         ModeShapes<double> shapes = room_for_shapes(chain_, count, details);
-        if (elements_ && elements_->spin.empty())
-            in_lanes<false>(shapes, first, progress);
-        else if (elements_)
-            in_lanes<true>(shapes, first, progress);
+        if (elements_)
+            in_lanes(shapes, first, progress);
         else
             for (Index j = 0; j < count; ++j) {
                 alone(shapes, j, root(first + j));
@@ -54,7 +54,6 @@ class RigShapeFinder {
         set_offsets(shapes, j, rounded.data());
     }
 
-    template <bool spinning>
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
         const FloatingPointStateGuard quiet;
         const bool lumped = pencil::is_lumped(*elements_), details = shapes.residual.size() > 0;
@@ -67,7 +66,7 @@ class RigShapeFinder {
                                        for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
                                            at.exact[i] = at.rounded[i] =
                                                root(from + j + static_cast<Index>(std::min(i, there - 1)));
-                                       pencil::shapes_in_lanes<spinning>(*elements_, lumped, at, details, found);
+                                       pencil::shapes_in_lanes(*elements_, lumped, at, details, found);
                                        found.store_rows(rows.data(), pins, there);
                                        for (std::size_t i = 0; i < there; ++i) {
                                            const Index mode = j + static_cast<Index>(i);
@@ -108,7 +107,7 @@ class RigShapeFinder {
     Chain<double> chain_;
     Index idle_;
     pencil::SignedPencil<RigWord> sense_;
-    std::shared_ptr<const pencil::ElementPencil<RigWord>> elements_;
+    std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements_;
     std::vector<RigWord> roots_;
 };
 

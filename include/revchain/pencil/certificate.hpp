@@ -21,13 +21,19 @@ inline bool bracketed(const std::array<CertifiedCount, 2>& count, Index j) {
     return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
 }
 
-/// Whether the eigenvalue number `j` (from 0, descending) of the exact pencil lies within a relative `margin` of
-/// `eigenvalue`: proved counts at both ends of the interval. Cost: one pass of two shifts in S.
+/// Whether the root number `j` (from 0, descending) lies within a relative `margin` of `centre`, by proved counts at
+/// both ends of the interval. `count(two shifts)` returns certified counts of the roots above them.
+template <Real S, class Count>
+bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& margin) {
+    const S reach = centre * S(margin);
+    return bracketed(count(std::array<S, 2>{centre - reach, centre + reach}), j);
+}
+
+/// The same of the exact pencil's eigenvalues. Cost: one pass of two shifts in S.
 template <Real S, Real T>
 bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, const Narrow<S>& margin) {
-    const S centre(static_cast<Narrow<S>>(eigenvalue));
-    const S reach = centre * S(margin);
-    return bracketed(certified_count<S, 2>(pencil, {centre - reach, centre + reach}), j);
+    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
+    return root_within(count, j, S(static_cast<Narrow<S>>(eigenvalue)), margin);
 }
 
 /// The error bound that goes with `lies_within`: relative to the exact eigenvalue, and with the roundings of the two
@@ -41,6 +47,12 @@ template <Real S>
 struct ProvedInterval {
     S lower, upper;
     S middle() const { return lower + (upper - lower) / S(Narrow<S>(2)); }
+    /// How far from `x` the root may be, relative to it.
+    Narrow<S> reach(const S& x) const {
+        using M = Narrow<S>;
+        const M worst = std::max(static_cast<M>(x - lower), static_cast<M>(upper - x));
+        return worst / static_cast<M>(lower) * (M(1) + M(8) * epsilon<M>());
+    }
 };
 
 /// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as narrow as rounding in
@@ -80,15 +92,13 @@ Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& 
     const auto certified = [](const T& eigenvalue, const T& bound) {
         return Certified<T>{eigenvalue, bound, Wide<T>(static_cast<Narrow<Wide<T>>>(eigenvalue))};
     };
-    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count<S, 2>(pencil, shifts); };
+    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
     const auto found = proved_interval(count, j, S(static_cast<M>(guess)), static_cast<M>(epsilon<T>()) / M(4));
     if (!found) return certified(guess, std::numeric_limits<T>::infinity());
     const T eigenvalue = static_cast<T>(found->middle());
-    const M below = static_cast<M>(S(static_cast<M>(eigenvalue)) - found->lower);
-    const M above = static_cast<M>(found->upper - S(static_cast<M>(eigenvalue)));
-    const M worst = (below > above ? below : above) / static_cast<M>(found->lower);
+    const M worst = found->reach(S(static_cast<M>(eigenvalue)));
     if (!(worst <= M(0.5))) return certified(eigenvalue, std::numeric_limits<T>::infinity());
-    return certified(eigenvalue, bound_of_margin<S>(static_cast<T>(worst * (M(1) + M(4) * epsilon<M>()))));
+    return certified(eigenvalue, bound_of_margin<S>(static_cast<T>(worst)));
 }
 
 /// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` that is nearer to it than to any other: the

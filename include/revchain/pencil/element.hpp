@@ -1,39 +1,128 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "revchain/numeric/double_word.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// One element between two neighbouring pins (lower, upper) of the pencil  lambda K - M:
+/// Factors of the stiffness and of the spin of each element: x and none, or x^2 and x.
+template <class X>
+struct Factors {
+    X stiffness{}, spin{};
+};
+
+namespace detail {
+struct Nothing {};
+}  // namespace detail
+
+/// One element between two neighbouring pins (lower, upper) of a family of symmetric matrices in one unknown x,
 ///
-///     K = k [ 1 -1 ; -1 1 ],     M = [ A  X ; X  B ],     A + 2 X + B = W,     A B - X^2 = c W.
+///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s.
 ///
-/// All are data of their own, never differences of one another: that is what keeps the counts accurate. All are linear
-/// in the weights: no square of a small one underflows.
-template <Real S>
+/// An element of the primary template is that of a hanging chain, whose x without spins is a conical height lambda:
+/// k > 0, no mass is negative, W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of
+/// one another: that keeps the counts accurate. All are linear in the weights: no square of a small one underflows.
+template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
+    static constexpr bool spins = Spins;
+
     S stiffness{};       ///< k > 0
     S lower{};           ///< A >= 0
     S upper{};           ///< B >= 0
     S cross{};           ///< X, of any sign
     S turning{};         ///< c >= 0, what the element resists turning with
     Narrow<S> weight{};  ///< W >= 0
+    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing> spin{};  ///< s, of any sign
+
+    /// L at x, a number or a pack of numbers of S.
+    template <class X>
+    [[gnu::always_inline]] X stiffness_at(const Factors<X>& x) const {
+        if constexpr (Spins)
+            return x.stiffness * X(stiffness) + x.spin * X(spin);
+        else
+            return x.stiffness * X(stiffness);
+    }
+    /// (L - c) W.
+    template <class X>
+    [[gnu::always_inline]] X resisted(const X& L) const {
+        return (L - X(turning)) * X(weight);
+    }
+    /// The same over a pivot. Quotients first: products of small weights would underflow.
+    S resisted_over(const S& L, const S& inverse) const { return (L - turning) * (S(weight) * inverse); }
+    /// No less than the sizes of the terms of `resisted_over`.
+    Narrow<S> resisted_size(const Narrow<S>& L, const Narrow<S>& inverse) const {
+        return (L + static_cast<Narrow<S>>(turning)) * (weight * inverse);
+    }
+    /// |L|.
+    template <class X>
+    [[gnu::always_inline]] static X size(const X& L) {
+        using std::abs;
+        if constexpr (Spins)
+            return abs(L);
+        else
+            return L;
+    }
 };
 
-/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from `near` at the pin where
-/// it is known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
+/// Bounds on the absolute errors of an element's numbers.
+template <Real M>
+struct ElementError {
+    M stiffness{}, spin{}, lower{}, upper{}, cross{};
+};
+
+/// An element whose numbers may have any sign, each with a bound on its own error.
+template <Real S, bool Spins>
+struct Element<S, Spins, true> {
+    static constexpr bool spins = true;
+
+    S stiffness{};  ///< k
+    S spin{};       ///< s, 0 where the family has none
+    S lower{}, upper{}, cross{};
+    ElementError<Narrow<S>> error{};
+    S weight = (lower + cross) + (cross + upper);         ///< W
+    S determinant = lower * upper - cross * cross;  ///< A B - X^2
+
+    template <class X>
+    [[gnu::always_inline]] X stiffness_at(const Factors<X>& x) const {
+        return x.stiffness * X(stiffness) + x.spin * X(spin);
+    }
+    template <class X>
+    [[gnu::always_inline]] X resisted(const X& L) const {
+        return L * X(weight) - X(determinant);
+    }
+    S resisted_over(const S& L, const S& inverse) const { return resisted(L) * inverse; }
+    Narrow<S> resisted_size(const Narrow<S>& L, const Narrow<S>& inverse) const {
+        using std::abs;
+        return (L * abs(static_cast<Narrow<S>>(weight)) + abs(static_cast<Narrow<S>>(determinant))) * inverse;
+    }
+    template <class X>
+    [[gnu::always_inline]] static X size(const X& L) {
+        using std::abs;
+        return abs(L);
+    }
+};
+
 template <Real S>
-S propagate(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
-    return (stiffness - far) * (near * inverse) - (stiffness - e.turning) * (S(e.weight) * inverse);
+using SignedElement = Element<S, true, true>;
+
+/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from `near` at the pin where
+/// it is known to the other, whose own mass is `far`; `inverse` is one over the pivot.
+template <class E, Real S>
+S propagate(const E& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
+    return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
 /// This form has one operation less after the division. It is for pencils in one unit, whose products stay in range.
-template <Real S>
-S propagate_in_one_unit(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
-    return ((stiffness - far) * near - (stiffness - e.turning) * S(e.weight)) / pivot;
+template <class E, class X>
+[[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near, const X& far,
+                                                      const X& pivot) {
+    return ((stiffness - far) * near - e.resisted(stiffness)) / pivot;
 }
 
 /// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the pivot are small.
@@ -51,37 +140,34 @@ M least_pivot() {
 }
 
 /// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue at the shift is not
-/// above it.
+/// above it. `size` is that of L.
 template <Real S>
-S not_zero(const S& pivot, const S& stiffness) {
+S not_zero(const S& pivot, const S& size) {
     using std::abs;
     const S least(least_pivot<Narrow<S>>());
-    return abs(pivot) < least ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
+    return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
-/// Factors of the stiffness and of the spin of each element: x and none, or x^2 and x.
-template <class S>
-struct Factors {
-    S stiffness{}, spin{};
-};
-
-/// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
-/// added, lose the slowest modes. The last element's upper pin is held. lambda K y = M y has positive eigenvalues.
-template <Real S>
+/// A family Q(x) kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once added, lose the
+/// slowest modes. The last element's upper pin is held. Without spins it is the pencil lambda K - M of a hanging chain,
+/// with positive eigenvalues; with spins it has a positive root x for each mode in one sense of rotation.
+template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
-    std::vector<Element<S>> elements;
+    std::vector<Element<S, Spins>> elements;
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// With momentum: s of each element, of any sign. Its L is then x^2 k + x s, and the family quadratic in x, with a
-    /// positive root for each mode in one sense of rotation. Else empty.
-    std::vector<S> spin;
-    /// Bound on the error of every number in `elements` and of each spin, relative to it and, of the cross mass, to
-    /// |X| + 2 c; besides what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
+    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides
+    /// what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 
     Index size() const { return static_cast<Index>(elements.size()); }
+    static constexpr bool is_quadratic() { return Spins; }
+    template <class X>
+    [[gnu::always_inline]] static Factors<X> factors(const X& x) {
+        return {Spins ? x * x : x, x};
+    }
     /// 4/a times the least positive number, a the shortest length there can be beside one of 1.
     static Narrow<S> largest_underflow() {
         using std::ldexp;
@@ -93,25 +179,106 @@ struct ElementPencil {
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
 };
 
+template <Real S, bool Spins>
+struct ElementPencil<S, Spins, true> {
+    std::vector<Element<S, Spins, true>> elements;
+    bool quadratic = false;  ///< L = x^2 k + x s
+    static constexpr std::array<int, 0> units{};
+
+    Index size() const { return static_cast<Index>(elements.size()); }
+    bool is_quadratic() const { return quadratic; }
+    template <class X>
+    [[gnu::always_inline]] Factors<X> factors(const X& x) const {
+        return quadratic ? Factors<X>{x * x, x} : Factors<X>{x, X(S(Narrow<S>(0)))};
+    }
+    /// Their derivatives.
+    template <class X>
+    Factors<X> slopes(const X& x) const {
+        const X one(S(Narrow<S>(1)));
+        return quadratic ? Factors<X>{x + x, one} : Factors<X>{one, X(S(Narrow<S>(0)))};
+    }
+    static constexpr int step_down(std::size_t) { return 0; }
+    /// Returns the pencil with every spin reversed: its x are those of this pencil with the other sign.
+    ElementPencil reversed() const {
+        ElementPencil other = *this;
+        for (auto& e : other.elements) e.spin = -e.spin;
+        return other;
+    }
+};
+
+template <Real S>
+using SignedPencil = ElementPencil<S, true, true>;
+
 /// Returns the pencil in a narrower scalar, with one more rounding in each entry.
-template <Real T, Real S>
-ElementPencil<T> rounded(const ElementPencil<S>& wide) {
+template <Real T, Real S, bool Spins>
+ElementPencil<T, Spins> rounded(const ElementPencil<S, Spins>& wide) {
     if constexpr (std::is_same_v<T, S>) {
         return wide;
     } else {
-        ElementPencil<T> pencil;
+        ElementPencil<T, Spins> pencil;
         pencil.elements.reserve(wide.elements.size());
-        for (const Element<S>& e : wide.elements)
+        for (const auto& e : wide.elements) {
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
                                        static_cast<T>(e.cross), static_cast<T>(e.turning), static_cast<T>(e.weight)});
+            if constexpr (Spins) pencil.elements.back().spin = static_cast<T>(e.spin);
+        }
         pencil.units = wide.units;
-        pencil.spin.reserve(wide.spin.size());
-        for (const S& spin : wide.spin) pencil.spin.push_back(static_cast<T>(spin));
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
         if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
             pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);
         return pencil;
     }
+}
+
+/// The same of elements of any sign. Weight and determinant are rounded once, not computed from rounded masses; errors
+/// are left out.
+template <Real T, Real S>
+SignedPencil<T> rounded(const SignedPencil<S>& wide) {
+    SignedPencil<T> pencil;
+    pencil.quadratic = wide.quadratic;
+    pencil.elements.reserve(wide.elements.size());
+    for (const SignedElement<S>& e : wide.elements)
+        pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.spin), static_cast<T>(e.lower),
+                                   static_cast<T>(e.upper), static_cast<T>(e.cross), {}, static_cast<T>(e.weight),
+                                   static_cast<T>(e.determinant)});
+    return pencil;
+}
+
+/// Whether a number of an element is 0 for certain.
+template <Real S>
+bool vanishes(const S& x, const Narrow<S>& error) {
+    return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
+}
+
+/// The same family with small relative errors. Returns nothing if the error of a number exceeds 1e-20 of its size.
+/// Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether the family is quadratic.
+template <bool Spins, Real S>
+std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
+    using std::abs;
+    using M = Narrow<S>;
+    const S zero(M(0));
+    ElementPencil<S, Spins> result;
+    result.elements.reserve(pencil.elements.size());
+    M worst(0);
+    const auto add = [&](const M& error, const M& size) {
+        worst = std::max(worst, error == M(0) ? error : error / size);
+    };
+    for (const SignedElement<S>& e : pencil.elements) {
+        const S turning = e.weight > zero ? e.determinant / e.weight : zero;
+        result.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero,
+                                   static_cast<M>(e.weight)});
+        if constexpr (Spins) {
+            result.elements.back().spin = e.spin;
+            add(e.error.spin, static_cast<M>(abs(e.spin)));
+        }
+        add(e.error.stiffness, static_cast<M>(e.stiffness));
+        add(e.error.lower, static_cast<M>(e.lower));
+        add(e.error.upper, static_cast<M>(e.upper));
+        add(e.error.cross, static_cast<M>(abs(e.cross) + turning + turning));
+    }
+    result.entry_error = worst;
+    if (!(worst < M(1e-20))) return std::nullopt;
+    return result;
 }
 
 }  // namespace revchain::pencil

@@ -13,9 +13,9 @@
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Whether all elements are point masses at their lower pins.
-template <class S>
-bool is_lumped(const ElementPencil<S>& pencil) {
-    for (const Element<S>& e : pencil.elements)
+template <class S, bool Spins>
+bool is_lumped(const ElementPencil<S, Spins>& pencil) {
+    for (const auto& e : pencil.elements)
         if (!(e.upper == S(0)) || !(e.cross == S(0)) || !(e.turning == S(0))) return false;
     return true;
 }
@@ -54,39 +54,32 @@ template <class V>
     return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
 }
 
-/// Properties of a pencil for which loops are compiled separately: every element is a point mass at its lower pin
-/// (`lumped`), elements have spins (`spinning`).
-template <bool Lumped, bool Spinning>
+/// Whether every element is a point mass at its lower pin: loops are compiled separately for those.
+template <bool Lumped>
 struct Terms {
-    static constexpr bool lumped = Lumped, spinning = Spinning;
+    static constexpr bool lumped = Lumped;
 };
 
-template <class Terms, class V>
-[[gnu::always_inline]] inline Factors<V> factors_in_lanes(Terms, const V& x) {
-    return {Terms::spinning ? x * x : x, x};
-}
-
-/// L of element m, rounded.
-template <class Terms, class V, class T>
-[[gnu::always_inline]] inline V stiffness_in_lanes(Terms, const ElementPencil<DoubleWord<T>>& pencil, std::size_t m,
-                                                   const Factors<V>& at) {
-    const V k = at.stiffness * V(pencil.elements[m].stiffness.high);
-    if constexpr (Terms::spinning)
-        return k + at.spin * V(pencil.spin[m].high);
+/// L of an element, rounded.
+template <bool Spins, class V, class T>
+[[gnu::always_inline]] inline V stiffness_in_lanes(const Element<DoubleWord<T>, Spins>& e, const Factors<V>& at) {
+    const V k = at.stiffness * V(e.stiffness.high);
+    if constexpr (Spins)
+        return k + at.spin * V(e.spin.high);
     else
         return k;
 }
 
 /// The dynamic stiffness carried across an element, as `across` does.
-template <class Terms, class V, class T>
-[[gnu::always_inline]] inline V carried(Terms, const Element<DoubleWord<T>>& e, const V& k, const V& near,
+template <class Terms, bool Spins, class V, class T>
+[[gnu::always_inline]] inline V carried(Terms, const Element<DoubleWord<T>, Spins>& e, const V& k, const V& near,
                                         const T& near_mass, const T& far_mass, const V& coupling, const V& inverse) {
     if constexpr (Terms::lumped) {
         if (near_mass == T(0)) return k * (near * inverse) - V(far_mass);
         return k * ((near - V(near_mass)) * inverse);
     } else {
         const V far(far_mass), weight(e.weight), turning(e.turning.high), size = abs(inverse);
-        const V k_size = Terms::spinning ? abs(k) : k;
+        const V k_size = e.size(k);
         const V of_coupling =
             V(T(2)) * abs(coupling) * ((k_size + weight + V(near_mass) + far) * size) + (k_size + far);
         const V of_weight = (k_size + far) * (abs(near) * size) + (k_size + turning) * (weight * size);
@@ -105,8 +98,8 @@ template <class V>
 /// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m, force, size, offset,
 /// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much
 /// it exceeds the next one's.
-template <bool fused, bool sized, class V, class Terms, class T, class Offset, class Take>
-[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>>& pencil,
+template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset, class Take>
+[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
     const std::size_t n = pencil.elements.size();
     const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
@@ -116,12 +109,12 @@ template <bool fused, bool sized, class V, class Terms, class T, class Offset, c
     Pair<V> from_below{};
     V size{}, lower = offset(0);
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = pencil.elements[m];
+        const auto& e = pencil.elements[m];
         const V upper = m + 1 < n ? offset(m + 1) : V{};
         Pair<V> k = product(at.stiffness, e.stiffness);
         V k_size = abs(k.high);
-        if constexpr (Terms::spinning) {
-            const Pair<V> spin = product(at.spin, pencil.spin[m]);
+        if constexpr (Spins) {
+            const Pair<V> spin = product(at.spin, e.spin);
             k = k + spin;
             k_size += abs(spin.high);
         }
@@ -148,9 +141,9 @@ template <bool fused, bool sized, class V, class Terms, class T, class Offset, c
 }
 
 /// x as a pair, or x^2 and x.
-template <bool fused, class Terms, class V>
-[[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(Terms, const V& x, const V& low) {
-    if constexpr (Terms::spinning) {
+template <bool fused, bool Spins, class V>
+[[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(const V& x, const V& low) {
+    if constexpr (Spins) {
         const DoubleWord<V> p = two_product<fused>(x, x),
                             square = fast_two_sum(p.high, p.low + V(Lane<V>(2)) * x * low);
         return {{square.high, square.low}, {x, low}};

@@ -38,8 +38,8 @@ void for_eights(std::size_t count, std::size_t links, const F& f) {
 /// Rayleigh quotient is nearer to it than the square of the residual over the room to the next interval (Kato, Temple).
 /// Where intervals meet, counts on either side, `certified(x)`, number the others. Nothing where they cannot, and
 /// `worst`: how far a root may be off (relative) to count as proved. Preconditions as those of `quotients_in_lanes`.
-template <bool spinning = false, std::floating_point T, class Certified>
-std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
+template <std::floating_point T, bool Spins, class Certified>
+std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
                                                        const std::vector<T>& starts, Index first, const T& below,
                                                        const T& above, const T& worst, const Certified& certified) {
     const std::size_t count = starts.size();
@@ -48,7 +48,7 @@ std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<Doubl
     for_eights<T>(count, pencil.elements.size(), [&](std::size_t from, std::size_t there, ShapesInLanes<T>& scratch) {
         QuotientsInLanes<T> found;
         for (std::size_t i = 0; i < shape_lanes; ++i) found.start[i] = starts[from + std::min(i, there - 1)];
-        quotients_in_lanes<spinning>(pencil, lumped, scratch, found);
+        quotients_in_lanes(pencil, lumped, scratch, found);
         for (std::size_t i = 0; i < there; ++i)
             roots[from + i] = {found.root[i], found.blur[i]}, reach[from + i] = found.reach[i];
     });
@@ -116,14 +116,14 @@ std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index
 
 /// The `count` roots from number `first` on (from 0, descending), of `available`; `counter` has a `count_above` for
 /// `bisect`, `guess` as there; the rest as in `proved_roots`.
-template <bool spinning = false, std::floating_point T, class Counter, class Certified>
-std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<DoubleWord<T>>& pencil,
+template <std::floating_point T, bool Spins, class Counter, class Certified>
+std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                        const Counter& counter, const Certified& certified, Index first,
                                                        Index count, Index available, const T& guess, const T& worst,
                                                        const std::function<void(Index)>& finished) {
     const bool lumped = is_lumped(pencil);
     std::vector<Bracket<T>> brackets;
-    if constexpr (!spinning && std::is_same_v<Counter, ElementPencil<T>>)
+    if constexpr (std::is_same_v<Counter, ElementPencil<T>>)
         brackets = detail::brackets_of_groups(counter, first, count);
     if (brackets.empty()) {
         // With the next root on either side, so that the outermost brackets hold one root, too.
@@ -132,7 +132,7 @@ std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<Doubl
         brackets.erase(brackets.begin(), brackets.begin() + before);
         brackets.resize(static_cast<std::size_t>(count));
     }
-    const std::vector<T> starts = approached<spinning>(pencil, lumped, first, std::move(brackets));
+    const std::vector<T> starts = approached(pencil, lumped, first, std::move(brackets));
     // Counts next to the ends, where others lie beyond.
     const auto end_beside = [&](const T& start, int side, Index expected) -> std::optional<T> {
         for (const T& apart : {T(0x1p-12), T(0x1p-20)}) {
@@ -146,7 +146,7 @@ std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<Doubl
     if (first > 0) above = end_beside(starts.front(), 1, first);
     if (first + count < available) below = end_beside(starts.back(), -1, first + count);
     if (!above || !below) return std::nullopt;
-    return proved_roots<spinning>(pencil, lumped, starts, first, *below, *above, worst, certified);
+    return proved_roots(pencil, lumped, starts, first, *below, *above, worst, certified);
 }
 
 }  // namespace revchain::pencil

@@ -36,8 +36,8 @@ T positive_root(const T& k, const T& s, const T& m) {
     return s > T(0) ? T(2) * m / (root + s) : (root - s) / (T(2) * k);
 }
 
-template <class Where, class Terms, class T>
-[[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+template <class Where, class Terms, bool Spins, class T>
+[[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                      Index first, Bracket<T>* brackets, std::size_t count,
                                                      ShapesInLanes<T>& s, T* roots) {
     using std::abs;
@@ -62,11 +62,11 @@ template <class Where, class Terms, class T>
         V stiffness{}, spin{}, mass{}, lower{};
         lower = next_offset(s, 0, joined.pin, lower);
         for (std::size_t m = 0; m < n; ++m) {
-            const Element<DoubleWord<T>>& e = pencil.elements[m];
+            const auto& e = pencil.elements[m];
             const V upper = m + 1 < n ? next_offset(s, m + 1, joined.pin, lower) : V{};
             const V stretch = lower - upper, square = stretch * stretch;
             stiffness += V(e.stiffness.high) * square;
-            if constexpr (Terms::spinning) spin += V(pencil.spin[m].high) * square;
+            if constexpr (Spins) spin += V(e.spin.high) * square;
             mass += V(e.lower.high) * lower * lower;
             if constexpr (!Terms::lumped) mass += upper * (V(e.upper.high) * upper + V(T(2) * e.cross.high) * lower);
             lower = upper;
@@ -76,7 +76,7 @@ template <class Where, class Terms, class T>
             if (!busy[i]) continue;
             Bracket<T>& bracket = brackets[j];
             const T at = roots[j];
-            const T quotient = Terms::spinning ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
+            const T quotient = Spins ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
             const bool exceeds = static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
             (exceeds ? bracket.lower : bracket.upper) = at;
             // A step squares the error, times what depends on the pin of the twist: two at one pin tell how small the
@@ -95,23 +95,23 @@ template <class Where, class Terms, class T>
     }
 }
 
-template <class Where, class Terms, class T>
-[[gnu::always_inline]] inline void quotients_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+template <class Where, class Terms, bool Spins, class T>
+[[gnu::always_inline]] inline void quotients_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                       const T& unit, ShapesInLanes<T>& s, QuotientsInLanes<T>& result) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     const T u = epsilon<T>() / T(2);
     using V = Pack<T, width, L / width>;
     const V start = V::load(result.start.data());
-    const Factors<V> at = factors_in_lanes(terms, start);
+    [[maybe_unused]] const Factors<V> at = pencil.factors(start);
     const V twist = twisted_in_lanes(terms, pencil, start, s).pin;
     V y{}, hung{}, hung_error{}, square{}, stiffness{}, work{}, work_size{}, work_error{}, turned{};
     V slope{}, slope_size{}, pull{};  // of y^T Q(x) y: d/dx, and the squared norm of d/dx (L y)
     forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused>(terms, start, V{}),
+        terms, pencil, factors_in_pairs<fused, Spins>(start, V{}),
         [&](std::size_t m) REVCHAIN_INLINED { return y = next_offset(s, m, twist, y); },
         [&](std::size_t m, const V& force, const V& sizes, const V& offset, const V& stretch) REVCHAIN_INLINED {
-            const Element<DoubleWord<T>>& e = pencil.elements[m];
+            const auto& e = pencil.elements[m];
             const V k(e.stiffness.high);
             V error = V(unit) * sizes + V(T(2) * u) * abs(force);
             if constexpr (!Terms::lumped) {  // the cross mass is as sure as |X| + 2 c, at both pins of a link
@@ -125,8 +125,8 @@ template <class Where, class Terms, class T>
             square += whole * (whole / k);
             const V energy = stretch * stretch;
             stiffness += k * energy;
-            if constexpr (Terms::spinning) {
-                const V spin(pencil.spin[m].high), twice = V(T(2)) * at.spin * k, rate = twice + spin;
+            if constexpr (Spins) {
+                const V spin(e.spin.high), twice = V(T(2)) * at.spin * k, rate = twice + spin;
                 slope += rate * energy;
                 slope_size += (twice + abs(spin)) * energy;
                 pull += rate * rate * energy / k;
@@ -140,11 +140,11 @@ template <class Where, class Terms, class T>
     for (std::size_t i = 0; i < L; ++i) {
         using std::abs;
         using std::sqrt;
-        const T x = result.start[i], rate = Terms::spinning ? slope[i] : stiffness[i], step = work[i] / rate;
+        const T x = result.start[i], rate = Spins ? slope[i] : stiffness[i], step = work[i] / rate;
         const DoubleWord<T> root = two_sum(x, -step);
         T reach = sqrt(square[i] / stiffness[i]);
         T blur = (work_error[i] + terms_added * u * work_size[i]) / rate + terms_added * u * abs(step);
-        if constexpr (Terms::spinning) {
+        if constexpr (Spins) {
             // From the residual at `start` to that at the root; and what Newton's step leaves.
             reach = (reach + abs(step) * sqrt(pull[i] / stiffness[i])) / x;
             blur += step * (step * (stiffness[i] / rate));
@@ -160,8 +160,8 @@ template <class Where, class Terms, class T>
 /// From brackets of the roots number `first`, `first` + 1, ... (from 0, descending) to roots of some eleven digits or
 /// more: inverse iteration with Rayleigh quotients, whose counts keep it within the bracket and narrow that.
 /// Cost: 2.5 ns a link and root for each round: three from a factor of two on, two from three per cent.
-template <bool spinning = false, std::floating_point T>
-std::vector<T> approached(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, Index first,
+template <std::floating_point T, bool Spins>
+std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, Index first,
                           std::vector<Bracket<T>> brackets) {
     std::vector<T> roots(brackets.size());
     revchain::detail::parallel_for(brackets.size(), 8 * shape_lanes, [&](std::size_t begin, std::size_t end) {
@@ -173,9 +173,9 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>>& pencil, bool lumpe
                                               end - begin, shapes, &roots[begin]);
                 };
                 if (lumped)
-                    approach(detail::Terms<true, spinning>());
+                    approach(detail::Terms<true>());
                 else
-                    approach(detail::Terms<false, spinning>());
+                    approach(detail::Terms<false>());
             });
         });
     });
@@ -185,16 +185,16 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>>& pencil, bool lumpe
 /// Better roots from `quotients.start`. NaN or infinite where numbers leave the range of T. Preconditions as those of
 /// `shapes_in_lanes`, and every stiffness is positive and every mass not negative; `shapes` is scratch. Cost: 6 ns a
 /// link and root.
-template <bool spinning = false, std::floating_point T>
-void quotients_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, ShapesInLanes<T>& shapes,
+template <std::floating_point T, bool Spins>
+void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, ShapesInLanes<T>& shapes,
                         QuotientsInLanes<T>& quotients) {
     shapes.make_room(pencil.elements.size());
     const T unit = T(32) * operation_error<DoubleWord<T>>() + T(4) * pencil.entry_error;
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
-            detail::quotients_in_lanes(where, detail::Terms<true, spinning>(), pencil, unit, shapes, quotients);
+            detail::quotients_in_lanes(where, detail::Terms<true>(), pencil, unit, shapes, quotients);
         else
-            detail::quotients_in_lanes(where, detail::Terms<false, spinning>(), pencil, unit, shapes, quotients);
+            detail::quotients_in_lanes(where, detail::Terms<false>(), pencil, unit, shapes, quotients);
     });
 }
 

@@ -18,19 +18,62 @@ inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
+/// Negative numbers seen, in a number or in each of a pack.
+template <class V>
+struct Negatives {
+    Index count = 0;
+
+    void add(const V& x) { count += x < V(Lane<V>(0)) ? 1 : 0; }
+};
+template <class V>
+    requires IsPack<V>
+struct Negatives<V> {
+    typename V::Mask count{};
+
+    [[gnu::always_inline]] void add(const V& x) { count += x < V{}; }  // yes is -1
+};
+
+template <class V, class E>
+[[gnu::always_inline]] inline V usable_pivot(const E&, const V& pivot, const V& stiffness) {
+    if constexpr (IsPack<V>) {
+        const Lane<V> least = least_pivot<Lane<V>>(), tiny = epsilon<Lane<V>>() * epsilon<Lane<V>>();
+        return if_less(abs(pivot), V(least), E::size(stiffness) * tiny + V(least), pivot);
+    } else {
+        return not_zero(pivot, E::size(stiffness));
+    }
+}
+
+/// Negative pivots of Q(x) in one unit, at each of several numbers or packs x.
+template <class Pencil, class V, std::size_t L>
+[[gnu::always_inline]] inline std::array<Negatives<V>, L> negative_pivots(const Pencil& pencil,
+                                                                          const std::array<V, L>& x) {
+    std::array<Factors<V>, L> at;
+    std::array<V, L> below{};
+    std::array<Negatives<V>, L> negative;
+    for (std::size_t i = 0; i < L; ++i) at[i] = pencil.factors(x[i]);
+    for (const auto& e : pencil.elements)
+        for (std::size_t i = 0; i < L; ++i) {
+            const V stiffness = e.stiffness_at(at[i]);
+            const V pivot = usable_pivot(e, below[i] + (stiffness - V(e.lower)), stiffness);
+            negative[i].add(pivot);
+            below[i] = propagate_in_one_unit(e, stiffness, below[i], V(e.upper), pivot);
+        }
+    return negative;
+}
+
 /// `count_above` where weights span more than one unit. A function of its own, so that the other keeps to registers.
-template <Real T, std::size_t L>
-std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
+template <class Pencil, Real T, std::size_t L>
+std::array<Index, L> count_above_in_units(const Pencil& pencil, const std::array<T, L>& shifts) {
     using std::ldexp;
     std::array<T, L> below{};
     std::array<Index, L> negative{};
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const Element<T>& e = pencil.elements[m];
+        const auto& e = pencil.elements[m];
         const int step = pencil.step_down(m);
         for (std::size_t i = 0; i < L; ++i) {
             const T hung = step == 0 ? below[i] : ldexp(below[i], step);
-            const T stiffness = shifts[i] * e.stiffness;
-            const T pivot = not_zero(hung + (stiffness - e.lower), stiffness);
+            const T stiffness = e.stiffness_at(pencil.factors(shifts[i]));
+            const T pivot = not_zero(hung + (stiffness - e.lower), e.size(stiffness));
             negative[i] += pivot < T(0) ? 1 : 0;
             below[i] = propagate(e, stiffness, hung, e.upper, T(1) / pivot);
         }
@@ -38,60 +81,34 @@ std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const 
     return negative;
 }
 
-/// `count_above` in packs, whatever the compiler makes of loops.
-template <bool spinning, std::floating_point T, std::size_t L>
-std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
-    return simd([&](auto registers) REVCHAIN_INLINED {
-        constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
-        using Packed = Pack<T, width, L / width>;
-        const Packed shift = Packed::load(shifts.data()), least(least_pivot<T>()), square(epsilon<T>() * epsilon<T>());
-        Packed below{};
-        typename Packed::Mask negative{};
-        const Packed factor = spinning ? shift * shift : shift;
-        for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-            const Element<T>& e = pencil.elements[m];
-            Packed stiffness = factor * Packed(e.stiffness);
-            if constexpr (spinning) stiffness += shift * Packed(pencil.spin[m]);
-            const Packed sum = below + (stiffness - Packed(e.lower));
-            const Packed pivot = if_less(abs(sum), least, abs(stiffness) * square + least, sum);  // `not_zero`
-            negative += pivot < Packed{};
-            below =
-                ((stiffness - Packed(e.upper)) * below - (stiffness - Packed(e.turning)) * Packed(e.weight)) / pivot;
-        }
-        std::array<Index, L> above;
-        for (std::size_t i = 0; i < L; ++i) above[i] = -static_cast<Index>(negative[i]);
-        return above;
-    });
-}
-
 }  // namespace detail
 
-/// For each shift h, the number of eigenvalues of the pencil above h: Sylvester's law of inertia on the dynamic
-/// stiffness D of everything below a pin, carried up the chain (equation (1) of docs/theory/counts.md):
+/// For each shift x, the number of negative eigenvalues of Q(x): of a hanging chain the number of eigenvalues above x.
+/// Sylvester's law of inertia on the dynamic stiffness D of everything below a pin, carried up the chain (equation (1)
+/// of docs/theory/counts.md):
 ///
-///     p = D + lambda k - A,    D' = [ (lambda k - B) D - (lambda k - c) W ] / p,    negative p are counted.
+///     p = D + L - A,    D' = [ (L - B) D - (L - c) W ] / p,    negative p are counted.
 ///
-/// Preconditions: shifts positive; spins, L then being x^2 k + x s, in double and with a multiple of 8 shifts alone.
-/// Cost: one pass, O(N). Accuracy: exact for a pencil whose entries differ by a few
-/// ulp and whose parts below a pin are scaled by a few ulp for each link above; for a proof see `certified_count`.
-template <Real T, std::size_t L>
-std::array<Index, L> count_above(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
+/// Precondition for hanging chains: shifts positive.
+/// Cost: one pass, O(N). Accuracy: exact for a pencil whose entries differ by a few ulp and whose parts below a pin are
+/// scaled by a few ulp for each link above; for a proof see `certified_count`.
+template <Real T, std::size_t L, bool Spins, bool OwnErrors>
+std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
     if (!pencil.units.empty()) return detail::count_above_in_units(pencil, shifts);
-    if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
-        if (pencil.spin.empty()) return detail::count_above_in_packs<false>(pencil, shifts);
-        return detail::count_above_in_packs<true>(pencil, shifts);
+    std::array<Index, L> above;
+    if constexpr ((std::same_as<T, double> || std::same_as<T, float>) && L % 8 == 0) {
+        return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
+            constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
+            using Packed = Pack<T, width, L / width>;
+            const auto negative = detail::negative_pivots(pencil, std::array{Packed::load(shifts.data())});
+            for (std::size_t i = 0; i < L; ++i) above[i] = -static_cast<Index>(negative[0].count[i]);
+            return above;
+        });
+    } else {
+        const auto negative = detail::negative_pivots(pencil, shifts);
+        for (std::size_t i = 0; i < L; ++i) above[i] = negative[i].count;
+        return above;
     }
-    std::array<T, L> below{};
-    std::array<Index, L> negative{};
-    for (const Element<T>& e : pencil.elements) {
-        for (std::size_t i = 0; i < L; ++i) {  // compilers turn this loop into SIMD code
-            const T stiffness = shifts[i] * e.stiffness;
-            const T pivot = not_zero(below[i] + (stiffness - e.lower), stiffness);
-            negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = propagate_in_one_unit(e, stiffness, below[i], e.upper, pivot);
-        }
-    }
-    return negative;
 }
 
 /// A count with its proof: where `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
@@ -100,71 +117,192 @@ struct CertifiedCount {
     bool proved = false;
 };
 
-/// Counts with a running bound on the error of D, from rounding and from the entries' own error: `proved` when
-/// no pivot's sign is in doubt. The bound follows the exact derivative dD'/dD = ((lambda k + X)/p)^2, without which it
-/// would grow exponentially along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
-/// S is usually wider than the scalar of the answer.
+namespace detail {
+
+/// D below a pin at one shift, with a bound on its error and the negative pivots so far.
+template <Real S>
+struct BoundedStiffness {
+    S below{};
+    Narrow<S> error{};
+    CertifiedCount count{0, true};
+};
+
+/// Carries D and the bound on its error across elements.
+template <class Pencil>
+class BoundedCarry;
+
+/// Across elements of a hanging chain, whose numbers have small relative errors and no mass or stiffness of which is
+/// negative. The bound follows the exact derivative dD'/dD = ((L + X)/p)^2, without which it would grow exponentially
+/// along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
+template <Real S>
+class BoundedCarry<ElementPencil<S>> {
+   public:
+    using M = Narrow<S>;  // magnitudes and errors
+    struct Shift {
+        S x;
+        M underflow;  // of a pivot
+    };
+    struct Sizes {
+        M lower, upper, turning, cross;
+    };
+
+    explicit BoundedCarry(const ElementPencil<S>& pencil)
+        : local_(M(2) * pencil.entry_error + M(6) * unit), stiffness_underflow_(pencil.stiffness_underflow) {}
+
+    Shift at(const S& x) const {
+        using std::abs;
+        return {x, tiny() + abs(static_cast<M>(x)) * (M(2) * stiffness_underflow_)};
+    }
+    static Sizes sizes(const Element<S>& e) {
+        using std::abs;
+        const M turning(static_cast<M>(e.turning));
+        return {static_cast<M>(e.lower), static_cast<M>(e.upper), turning,
+                abs(static_cast<M>(e.cross)) + M(2) * turning};
+    }
+    static void change_unit(BoundedStiffness<S>& at, int step) {
+        using std::ldexp;
+        at.below = ldexp(at.below, step);
+        at.error = ldexp(at.error, step) + tiny();
+    }
+    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
+                                           BoundedStiffness<S>& at) const {
+        using std::abs;
+        const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
+        const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
+        const S stiffness = shift.x * e.stiffness;
+        const S pivot = at.below + (stiffness - e.lower);
+        const M size = abs(static_cast<M>(at.below));
+        const M k = static_cast<M>(stiffness);
+        const M pivot_error = local_ * (k + of.lower + size) + shift.underflow;
+        const M least = abs(static_cast<M>(pivot)) * (M(1) - M(2) * epsilon<M>()) - pivot_error;
+        const M least_with_below = least - at.error * inflate;
+        // Written so that a NaN anywhere withdraws the proof.
+        at.count.proved = at.count.proved && least_with_below > M(0);
+        at.count.above += pivot < S(M(0)) ? 1 : 0;
+
+        const S coupling = stiffness + e.cross;
+        const M coupling_error = local_ * (k + of.cross) + shift.underflow;
+        const M gain = abs(static_cast<M>(coupling)) * slack + coupling_error;
+        const M inverse = M(1) / least;
+        const M push = gain * inverse;
+        // Quotients first: the products of small weights would underflow.
+        const M by_weight = local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
+        const M by_coupling = local_ * (k + of.upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
+        const S one_over = S(M(1)) / not_zero(pivot, stiffness);
+        const S by_weight_value = propagate(e, stiffness, at.below, e.upper, one_over);
+        const M quotient = abs(static_cast<M>(by_weight_value));
+        const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
+        at.below = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
+        const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
+        const M rest = shift.underflow * (M(1) + (size + e.weight) * inverse) +
+                       tiny() * (k + of.upper + of.turning + gain + (k + of.turning) * inverse);
+        at.error = inflate * (((push * at.error) * gain) / least_with_below + own + rest +
+                              M(2) * unit * abs(static_cast<M>(at.below)));
+    }
+
+   private:
+    static M tiny() { return M(2) * least_pivot<M>(); }
+    static constexpr M unit = operation_error<S>();
+
+    M local_;  // stiffness times weight has both their errors
+    M stiffness_underflow_;
+};
+
+/// Across elements of any sign, each with a bound on its own errors. As a function of what it is made of, D' = L - B -
+/// (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and 1 - q =
+/// (D - A - X)/p; to that come the roundings of numerator, p and quotient.
+/// It proves as much of a hanging chain as the other, but takes 1.4 times as long (in double 4 times).
+template <Real S>
+class BoundedCarry<SignedPencil<S>> {
+   public:
+    using M = Narrow<S>;
+    struct Shift {
+        Factors<S> x;
+        M stiffness_size, spin_size;
+    };
+    struct Sizes {
+        M stiffness, spin, lower, upper, cross, weight, determinant;
+    };
+
+    explicit BoundedCarry(const SignedPencil<S>& pencil) : quadratic_(pencil.quadratic) {}
+
+    Shift at(const S& x) const {
+        const auto f = quadratic_ ? Factors<S>{x * x, x} : Factors<S>{x, S(M(0))};
+        return {f, size_of(f.stiffness), size_of(f.spin)};
+    }
+    static Sizes sizes(const SignedElement<S>& e) {
+        const M lower = size_of(e.lower), upper = size_of(e.upper), cross = size_of(e.cross);
+        return {size_of(e.stiffness), size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
+                lower * upper + cross * cross};
+    }
+    static void change_unit(BoundedStiffness<S>&, int) {}
+    [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
+                                           BoundedStiffness<S>& at) const {
+        using std::abs;
+        constexpr M u = operation_error<S>();
+        const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
+        const M tiny = M(2) * least_pivot<M>();
+        const M underflow = M(64) * std::numeric_limits<M>::denorm_min();  // of an operation
+        const ElementError<M>& off = e.error;
+        const S L = e.stiffness_at(shift.x);
+        const M a = shift.stiffness_size, b = shift.spin_size, L_size = a * of.stiffness + b * of.spin;
+        const M L_error = (a * off.stiffness + b * off.spin) + M(4) * u * L_size + underflow;
+        const S p = at.below + (L - e.lower);
+        const M D_size = size_of(at.below), p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
+        const M p_rounding = M(3) * u * (D_size + L_size + of.lower);
+        const M least = p_size - inflate * (at.error + L_error + off.lower + p_rounding);
+        // Written so that a NaN anywhere withdraws the proof.
+        at.count.proved = at.count.proved && least > tiny;
+        at.count.above += p < S(M(0)) ? 1 : 0;
+
+        const S pivot = abs(p) < S(tiny) ? S(tiny) : p;
+        const S next = propagate_in_one_unit(e, L, at.below, e.upper, pivot);
+        if (at.count.proved) {  // else a count is all there is to know
+            const M C_size = size_of(L + e.cross) + L_error + off.cross;
+            const M q = C_size / least;
+            const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
+            const M slopes = q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
+            const M roundings =
+                M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
+                M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
+            const M lost = underflow * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
+            at.error = inflate * (slopes + roundings + lost);
+        }
+        at.below = next;
+    }
+
+   private:
+    static M size_of(const S& x) {
+        using std::abs;
+        return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // taken from a rounded number
+    }
+    bool quadratic_;
+};
+
+}  // namespace detail
+
+/// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on the error of D, from
+/// rounding and from the entries' own error: `proved` when no pivot's sign is in doubt. S is usually wider than the
+/// scalar of the answer.
 /// Cost O(N): two shifts in double words of doubles take 140 ns a link, two in double 20 ns. Derivation:
 /// docs/theory/counts.md, "Proved counts".
-template <Real S, std::size_t L>
-std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, const std::array<S, L>& shifts) {
-    using std::abs;
-    using std::ldexp;
-    using M = Narrow<S>;  // magnitudes and errors
-    const M unit = operation_error<S>();
-    const M local = M(2) * pencil.entry_error + M(6) * unit;  // stiffness times weight has both their errors
-    const M slack = M(1) + M(4) * epsilon<M>();               // of magnitudes taken from rounded numbers
-    const M inflate = M(1) + M(24) * epsilon<M>();            // the bound's own rounding
-    const M tiny = M(2) * least_pivot<M>();
-    std::array<M, L> underflow;  // of a pivot
-    for (std::size_t i = 0; i < L; ++i)
-        underflow[i] = tiny + abs(static_cast<M>(shifts[i])) * (M(2) * pencil.stiffness_underflow);
-
-    std::array<S, L> below{};
-    std::array<M, L> error{};
-    std::array<CertifiedCount, L> result{};
-    for (auto& r : result) r.proved = true;
+template <Real S, std::size_t L, bool Spins, bool OwnErrors>
+std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
+                                              const std::array<S, L>& shifts) {
+    using Carry = detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>>;
+    const Carry carry(pencil);
+    std::array<typename Carry::Shift, L> at;
+    std::array<detail::BoundedStiffness<S>, L> stiffness;
+    for (std::size_t i = 0; i < L; ++i) at[i] = carry.at(shifts[i]);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const Element<S>& e = pencil.elements[m];
+        const auto& e = pencil.elements[m];
         if (const int step = pencil.step_down(m); step != 0)
-            for (std::size_t i = 0; i < L; ++i) {
-                below[i] = ldexp(below[i], step);
-                error[i] = ldexp(error[i], step) + tiny;
-            }
-        const M lower(static_cast<M>(e.lower)), upper(static_cast<M>(e.upper)), turning(static_cast<M>(e.turning));
-        const M cross_size = abs(static_cast<M>(e.cross)) + M(2) * turning;
-        for (std::size_t i = 0; i < L; ++i) {
-            const S stiffness = shifts[i] * e.stiffness;
-            const S pivot = below[i] + (stiffness - e.lower);
-            const M size = abs(static_cast<M>(below[i]));
-            const M k = static_cast<M>(stiffness);
-            const M pivot_error = local * (k + lower + size) + underflow[i];
-            const M least = abs(static_cast<M>(pivot)) * (M(1) - M(2) * epsilon<M>()) - pivot_error;
-            const M least_with_below = least - error[i] * inflate;
-            // Written so that a NaN anywhere withdraws the proof.
-            result[i].proved = result[i].proved && least_with_below > M(0);
-            result[i].above += pivot < S(M(0)) ? 1 : 0;
-
-            const S coupling = stiffness + e.cross;
-            const M coupling_error = local * (k + cross_size) + underflow[i];
-            const M gain = abs(static_cast<M>(coupling)) * slack + coupling_error;
-            const M inverse = M(1) / least;
-            const M push = gain * inverse;
-            // Quotients first: the products of small weights would underflow.
-            const M by_weight = local * ((k + upper) * (size * inverse) + (k + turning) * (e.weight * inverse));
-            const M by_coupling = local * (k + upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
-            const S one_over = S(M(1)) / not_zero(pivot, stiffness);
-            const S by_weight_value = propagate(e, stiffness, below[i], e.upper, one_over);
-            const M quotient = abs(static_cast<M>(by_weight_value));
-            const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
-            below[i] = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
-            const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
-            const M rest = underflow[i] * (M(1) + (size + e.weight) * inverse) +
-                           tiny * (k + upper + turning + gain + (k + turning) * inverse);
-            error[i] = inflate * (((push * error[i]) * gain) / least_with_below + own + rest +
-                                  M(2) * unit * abs(static_cast<M>(below[i])));
-        }
+            for (auto& each : stiffness) Carry::change_unit(each, step);
+        const auto sizes = Carry::sizes(e);
+        for (std::size_t i = 0; i < L; ++i) carry(e, sizes, at[i], stiffness[i]);
     }
+    std::array<CertifiedCount, L> result;
+    for (std::size_t i = 0; i < L; ++i) result[i] = stiffness[i].count;
     return result;
 }
 

@@ -29,17 +29,18 @@ struct Across {
     S stiffness, ratio;
 };
 
-template <class Ratio, Real S>
-Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
+template <class Ratio, class E, Real S>
+Across<S> across(const E& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
     using std::abs;
     using T = Narrow<S>;
+    const auto size = [](const S& x) { return abs(static_cast<T>(x)); };
     const S coupling = stiffness + e.cross;
-    const S pivot = not_zero(near + (stiffness - near_mass), stiffness);
+    const S pivot = not_zero(near + (stiffness - near_mass), e.size(stiffness));
     const S inverse = S(T(1)) / pivot;
-    const T k = static_cast<T>(stiffness), far = static_cast<T>(far_mass), p = abs(static_cast<T>(pivot));
-    const T by_coupling =
-        T(2) * abs(static_cast<T>(coupling)) * ((k + e.weight + static_cast<T>(near_mass) + far) / p) + (k + far);
-    const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + (k + static_cast<T>(e.turning)) * (e.weight / p);
+    const T k = size(stiffness), lower = size(near_mass), far = size(far_mass), p = abs(static_cast<T>(pivot));
+    const T weight = abs(static_cast<T>(e.weight));
+    const T by_coupling = T(2) * abs(static_cast<T>(coupling)) * ((k + weight + lower + far) / p) + (k + far);
+    const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + e.resisted_size(k, T(1) / p);
     return {by_coupling < by_weight ? propagate_by_coupling(stiffness, far_mass, coupling, inverse)
                                     : propagate(e, stiffness, near, far_mass, inverse),
             ratio<Ratio>(coupling, pivot)};
@@ -165,30 +166,40 @@ UnroundedEigenvector<S> twisted(std::size_t n, const Rise& rise, const Sink& sin
 /// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
 /// eigenvalue. An error e in `eigenvalue` adds e / gap.
 /// Ratio: what the ratios of neighbours are kept in. With S itself the slopes, too, are good to the digits of S.
-template <class Ratio, Real S>
-UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+template <class Ratio, Real S, bool Spins, bool OwnErrors>
+UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
+    using std::abs;
     using T = Narrow<S>;
     const auto& elements = pencil.elements;
+    const Factors<S> x = pencil.factors(root);
     const auto rise = [&](std::size_t m, S& below) {
-        const Element<S>& e = elements[m];
+        const auto& e = elements[m];
         below = detail::rescaled(below, pencil.step_down(m));
-        return detail::across<Ratio>(e, eigenvalue * e.stiffness, below, e.lower, e.upper);
+        return detail::across<Ratio>(e, e.stiffness_at(x), below, e.lower, e.upper);
     };
     const auto sink = [&](std::size_t m, S& above) {
-        const Element<S>& e = elements[m];
-        const S stiffness = eigenvalue * e.stiffness;
+        const auto& e = elements[m];
+        const S stiffness = e.stiffness_at(x);
         if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // infinitely stiff above
         above = detail::rescaled(above, -pencil.step_down(m + 1));
         return detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
     };
+    const auto meeting = [&](std::size_t m, const S& mass) {
+        return abs(static_cast<T>(elements[m].stiffness_at(x))) + abs(static_cast<T>(mass));
+    };
     const auto forces = [&](std::size_t m) {
-        const T own = static_cast<T>(eigenvalue * elements[m].stiffness) + static_cast<T>(elements[m].lower);
-        if (m == 0) return own;
-        const Element<S>& hung = elements[m - 1];
-        return own + detail::rescaled(static_cast<T>(eigenvalue * hung.stiffness) + static_cast<T>(hung.upper),
-                                      pencil.step_down(m));
+        const T own = meeting(m, elements[m].lower);
+        return m == 0 ? own : own + detail::rescaled(meeting(m - 1, elements[m - 1].upper), pencil.step_down(m));
     };
     return detail::twisted<S>(elements.size(), rise, sink, forces);
+}
+
+/// Offsets of pins 0 ... N in the digits of S, the held pin last (0); the largest is 1 in size, the free end positive.
+template <Real S, bool Spins, bool OwnErrors>
+std::vector<S> twisted_vector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
+    auto [offset, largest, crossings] = unrounded_eigenvector<S>(pencil, root);
+    for (S& y : offset) y = y / largest + S(Narrow<S>(0));
+    return std::move(offset);
 }
 
 /// Returns the eigenvector, rounded to the narrower scalar.
@@ -207,10 +218,11 @@ namespace detail {
 /// A function (element, pin) that returns offsets brought to one unit for all elements where their own differ: forces
 /// are as offsets times weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is
 /// then of the order of 1.
-template <Real S, Real T>
-auto in_one_unit(const ElementPencil<S>& pencil, const Vector<T>& offset, int share) {
+template <Real S, bool Spins, bool OwnErrors, class Offsets>
+auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
     using std::frexp;
     using std::ldexp;
+    using T = std::decay_t<decltype(offset[0])>;
     std::optional<int> largest;
     for (std::size_t m = 0; m < pencil.units.size(); ++m)
         for (const T& y : {offset[static_cast<Index>(m)], offset[static_cast<Index>(m) + 1]}) {
@@ -234,71 +246,63 @@ S mass_form(const E& e, const S& lower, const S& upper) {
     return lower * (e.lower * lower + (cross + cross)) + e.upper * upper * upper;
 }
 
-/// lambda = y^T M y / y^T K y in S, element by element, from offsets in a narrower scalar: its error is the square of
-/// theirs, so that offsets good to 1e-13 give a quotient good to 1e-25. Both sums have positive terms only.
-/// Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
-template <Real S, Real T>
-S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
+/// The root x of y^T Q(x) y = 0 in S, element by element, from offsets that may be in a narrower scalar: its error is
+/// the square of theirs, so that offsets good to 1e-13 give a root good to 1e-25. Of a hanging chain without spins it is
+/// y^T M y / y^T K y, both sums of positive terms; where the family is quadratic it is that next to `near`, by Newton's
+/// method. Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
+template <Real S, bool Spins, bool OwnErrors, class Offsets>
+S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, const S& near = {}) {
     const auto offsets = detail::in_one_unit(pencil, offset, 2);
-    S inertia(0), stiffness(0);
+    const S zero(Narrow<S>(0));
+    S mass = zero, stiffness = zero, spin = zero;
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const Element<S>& e = pencil.elements[m];
+        const auto& e = pencil.elements[m];
         const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
-        const S difference = lower - upper;
-        inertia = inertia + mass_form(e, lower, upper);
-        stiffness = stiffness + e.stiffness * difference * difference;
+        const S difference = lower - upper, square = difference * difference;
+        mass = mass + mass_form(e, lower, upper);
+        stiffness = stiffness + e.stiffness * square;
+        if constexpr (e.spins) spin = spin + e.spin * square;
     }
-    return inertia / stiffness;
+    if (!pencil.is_quadratic()) return mass / stiffness;
+    S x = near;
+    for (int step = 0; step < 3; ++step) {
+        const S slope = stiffness * (x + x) + spin;
+        if (slope == zero) break;
+        x = x - ((stiffness * x + spin) * x - mass) / slope;
+    }
+    return x;
 }
 
-namespace detail {
-
-/// The largest force left unbalanced at a pin over the largest sum of the sizes of its terms, of a string of elements
-/// whose last pin is held. `link(m)` returns element m: its stiffness at the eigenvalue, the size of what that is made
-/// of, the masses, and the offsets of its pins.
-template <Real S>
-struct LoadedElement {
-    S stiffness;
-    Narrow<S> stiffness_size;
-    S lower_mass, cross, upper_mass, lower, upper;
-};
-template <Real S, class Link>
-Narrow<S> relative_residual(std::size_t n, const Link& link) {
+/// Backward error of a root and offsets: the largest force left unbalanced at a pin over the largest sum of the sizes of
+/// the terms that meet at a pin, max |Q(x) y| / max (|L| |y| + |M| |y|). Evaluated in S, so that what is reported is the
+/// error of the offsets and not of the evaluation. Cost: one pass.
+template <Real S, bool Spins, bool OwnErrors, Real X, Real T>
+T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& root, const Vector<T>& offset) {
     using std::abs;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return abs(static_cast<M>(x)); };
+    const auto offsets = detail::in_one_unit(pencil, offset, 1);
+    const Factors<S> x = pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
     M largest(0), worst(0), size(0);
     S force(M(0));  // from the link below
-    for (std::size_t m = 0; m < n; ++m) {
-        const LoadedElement<S> e = link(m);
-        const S spring = e.stiffness * (e.lower - e.upper);
-        const M spring_size = e.stiffness_size * (size_of(e.lower) + size_of(e.upper));
-        worst = std::max(worst, size_of(force + (spring - (e.lower_mass * e.lower + e.cross * e.upper))));
-        largest = std::max(largest, size + spring_size + size_of(e.lower_mass * e.lower) + size_of(e.cross * e.upper));
-        force = -spring - (e.cross * e.lower + e.upper_mass * e.upper);
-        size = spring_size + size_of(e.cross * e.lower) + size_of(e.upper_mass * e.upper);
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const auto& e = pencil.elements[m];
+        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
+        const S stretch = lower - upper;
+        S spring = x.stiffness * e.stiffness;
+        M stiffness_size = size_of(spring);
+        if constexpr (e.spins) {
+            spring = spring + x.spin * e.spin;
+            stiffness_size += size_of(x.spin * e.spin);
+        }
+        spring = spring * stretch;
+        const M spring_size = stiffness_size * (size_of(lower) + size_of(upper));
+        worst = std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
+        largest = std::max(largest, size + spring_size + size_of(e.lower * lower) + size_of(e.cross * upper));
+        force = -spring - (e.cross * lower + e.upper * upper);
+        size = spring_size + size_of(e.cross * lower) + size_of(e.upper * upper);
     }
-    return largest > M(0) ? worst / largest : M(0);
-}
-
-}  // namespace detail
-
-/// Backward error of (eigenvalue, offset): the largest force left unbalanced at a pin, relative to the largest sum of
-/// the forces' terms that meet at a pin, max |(lambda K - M) y| / max (|lambda K| |y| + |M| |y|). Evaluated in S, so
-/// that what is reported is the error of the offsets and not of the evaluation. Cost: one pass.
-template <Real S, Real T>
-T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const Vector<T>& offset) {
-    using std::abs;
-    using M = Narrow<S>;
-    const auto offsets = detail::in_one_unit(pencil, offset, 1);
-    const auto link = [&](std::size_t m) {
-        const Element<S>& e = pencil.elements[m];
-        const S k = e.stiffness * S(static_cast<M>(eigenvalue));
-        const Index pin = static_cast<Index>(m);
-        return detail::LoadedElement<S>{
-            k, abs(static_cast<M>(k)), e.lower, e.cross, e.upper, offsets(m, pin), offsets(m, pin + 1)};
-    };
-    return static_cast<T>(detail::relative_residual<S>(pencil.elements.size(), link));
+    return largest > M(0) ? static_cast<T>(worst / largest) : T(0);
 }
 
 }  // namespace revchain::pencil

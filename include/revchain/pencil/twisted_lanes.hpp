@@ -110,35 +110,35 @@ struct TwistInLanes {
     V pin, side;  ///< and on which side of the axis the free end is
     V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
 };
-template <class Terms, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+template <class Terms, bool Spins, class V, class T>
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms,
+                                                               const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                                const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
     constexpr bool lumped = Terms::lumped;
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
-    const Factors<V> at = factors_in_lanes(terms, x);
-    const auto coupled = [&](const Element<DoubleWord<T>>& e, const V& k)
+    const Factors<V> at = pencil.factors(x);
+    const auto coupled = [](const auto& e, const V& k)
                              REVCHAIN_INLINED { return lumped ? k : k + V(e.cross.high); };
-    const auto size = [](const V& k) REVCHAIN_INLINED { return Terms::spinning ? abs(k) : k; };
     // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above.
     // The two take turns: each waits for its divisions.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = pencil.elements[m];
-        const V k = stiffness_in_lanes(terms, pencil, m, at), coupling = coupled(e, k);
-        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), size(k));
+        const auto& e = pencil.elements[m];
+        const V k = stiffness_in_lanes(e, at), coupling = coupled(e, k);
+        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), e.size(k));
         const V inverse = one / pivot;
         negative = if_less(pivot, zero, negative + one, negative);
         const std::size_t i = n - 1 - m;
-        const Element<DoubleWord<T>>& f = pencil.elements[i];
-        const V k_f = stiffness_in_lanes(terms, pencil, i, at);
+        const auto& f = pencil.elements[i];
+        const V k_f = stiffness_in_lanes(f, at);
         if (m == 0) {
             above = k_f - V(f.lower.high);
             zero.store(&s.up[i * L]);
         } else {
             const V coupling_f = coupled(f, k_f);
-            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), size(k_f));
+            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), f.size(k_f));
             const V inverse_f = one / pivot_f;
             inverse_f.store(&s.above[(i + 1) * L]);
             ratio_in_lanes(coupling_f, pivot_f, inverse_f).store(&s.up[i * L]);
@@ -153,8 +153,8 @@ template <class Terms, class V, class T>
     // They balance best where the mode is largest.
     V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = pencil.elements[m];
-        const V k = size(stiffness_in_lanes(terms, pencil, m, at)), forces = from_link + (k + V(e.lower.high));
+        const auto& e = pencil.elements[m];
+        const V k = e.size(stiffness_in_lanes(e, at)), forces = from_link + (k + V(e.lower.high));
         const V balance = abs(V::load(&s.rest[m * L]) + V::load(&s.change[m * L]));
         const auto better = balance * least_forces < least * forces;
         least = select(better, balance, least);
@@ -182,8 +182,9 @@ template <class V, class T>
     return offset;
 }
 
-template <class Where, class Terms, class T>
-[[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+template <class Where, class Terms, bool Spins, class T>
+[[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms,
+                                                   const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                    const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
@@ -203,7 +204,7 @@ template <class Where, class Terms, class T>
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
     forces_left<fused, false, V>(
-        terms, pencil, factors_in_pairs<fused>(terms, x, x_low),
+        terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -260,7 +261,7 @@ template <class Where, class Terms, class T>
     if (!residuals) return;
     V worst{}, meeting{};
     forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused>(terms, rounded, rounded_low),
+        terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
         [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
@@ -274,17 +275,17 @@ template <class Where, class Terms, class T>
 
 /// Shapes of the pencil at some roots, which the last one fills up, and if asked for their residuals. Accuracy as
 /// `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
-/// `eigenvector` can still do. Precondition: the pencil is in one unit, and has spins if `spinning`.
+/// `eigenvector` can still do. Precondition: the pencil is in one unit.
 /// Cost: 5 ns a link and mode (AVX-512), residuals 2.
-template <bool spinning = false, std::floating_point T>
-void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, const RootsInLanes<T>& roots,
+template <std::floating_point T, bool Spins>
+void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, const RootsInLanes<T>& roots,
                      bool residuals, ShapesInLanes<T>& shapes) {
     shapes.make_room(pencil.elements.size());
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
-            detail::shapes_in_lanes(where, detail::Terms<true, spinning>(), pencil, roots, residuals, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<true>(), pencil, roots, residuals, shapes);
         else
-            detail::shapes_in_lanes(where, detail::Terms<false, spinning>(), pencil, roots, residuals, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<false>(), pencil, roots, residuals, shapes);
     });
 }
 

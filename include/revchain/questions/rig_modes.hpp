@@ -93,25 +93,28 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
         proved = set_mode(modes, static_cast<Index>(found.size()), pencil, roots.pencil(), root) && proved;
         found.push_back(root.x);
     };
-    const auto keep_shapes = [&](std::shared_ptr<const pencil::ElementPencil<RigWord>> elements) {
-        modes.lazy_shapes = LazyModeShapes<double>(
-            RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
+    const auto keep_shapes = [&]<bool Spins>(std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
+        modes.lazy_shapes = LazyModeShapes<double>(RigShapeFinder<Spins>(
+            rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
+    };
+    const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
+        auto elements = pencil::positive_elements<Spins>(roots.pencil());
+        if (!elements) return false;
+        std::optional<std::vector<FoundRoot>> proved_roots;
+        if constexpr (!Spins) proved_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!proved_roots) proved_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if (!proved_roots) return false;
+        for (const FoundRoot& root : *proved_roots) keep(root);
+        keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord, Spins>>(*std::move(elements)));
+        return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (auto elements = pencil::positive_elements(roots.pencil())) {
-            auto several = roots_under_a_spring(rig, *elements, range, available);
-            if (!several) several = roots_in_lanes(*elements, roots, range, available, guess, finished);
-            if (several) {
-                for (const FoundRoot& root : *several) keep(root);
-                keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord>>(*std::move(elements)));
-                return proved;
-            }
-        }
+        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type())) return proved;
     for (const FoundRoot& root : refined_roots(roots, range.first - 1, range.count, guess, finished, [&](Index done) {
              advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(done) / all));
          }))
         keep(root);
-    keep_shapes(nullptr);
+    keep_shapes(std::shared_ptr<const pencil::ElementPencil<RigWord>>());
     return proved;
 }
 
@@ -242,7 +245,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const Mode
             at.push_back(root.x);
         }
         modes.lazy_shapes = LazyModeShapes<double>(
-            RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+            RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);

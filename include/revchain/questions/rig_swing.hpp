@@ -11,7 +11,7 @@
 
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/pencil/signed_twisted.hpp"
+#include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/superposed.hpp"
 #include "revchain/rig_modes.hpp"
 #include "revchain/swing.hpp"
@@ -215,7 +215,7 @@ inline WhirlSum split_start(WhirlSwing& result, const RigPencil& rig, const Roug
         const auto at = static_cast<std::size_t>(k);
         std::vector<S> shape(rest[0].size());
         for (Index m = 0; m < pins; ++m) shape[static_cast<std::size_t>(m)] = rough.shape[at][m];
-        const S x = pencil::rayleigh_root(rig.pencil, shape, rig.pace / S(rough.speed[at])), n = rig.pace / x;
+        const S x = pencil::rayleigh_quotient(rig.pencil, shape, rig.pace / S(rough.speed[at])), n = rig.pace / x;
         shape = pencil::twisted_vector(rig.pencil, x);
         const S part = S(2.0) / x * forms.inertia(shape, shape) - forms.momentum(shape, shape);
         // c = [ (1/x) y M u - y s u - i y M u'/pace ] / part
@@ -263,7 +263,7 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
             .forward;
     };
     const Index all = detail::stable_modes(place, rig, pencil, options.gravity, 1, nullptr).forward.available;
-    const auto elements = pencil::positive_elements(pencil.pencil);
+    const auto elements = pencil::positive_elements<false>(pencil.pencil);
     if (!pencil.stiffness_positive || !pencil.mass_not_negative || !elements)
         detail::throw_invalid(place, "weights cancel but for their last digits, or a link without mass stands");
     AssembledChain<S> assembled{{}, pencil.units};

@@ -231,7 +231,7 @@ Result superposed(const OscillatingChain& system, const Options& options, const 
     Vector<double> reached = Vector<double>::Zero(pins), rough = Vector<double>::Zero(all_pins);
     for (Index k = 0; k < count; ++k) {
         rough.head(pins) = modes.shapes().row(k).transpose();
-        const S height = pencil::rayleigh_quotient<S, double>(system.pencil(), rough);
+        const S height = pencil::rayleigh_quotient(system.pencil(), rough);
         const Offsets shape = pencil::eigenvector(system.pencil(), height).offset;
         const S inertia = system.inertia(shape, shape), frequency = sqrt(gravity / height);
         const S cosine = system.inertia(shape, rest) / inertia, rate = system.inertia(shape, rest_speed) / inertia;

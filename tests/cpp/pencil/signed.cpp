@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Proved counts of families whose numbers have any sign, against pivots in quadruple precision of the same elements,
 // closer and closer to an eigenvalue.
-#include "revchain/pencil/signed.hpp"
+#include "revchain/pencil/sturm.hpp"
 
 #include "support/catch.hpp"
 #include "support/chains.hpp"

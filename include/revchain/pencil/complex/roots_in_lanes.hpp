@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "revchain/numeric/parallel.hpp"
-#include "revchain/pencil/signed.hpp"
+#include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
 #pragma GCC diagnostic push
@@ -53,8 +53,8 @@ inline std::vector<RoundedElement> rounded_elements(const SignedPencil<Wide<doub
     rows.reserve(pencil.elements.size());
     for (const auto& e : pencil.elements)
         rows.push_back({static_cast<double>(e.stiffness), static_cast<double>(e.spin), static_cast<double>(e.lower),
-                        static_cast<double>(e.upper), static_cast<double>(e.cross), static_cast<double>(e.weight()),
-                        static_cast<double>(e.determinant())});
+                        static_cast<double>(e.upper), static_cast<double>(e.cross), static_cast<double>(e.weight),
+                        static_cast<double>(e.determinant)});
     return rows;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "revchain/numeric/interval.hpp"
-#include "revchain/pencil/signed.hpp"
+#include "revchain/pencil/element.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
