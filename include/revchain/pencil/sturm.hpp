@@ -43,39 +43,27 @@ template <class V, class E>
     }
 }
 
-/// Negative pivots of Q(x) in one unit, at each of several numbers or packs x.
-template <class Pencil, class V, std::size_t L>
+/// Negative pivots of Q(x) at each of several numbers or packs x. `InUnits`: weights span more than one unit; else loops
+/// keep to registers.
+template <bool InUnits, class Pencil, class V, std::size_t L>
 [[gnu::always_inline]] inline std::array<Negatives<V>, L> negative_pivots(const Pencil& pencil,
                                                                           const std::array<V, L>& x) {
+    using std::ldexp;
     std::array<Factors<V>, L> at;
     std::array<V, L> below{};
     std::array<Negatives<V>, L> negative;
     for (std::size_t i = 0; i < L; ++i) at[i] = pencil.factors(x[i]);
-    for (const auto& e : pencil.elements)
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const auto& e = pencil.elements[m];
         for (std::size_t i = 0; i < L; ++i) {
+            if constexpr (InUnits) below[i] = ldexp(below[i], pencil.step_down(m));
             const V stiffness = e.stiffness_at(at[i]);
             const V pivot = usable_pivot(e, below[i] + (stiffness - V(e.lower)), stiffness);
             negative[i].add(pivot);
-            below[i] = propagate_in_one_unit(e, stiffness, below[i], V(e.upper), pivot);
-        }
-    return negative;
-}
-
-/// `count_above` where weights span more than one unit. A function of its own, so that the other keeps to registers.
-template <class Pencil, Real T, std::size_t L>
-std::array<Index, L> count_above_in_units(const Pencil& pencil, const std::array<T, L>& shifts) {
-    using std::ldexp;
-    std::array<T, L> below{};
-    std::array<Index, L> negative{};
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const auto& e = pencil.elements[m];
-        const int step = pencil.step_down(m);
-        for (std::size_t i = 0; i < L; ++i) {
-            const T hung = step == 0 ? below[i] : ldexp(below[i], step);
-            const T stiffness = e.stiffness_at(pencil.factors(shifts[i]));
-            const T pivot = not_zero(hung + (stiffness - e.lower), e.size(stiffness));
-            negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = propagate(e, stiffness, hung, e.upper, T(1) / pivot);
+            if constexpr (InUnits)
+                below[i] = propagate(e, stiffness, below[i], V(e.upper), V(1) / pivot);
+            else
+                below[i] = propagate_in_one_unit(e, stiffness, below[i], V(e.upper), pivot);
         }
     }
     return negative;
@@ -94,20 +82,22 @@ std::array<Index, L> count_above_in_units(const Pencil& pencil, const std::array
 /// scaled by a few ulp for each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
 std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
-    if (!pencil.units.empty()) return detail::count_above_in_units(pencil, shifts);
     std::array<Index, L> above;
+    const auto counted = [&](const auto& negative) {
+        for (std::size_t i = 0; i < L; ++i) above[i] = negative[i].count;
+        return above;
+    };
+    if (!pencil.units.empty()) return counted(detail::negative_pivots<true>(pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>) && L % 8 == 0) {
         return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using Packed = Pack<T, width, L / width>;
-            const auto negative = detail::negative_pivots(pencil, std::array{Packed::load(shifts.data())});
+            const auto negative = detail::negative_pivots<false>(pencil, std::array{Packed::load(shifts.data())});
             for (std::size_t i = 0; i < L; ++i) above[i] = -static_cast<Index>(negative[0].count[i]);
             return above;
         });
     } else {
-        const auto negative = detail::negative_pivots(pencil, shifts);
-        for (std::size_t i = 0; i < L; ++i) above[i] = negative[i].count;
-        return above;
+        return counted(detail::negative_pivots<false>(pencil, shifts));
     }
 }
 

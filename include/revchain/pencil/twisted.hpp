@@ -24,7 +24,7 @@ S ratio(const S& cross, const S& pivot) {
 
 /// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of
 /// the offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
-template <Real S>
+template <class S>
 struct Across {
     S stiffness, ratio;
 };
@@ -107,53 +107,54 @@ struct UnroundedEigenvector {
 
 namespace detail {
 
+template <Real M, class S>
+S if_less(const M& x, const M& y, const S& a, const S& b) {
+    return x < y ? a : b;
+}
+
+/// Offsets of pins 0 ... n from a twisted factorisation, 1 at `pin`. Below it each is `down` times that of the pin
+/// above, and above it `up` times that of the pin below.
+template <class S>
+struct Twisted {
+    std::vector<S> offset, down, up;
+    Narrow<S> pin;
+};
+
 /// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation: dynamic stiffness D
 /// of what hangs below each pin, going up, and E of what holds it from above, going down; they balance best (|D + E|
 /// least) where the mode is largest, and from there the offsets follow outwards by ratios without cancellation.
 /// `rise(m, D)` returns D above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and
 /// the inverse ratio. Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
-/// meets at the lower pin of element m.
-template <Real S, class Rise, class Sink, class Forces>
-UnroundedEigenvector<S> twisted(std::size_t n, const Rise& rise, const Sink& sink, const Forces& forces) {
+/// meets at the lower pin of element m. S is a number, or a pack of numbers or double words with a mode in each lane.
+template <class S, class Rise, class Sink, class Forces>
+[[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
+                                                 const Forces& forces) {
     using std::abs;
-    using T = Narrow<S>;
-    struct Pin {
-        S stiffness_below;  // D
-        S down;             // offset of this pin over that of the pin above
-        S up;               // offset of the pin above over that of this pin
-    };
-    std::vector<Pin> pins(n);
-    S below(T(0)), above(T(0));
+    using V = Narrow<S>;
+    using T = Lane<V>;
+    const auto number = [](std::size_t m) REVCHAIN_INLINED { return V(T(static_cast<double>(m))); };
+    const S zero(V(T(0))), one(V(T(1)));
+    Twisted<S> result{std::vector<S>(n + 1), std::vector<S>(n), std::vector<S>(n), number(n - 1)};
+    auto& [offset, down, up, pin] = result;
+    S below = zero, above = zero;
     for (std::size_t m = 0; m < n; ++m) {
+        offset[m] = below;  // D, for now
         const Across<S> across = rise(m, below);
-        pins[m].stiffness_below = below, pins[m].down = across.ratio;
-        below = across.stiffness;
+        below = across.stiffness, down[m] = across.ratio;
     }
-    std::size_t twist = n - 1;
-    T least = std::numeric_limits<T>::infinity();
+    V least(std::numeric_limits<T>::infinity());
     for (std::size_t m = n; m-- > 0;) {
         const Across<S> across = sink(m, above);
-        above = across.stiffness, pins[m].up = across.ratio;
+        above = across.stiffness, up[m] = across.ratio;
         // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the
         // mode, and the ratios between them cancel.
-        const T balance = abs(static_cast<T>(pins[m].stiffness_below + above)) / forces(m);
-        if (balance < least) least = balance, twist = m;
+        const V balance = abs(static_cast<V>(offset[m] + above)) / forces(m);
+        pin = if_less(balance, least, number(m), pin);
+        least = if_less(balance, least, balance, least);
     }
-    UnroundedEigenvector<S> result{std::vector<S>(n + 1), S(T(0)), {}};
-    std::vector<S>& offset = result.offset;
-    offset[twist] = S(T(1));
-    for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
-    for (std::size_t m = twist; m < n; ++m) offset[m + 1] = pins[m].up * offset[m];
-    for (const S& y : offset)
-        if (abs(y) > result.largest) result.largest = abs(y);
-    for (std::size_t m = 0; m < n; ++m) {
-        const T down = static_cast<T>(pins[m].down), up = static_cast<T>(pins[m].up);
-        if (m < twist && down < T(0)) {
-            result.crossings.push_back({static_cast<Index>(m), down / (down - T(1))});
-            result.largest = -result.largest;  // the free end is to be positive; each crossing below changes its sign
-        }
-        if (m >= twist && up < T(0)) result.crossings.push_back({static_cast<Index>(m), T(1) / (T(1) - up)});
-    }
+    offset[n] = zero;
+    for (std::size_t m = n; m-- > 0;) offset[m] = if_less(number(m), pin, down[m] * offset[m + 1], one);
+    for (std::size_t m = 1; m < n; ++m) offset[m] = if_less(pin, number(m), up[m - 1] * offset[m - 1], offset[m]);
     return result;
 }
 
@@ -191,7 +192,19 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
         const T own = meeting(m, elements[m].lower);
         return m == 0 ? own : own + detail::rescaled(meeting(m - 1, elements[m - 1].upper), pencil.step_down(m));
     };
-    return detail::twisted<S>(elements.size(), rise, sink, forces);
+    auto [offset, down, up, pin] = detail::twisted<S>(elements.size(), rise, sink, forces);
+    UnroundedEigenvector<S> result{std::move(offset), S(T(0)), {}};
+    for (const S& y : result.offset)
+        if (abs(y) > result.largest) result.largest = abs(y);
+    for (std::size_t m = 0; m < elements.size(); ++m) {
+        const bool lies_below = T(static_cast<double>(m)) < pin;
+        const T ratio = static_cast<T>(lies_below ? down[m] : up[m]);
+        if (!(ratio < T(0))) continue;
+        const T share = lies_below ? ratio / (ratio - T(1)) : T(1) / (T(1) - ratio);
+        result.crossings.push_back({static_cast<Index>(m), share});
+        if (lies_below) result.largest = -result.largest;  // the free end is to be positive
+    }
+    return result;
 }
 
 /// Offsets of pins 0 ... N in the digits of S, the held pin last (0); the largest is 1 in size, the free end positive.
@@ -232,8 +245,8 @@ auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets
             largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
         }
     return [&pencil, &offset, share, unit = largest.value_or(0)](std::size_t element, Index pin) {
-        const T& y = offset[pin];
-        return S(static_cast<Narrow<S>>(pencil.units.empty() ? y : T(ldexp(y, pencil.units[element] / share - unit))));
+        const T y = pencil.units.empty() ? offset[pin] : T(ldexp(offset[pin], pencil.units[element] / share - unit));
+        return S(static_cast<std::conditional_t<std::is_same_v<S, T>, S, Narrow<S>>>(y));
     };
 }
 

@@ -7,6 +7,7 @@
 
 #include "revchain/pencil/condensed/transfer.hpp"
 #include "revchain/pencil/sturm.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -171,51 +172,27 @@ std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     using V = Narrow<S>;
     using T = Lane<V>;
     return simd([&](auto) REVCHAIN_INLINED {
-        const std::size_t n = elements.size();
-        const S one(V(T(1)));
-        const auto not_zero = [](const S& pivot, const S& spring) REVCHAIN_INLINED {
+        const auto across = [](const S& spring, const S& hung, const S& far) REVCHAIN_INLINED {
+            const S sum = spring + hung;
             const V tiny = static_cast<V>(spring) * (epsilon<T>() * epsilon<T>());
-            return pivot + S(if_equal(static_cast<V>(pivot), V{}, tiny, V{}));
+            const S ratio = spring / (sum + S(if_equal(static_cast<V>(sum), V{}, tiny, V{})));
+            return detail::Across<S>{ratio * hung - far, ratio};
         };
-        struct Pin {
-            S below;  // dynamic stiffness of what hangs there
-            S down;   // offset of this pin over that of the pin above
-            S up;     // offset of the pin above over that of this pin
+        const auto rise = [&](std::size_t m, const S& below) REVCHAIN_INLINED {
+            const LumpedElement<S>& e = elements[m];
+            return across(e.spring, below - e.lower, e.upper);
         };
-        std::vector<Pin> pins(n);
-        S below{};
-        for (std::size_t m = 0; m < n; ++m) {
+        const auto sink = [&](std::size_t m, const S& above) REVCHAIN_INLINED {
             const LumpedElement<S>& e = elements[m];
-            const S hung = below - e.lower;
-            const S down = e.spring / not_zero(e.spring + hung, e.spring);
-            pins[m] = {below, down, S{}};
-            below = down * hung - e.upper;
-        }
-        S above{};
-        V least(std::numeric_limits<T>::infinity()), twist{};
-        for (std::size_t m = n; m-- > 0;) {
-            const LumpedElement<S>& e = elements[m];
-            V forces = static_cast<V>(e.spring) + static_cast<V>(e.lower);
-            if (m + 1 == n) {
-                above = e.spring - e.lower;
-            } else {
-                const S held = above - e.upper;
-                pins[m].up = e.spring / not_zero(e.spring + held, e.spring);
-                above = pins[m].up * held - e.lower;
-            }
-            if (m > 0) forces += static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper);
-            const V unbalanced = abs(static_cast<V>(pins[m].below + above)) / forces;
-            twist = if_less(unbalanced, least, V(static_cast<T>(m)), twist);
-            least = if_less(unbalanced, least, unbalanced, least);
-        }
-        // Outwards from the twist, which stands elsewhere in each lane.
-        std::vector<S> offset(n + 1);
-        for (std::size_t m = n; m-- > 0;)
-            offset[m] = if_less(V(static_cast<T>(m)), twist, pins[m].down * offset[m + 1],
-                                if_less(twist, V(static_cast<T>(m)), S{}, one));
-        for (std::size_t m = 0; m + 1 < n; ++m)
-            offset[m + 1] = if_less(V(static_cast<T>(m)), twist, offset[m + 1], pins[m].up * offset[m]);
-        return offset;
+            if (m + 1 == elements.size()) return detail::Across<S>{e.spring - e.lower, S{}};
+            return across(e.spring, above - e.upper, e.lower);
+        };
+        const auto forces = [&](std::size_t m) REVCHAIN_INLINED {
+            const V own = static_cast<V>(elements[m].spring) + static_cast<V>(elements[m].lower);
+            if (m == 0) return own;
+            return own + (static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper));
+        };
+        return detail::twisted<S>(elements.size(), rise, sink, forces).offset;
     });
 }
 
