@@ -38,7 +38,8 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
         const pencil::ElementError<double> error{e.stiffness.high * part + pencil.stiffness_underflow, 0,
                                                  part * e.lower.high, part * e.upper.high,
                                                  part * (std::abs(e.cross.high) + 2 * e.turning.high)};
-        result.elements.push_back({{e.stiffness, 0.0, e.lower, e.upper, e.cross, error}, pencil.step_down(m)});
+        result.elements.push_back(
+            {RigElement::of(e.stiffness, 0.0, e.lower, e.upper, e.cross, error), pencil.step_down(m)});
     }
     return result;
 }

@@ -15,7 +15,7 @@ using RigElement = pencil::SignedElement<Wide<double>>;
 /// One link: stiffness and spin negative where it stands.
 inline RigElement rig_element(const RigLink& link, bool stands) {
     constexpr double part = RigLink::error_part;
-    RigElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross};
+    RigElement e = RigElement::of(link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross);
     if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
     e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,
                part * link.size.upper, part * link.size.cross};
@@ -28,9 +28,9 @@ namespace detail {
 /// along with the rest: no equation holds them.
 inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
-    const auto& [k, s, lower, upper, cross, error, weight, determinant] = e;
-    return k == none && s == none && lower == none && upper == none && cross == none &&
-           error.stiffness + error.spin + error.lower + error.upper + error.cross == 0;
+    const auto& off = e.error;
+    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
+           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
 }
 
 }  // namespace detail
@@ -47,7 +47,8 @@ inline std::optional<RigElement> support_element(const Rig& rig) {
     if (!(isfinite(stiffness) && stiffness.high > 0))
         detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length",
                               support.stiffness.high);
-    RigElement spring{stiffness, S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent))};
+    const S carriage(std::ldexp(support.carriage_weight, -units.weight_exponent));
+    RigElement spring = RigElement::of(stiffness, S(0.0), carriage, S(0.0), S(0.0));
     spring.error.stiffness = 2 * operation_error<S>() * stiffness.high;
     return spring;
 }

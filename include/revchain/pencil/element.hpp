@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -17,28 +16,43 @@ struct Factors {
     X stiffness{}, spin{};
 };
 
+/// Bounds on the absolute errors of an element's numbers.
+template <Real M>
+struct ElementError {
+    M stiffness{}, spin{}, lower{}, upper{}, cross{};
+};
+
 namespace detail {
 struct Nothing {};
 }  // namespace detail
 
 /// One element between two neighbouring pins (lower, upper) of a family of symmetric matrices in one unknown x,
 ///
-///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s.
+///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s,
 ///
-/// An element of the primary template is that of a hanging chain, whose x without spins is a conical height lambda:
-/// k > 0, no mass is negative, W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of
-/// one another: that keeps the counts accurate. All are linear in the weights: no square of a small one underflows.
+/// with W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of one another: that keeps
+/// the counts accurate. Elements of a hanging chain have k > 0 and masses that are not negative, small relative errors
+/// for all of the chain, and are linear in the weights: no square of a small one underflows. With `OwnErrors` numbers
+/// may have any sign, and c W takes the place of c: W may be 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
-    static constexpr bool spins = Spins;
+    using M = Narrow<S>;
+    template <bool Has, class X>
+    using If = std::conditional_t<Has, X, detail::Nothing>;
 
-    S stiffness{};       ///< k > 0
-    S lower{};           ///< A >= 0
-    S upper{};           ///< B >= 0
-    S cross{};           ///< X, of any sign
-    S turning{};         ///< c >= 0, what the element resists turning with
-    Narrow<S> weight{};  ///< W >= 0
-    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing> spin{};  ///< s, of any sign
+    S stiffness{};                                    ///< k
+    S lower{}, upper{}, cross{};                      ///< A, B, and X, of any sign
+    S turning{};                                      ///< c, what the element resists turning with; or c W
+    std::conditional_t<OwnErrors, S, M> weight{};     ///< W
+    [[no_unique_address]] If<Spins, S> spin{};        ///< s, of any sign
+    [[no_unique_address]] If<OwnErrors, ElementError<M>> error{};
+
+    /// From its masses, where these are all there is.
+    static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
+                      const ElementError<M>& error = {}) requires(Spins && OwnErrors) {
+        const S weight = (lower + cross) + (cross + upper), determinant = lower * upper - cross * cross;
+        return {stiffness, lower, upper, cross, determinant, weight, spin, error};
+    }
 
     /// L at x, a number or a pack of numbers of S.
     template <class X>
@@ -48,63 +62,35 @@ struct Element {
         else
             return x.stiffness * X(stiffness);
     }
-    /// (L - c) W.
-    template <class X>
-    [[gnu::always_inline]] X resisted(const X& L) const {
-        return (L - X(turning)) * X(weight);
-    }
-    /// The same over a pivot. Quotients first: products of small weights would underflow.
-    S resisted_over(const S& L, const S& inverse) const { return (L - turning) * (S(weight) * inverse); }
-    /// No less than the sizes of the terms of `resisted_over`.
-    Narrow<S> resisted_size(const Narrow<S>& L, const Narrow<S>& inverse) const {
-        return (L + static_cast<Narrow<S>>(turning)) * (weight * inverse);
-    }
     /// |L|.
     template <class X>
     [[gnu::always_inline]] static X size(const X& L) {
         using std::abs;
-        if constexpr (Spins)
+        if constexpr (Spins || OwnErrors)
             return abs(L);
         else
             return L;
     }
-};
-
-/// Bounds on the absolute errors of an element's numbers.
-template <Real M>
-struct ElementError {
-    M stiffness{}, spin{}, lower{}, upper{}, cross{};
-};
-
-/// An element whose numbers may have any sign, each with a bound on its own error.
-template <Real S, bool Spins>
-struct Element<S, Spins, true> {
-    static constexpr bool spins = true;
-
-    S stiffness{};  ///< k
-    S spin{};       ///< s, 0 where the family has none
-    S lower{}, upper{}, cross{};
-    ElementError<Narrow<S>> error{};
-    S weight = (lower + cross) + (cross + upper);         ///< W
-    S determinant = lower * upper - cross * cross;  ///< A B - X^2
-
-    template <class X>
-    [[gnu::always_inline]] X stiffness_at(const Factors<X>& x) const {
-        return x.stiffness * X(stiffness) + x.spin * X(spin);
-    }
+    /// (L - c) W.
     template <class X>
     [[gnu::always_inline]] X resisted(const X& L) const {
-        return L * X(weight) - X(determinant);
+        if constexpr (OwnErrors)
+            return L * X(weight) - X(turning);
+        else
+            return (L - X(turning)) * X(weight);
     }
-    S resisted_over(const S& L, const S& inverse) const { return resisted(L) * inverse; }
-    Narrow<S> resisted_size(const Narrow<S>& L, const Narrow<S>& inverse) const {
-        using std::abs;
-        return (L * abs(static_cast<Narrow<S>>(weight)) + abs(static_cast<Narrow<S>>(determinant))) * inverse;
+    /// (L - c) W over a pivot. Quotients first: products of small weights would underflow.
+    S resisted_over(const S& L, const S& inverse) const {
+        if constexpr (OwnErrors)
+            return resisted(L) * inverse;
+        else
+            return (L - turning) * (S(weight) * inverse);
     }
-    template <class X>
-    [[gnu::always_inline]] static X size(const X& L) {
+    /// The sizes of the terms of `resisted_over`, from that of L.
+    M resisted_size(const M& L, const M& inverse) const {
         using std::abs;
-        return abs(L);
+        const M resists = abs(static_cast<M>(turning)), heavy = abs(static_cast<M>(weight));
+        return OwnErrors ? (L * heavy + resists) * inverse : (L + resists) * (heavy * inverse);
     }
 };
 
@@ -153,20 +139,22 @@ S not_zero(const S& pivot, const S& size) {
 /// with positive eigenvalues; with spins it has a positive root x for each mode in one sense of rotation.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
-    std::vector<Element<S, Spins>> elements;
+    std::vector<Element<S, Spins, OwnErrors>> elements;
+    bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s; with own errors spins may be 0, and L = x k
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides
-    /// what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
+    /// Bound on the error of every number in `elements`, unless they have their own, relative to it and, of the cross
+    /// mass, to |X| + 2 c; besides what underflows: less than `least_pivot` in masses, `stiffness_underflow` in
+    /// stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 
     Index size() const { return static_cast<Index>(elements.size()); }
-    static constexpr bool is_quadratic() { return Spins; }
     template <class X>
-    [[gnu::always_inline]] static Factors<X> factors(const X& x) {
-        return {Spins ? x * x : x, x};
+    [[gnu::always_inline]] Factors<X> factors(const X& x) const {
+        if (OwnErrors ? quadratic : Spins) return {x * x, x};
+        return {x, {}};
     }
     /// 4/a times the least positive number, a the shortest length there can be beside one of 1.
     static Narrow<S> largest_underflow() {
@@ -177,27 +165,6 @@ struct ElementPencil {
     /// The exponent by which what is carried across pin m from below grows less: in the unit of element m from that of
     /// m - 1.
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
-};
-
-template <Real S, bool Spins>
-struct ElementPencil<S, Spins, true> {
-    std::vector<Element<S, Spins, true>> elements;
-    bool quadratic = false;  ///< L = x^2 k + x s
-    static constexpr std::array<int, 0> units{};
-
-    Index size() const { return static_cast<Index>(elements.size()); }
-    bool is_quadratic() const { return quadratic; }
-    template <class X>
-    [[gnu::always_inline]] Factors<X> factors(const X& x) const {
-        return quadratic ? Factors<X>{x * x, x} : Factors<X>{x, X(S(Narrow<S>(0)))};
-    }
-    /// Their derivatives.
-    template <class X>
-    Factors<X> slopes(const X& x) const {
-        const X one(S(Narrow<S>(1)));
-        return quadratic ? Factors<X>{x + x, one} : Factors<X>{one, X(S(Narrow<S>(0)))};
-    }
-    static constexpr int step_down(std::size_t) { return 0; }
     /// Returns the pencil with every spin reversed: its x are those of this pencil with the other sign.
     ElementPencil reversed() const {
         ElementPencil other = *this;
@@ -209,39 +176,26 @@ struct ElementPencil<S, Spins, true> {
 template <Real S>
 using SignedPencil = ElementPencil<S, true, true>;
 
-/// Returns the pencil in a narrower scalar, with one more rounding in each entry.
-template <Real T, Real S, bool Spins>
-ElementPencil<T, Spins> rounded(const ElementPencil<S, Spins>& wide) {
+/// Returns the pencil in a narrower scalar, with one more rounding in each entry; errors of their own are left out.
+template <Real T, Real S, bool Spins, bool OwnErrors>
+ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErrors>& wide) {
     if constexpr (std::is_same_v<T, S>) {
         return wide;
     } else {
-        ElementPencil<T, Spins> pencil;
+        ElementPencil<T, Spins, OwnErrors> pencil;
         pencil.elements.reserve(wide.elements.size());
         for (const auto& e : wide.elements) {
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
                                        static_cast<T>(e.cross), static_cast<T>(e.turning), static_cast<T>(e.weight)});
             if constexpr (Spins) pencil.elements.back().spin = static_cast<T>(e.spin);
         }
+        pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
         if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
             pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);
         return pencil;
     }
-}
-
-/// The same of elements of any sign. Weight and determinant are rounded once, not computed from rounded masses; errors
-/// are left out.
-template <Real T, Real S>
-SignedPencil<T> rounded(const SignedPencil<S>& wide) {
-    SignedPencil<T> pencil;
-    pencil.quadratic = wide.quadratic;
-    pencil.elements.reserve(wide.elements.size());
-    for (const SignedElement<S>& e : wide.elements)
-        pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.spin), static_cast<T>(e.lower),
-                                   static_cast<T>(e.upper), static_cast<T>(e.cross), {}, static_cast<T>(e.weight),
-                                   static_cast<T>(e.determinant)});
-    return pencil;
 }
 
 /// Whether a number of an element is 0 for certain.
@@ -264,7 +218,7 @@ std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& 
         worst = std::max(worst, error == M(0) ? error : error / size);
     };
     for (const SignedElement<S>& e : pencil.elements) {
-        const S turning = e.weight > zero ? e.determinant / e.weight : zero;
+        const S turning = e.weight > zero ? e.turning / e.weight : zero;
         result.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero,
                                    static_cast<M>(e.weight)});
         if constexpr (Spins) {

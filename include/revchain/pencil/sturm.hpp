@@ -214,10 +214,10 @@ class BoundedCarry<SignedPencil<S>> {
         M stiffness, spin, lower, upper, cross, weight, determinant;
     };
 
-    explicit BoundedCarry(const SignedPencil<S>& pencil) : quadratic_(pencil.quadratic) {}
+    explicit BoundedCarry(const SignedPencil<S>& pencil) : pencil_(pencil) {}
 
     Shift at(const S& x) const {
-        const auto f = quadratic_ ? Factors<S>{x * x, x} : Factors<S>{x, S(M(0))};
+        const Factors<S> f = pencil_.factors(x);
         return {f, size_of(f.stiffness), size_of(f.spin)};
     }
     static Sizes sizes(const SignedElement<S>& e) {
@@ -266,7 +266,7 @@ class BoundedCarry<SignedPencil<S>> {
         using std::abs;
         return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // taken from a rounded number
     }
-    bool quadratic_;
+    const SignedPencil<S>& pencil_;
 };
 
 }  // namespace detail

@@ -274,9 +274,9 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
         const S difference = lower - upper, square = difference * difference;
         mass = mass + mass_form(e, lower, upper);
         stiffness = stiffness + e.stiffness * square;
-        if constexpr (e.spins) spin = spin + e.spin * square;
+        if constexpr (Spins) spin = spin + e.spin * square;
     }
-    if (!pencil.is_quadratic()) return mass / stiffness;
+    if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
         const S slope = stiffness * (x + x) + spin;
@@ -304,7 +304,7 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
         const S stretch = lower - upper;
         S spring = x.stiffness * e.stiffness;
         M stiffness_size = size_of(spring);
-        if constexpr (e.spins) {
+        if constexpr (Spins) {
             spring = spring + x.spin * e.spin;
             stiffness_size += size_of(x.spin * e.spin);
         }

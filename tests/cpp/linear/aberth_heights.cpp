@@ -213,7 +213,7 @@ TEST_CASE("heights all together under a spring: nearly every rig is served", "[l
         const auto chain = random_chain(random, n, i % 3);
         const double carriage = i % 2 == 0 ? 0 : random.log_between(1e-3, 1e3);
         const revchain::Rig rig(chain, {.support = {random.log_between(1e-3, 1e3), carriage, 0}});
-        const auto elements = revchain::pencil::positive_elements(revchain::rig_pencil(rig).pencil);
+        const auto elements = revchain::pencil::positive_elements<false>(revchain::rig_pencil(rig).pencil);
         REQUIRE(elements);
         const Index modes = n + (i % 3 == 0 && carriage == 0 ? 0 : 1);
         const auto roots = revchain::detail::roots_under_a_spring(rig, *elements, {1, modes}, modes);

@@ -76,7 +76,8 @@ SignedPencil<S> random_pencil(Random& random, bool quadratic, Index n, double er
     pencil.quadratic = quadratic;
     for (Index m = 0; m < n; ++m) {
         const auto number = [&] { return S(random.between(-1, 1)) + S(1e-17 * random()); };
-        SignedElement<S> e{number(), quadratic ? number() : S(0.0), number(), number(), number()};
+        const std::array<S, 5> any{number(), quadratic ? number() : S(0.0), number(), number(), number()};
+        auto e = SignedElement<S>::of(any[0], any[1], any[2], any[3], any[4]);
         e.error = {error, error, error, error, error};
         pencil.elements.push_back(e);
     }
@@ -199,7 +200,8 @@ TEST_CASE("roots that meet are not claimed to be apart", "[linalg]") {
     for (const double apart : {0.0, 1e-18, 1e-9, 1e-3}) {
         SignedPencil<S> pencil;  // (x - 1)(x - 1 - apart)
         pencil.quadratic = true;
-        pencil.elements = {{S(1.0), -(S(2.0) + S(apart)), -(S(1.0) + S(apart)), S(0.0), S(0.0)}};
+        pencil.elements = {
+            SignedElement<S>::of(S(1.0), -(S(2.0) + S(apart)), -(S(1.0) + S(apart)), S(0.0), S(0.0))};
         const auto spectrum = revchain::pencil::complex_spectrum(pencil, 0, [](double) {});
         CAPTURE(apart);
         CHECK(spectrum.proved == (apart > 1e-12));

@@ -38,7 +38,8 @@ SignedPencil<S> random_pencil(Random& random, Index n, bool quadratic, double st
     for (Index m = 0; m < n; ++m) {
         const auto any = [&] { return S(random.log_between(1e-2, 1e2) * (random() < 0.3 ? -1 : 1)); };
         const S stiffness = any() * S(stiff > 0 ? std::pow(10.0, std::floor(stiff * random())) : 1.0);
-        pencil.elements.push_back({stiffness, quadratic ? any() : S(0.0), any(), any(), any() * S(0.3)});
+        const std::array<S, 4> any_of{quadratic ? any() : S(0.0), any(), any(), any() * S(0.3)};
+        pencil.elements.push_back(SignedElement<S>::of(stiffness, any_of[0], any_of[1], any_of[2], any_of[3]));
     }
     return pencil;
 }
@@ -76,7 +77,7 @@ TEST_CASE("a proved count is right, however close to an eigenvalue; and mostly p
 
 TEST_CASE("errors of the entries withdraw a proof where they could change the count", "[linalg]") {
     SignedPencil<S> pencil;
-    pencil.elements = {{S(1.0), S(0.0), S(1.0), S(0.0), S(0.0)}};  // x - 1
+    pencil.elements = {SignedElement<S>::of(S(1.0), S(0.0), S(1.0), S(0.0), S(0.0))};  // x - 1
     pencil.elements[0].error = {0, 0, 1e-10, 0, 0};
     for (const auto& [x, sure] :
          {std::pair(1 + 2e-10, true), std::pair(1 + 0.9e-10, false), std::pair(1 - 2e-10, true)})

@@ -84,7 +84,7 @@ template <class Where>
     for (const SignedElement<Wide<double>>& e : pencil.elements) {
         const ElementError<double>& off = e.error;
         const double lower = std::abs(e.lower.high), upper = std::abs(e.upper.high), cross = std::abs(e.cross.high);
-        const Wide<double> weight = e.weight, determinant = e.determinant;
+        const Wide<double> weight = e.weight, determinant = e.turning;
         Z L = x * number(e.stiffness);
         if (pencil.quadratic) L = square * number(e.stiffness) + x * number(e.spin);
         const V L_size = (a * V(std::abs(e.stiffness.high)) + b * V(std::abs(e.spin.high))) * slack;

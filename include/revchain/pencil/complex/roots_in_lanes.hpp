@@ -44,21 +44,9 @@ struct ComplexLanes {
 
 namespace detail {
 
-struct RoundedElement {
-    double stiffness, spin, lower, upper, cross, weight, determinant;
-};
+using RoundedElement = SignedElement<double>;
 
-inline std::vector<RoundedElement> rounded_elements(const SignedPencil<Wide<double>>& pencil) {
-    std::vector<RoundedElement> rows;
-    rows.reserve(pencil.elements.size());
-    for (const auto& e : pencil.elements)
-        rows.push_back({static_cast<double>(e.stiffness), static_cast<double>(e.spin), static_cast<double>(e.lower),
-                        static_cast<double>(e.upper), static_cast<double>(e.cross), static_cast<double>(e.weight),
-                        static_cast<double>(e.determinant)});
-    return rows;
-}
-
-/// P'/P of P = det Q at x: the sum of p'/p over the pivots, by the equation of `SignedCounter` and its derivative.
+/// P'/P of P = det Q at x: the sum of p'/p over the pivots, by equation (1) and its derivative.
 template <bool quadratic, class V>
 [[gnu::always_inline]] inline ComplexLanes<V> log_derivative_in_lanes(const RoundedElement* rows, std::size_t count,
                                                                       const ComplexLanes<V>& x) {
@@ -78,7 +66,7 @@ template <bool quadratic, class V>
         const Z q = (L + cross) * inverse_pivot, rest = (below + -(lower + cross)) * inverse_pivot;
         sum = sum + (slope_below + slope) * inverse_pivot;
         slope_below = rest * rest * slope + q * q * slope_below;
-        below = ((L + -V(e.upper)) * below - (L * V(e.weight) + -V(e.determinant))) * inverse_pivot;
+        below = ((L + -V(e.upper)) * below - (L * V(e.weight) + -V(e.turning))) * inverse_pivot;
     }
     return sum;
 }
@@ -195,7 +183,7 @@ inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bo
 /// All roots in double, `degree` of them, but for `zeros` at 0.
 inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                                      Index degree, const std::function<void(double)>& advance) {
-    const auto rows = rounded_elements(pencil);
+    const auto rows = rounded<double>(pencil).elements;
     const std::size_t links = rows.size(), half = links / 2, wanted = static_cast<std::size_t>(degree);
     std::vector<std::complex<double>> starts;
     const auto add = [&](const SplitRoots& part) {

@@ -30,11 +30,11 @@ namespace detail {
 inline ComplexWord log_derivative(const SignedPencil<Wide<double>>& pencil, const ComplexWord& x, Index zeros) {
     using S = Wide<double>;
     using V = ComplexWord;
-    const Factors<V> f = pencil.factors(x), g = pencil.slopes(x);
+    const V one = S(1.0), two_x = x + x;
+    const Factors<V> f = pencil.factors(x), g = pencil.quadratic ? Factors<V>{two_x, one} : Factors<V>{one, S(0.0)};
     V below = S(0.0), slope_below = S(0.0), sum = S(0.0);
     for (const SignedElement<S>& e : pencil.elements) {
-        const V L = f.stiffness * V(e.stiffness) + f.spin * V(e.spin);
-        const V slope = g.stiffness * V(e.stiffness) + g.spin * V(e.spin);
+        const V L = e.stiffness_at(f), slope = e.stiffness_at(g);
         const V p = below + (L - V(e.lower)), q = (L + V(e.cross)) / p;
         const V p_slope = slope_below + slope;
         sum = sum + p_slope / p;
