@@ -71,6 +71,15 @@ struct Element {
         else
             return L;
     }
+    /// The size of a mass.
+    template <class X>
+    [[gnu::always_inline]] static X mass_size(const X& mass) {
+        using std::abs;
+        if constexpr (OwnErrors)
+            return abs(mass);
+        else
+            return mass;
+    }
     /// (L - c) W.
     template <class X>
     [[gnu::always_inline]] X resisted(const X& L) const {
@@ -80,17 +89,21 @@ struct Element {
             return (L - X(turning)) * X(weight);
     }
     /// (L - c) W over a pivot. Quotients first: products of small weights would underflow.
-    S resisted_over(const S& L, const S& inverse) const {
+    template <class X>
+    [[gnu::always_inline]] X resisted_over(const X& L, const X& inverse) const {
         if constexpr (OwnErrors)
             return resisted(L) * inverse;
         else
-            return (L - turning) * (S(weight) * inverse);
+            return (L - X(turning)) * (X(weight) * inverse);
     }
-    /// The sizes of the terms of `resisted_over`, from that of L.
-    M resisted_size(const M& L, const M& inverse) const {
-        using std::abs;
-        const M resists = abs(static_cast<M>(turning)), heavy = abs(static_cast<M>(weight));
-        return OwnErrors ? (L * heavy + resists) * inverse : (L + resists) * (heavy * inverse);
+    /// The sizes of the terms of `resisted_over`, from those of L and of one over the pivot.
+    template <class X>
+    [[gnu::always_inline]] X resisted_size(const X& L, const X& inverse) const {
+        const X resists(mass_size(static_cast<M>(turning))), heavy(mass_size(static_cast<M>(weight)));
+        if constexpr (OwnErrors)
+            return (L * heavy + resists) * inverse;
+        else
+            return (L + resists) * (heavy * inverse);
     }
 };
 
@@ -99,8 +112,9 @@ using SignedElement = Element<S, true, true>;
 
 /// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from `near` at the pin where
 /// it is known to the other, whose own mass is `far`; `inverse` is one over the pivot.
-template <class E, Real S>
-S propagate(const E& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
+template <class E, class S>
+[[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near, const S& far,
+                                          const S& inverse) {
     return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
@@ -112,8 +126,9 @@ template <class E, class X>
 }
 
 /// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the pivot are small.
-template <Real S>
-S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling, const S& inverse) {
+template <class S>
+[[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling,
+                                                      const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
@@ -127,11 +142,15 @@ M least_pivot() {
 
 /// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue at the shift is not
 /// above it. `size` is that of L.
-template <Real S>
-S not_zero(const S& pivot, const S& size) {
+template <class S>
+[[gnu::always_inline]] inline S not_zero(const S& pivot, const S& size) {
     using std::abs;
-    const S least(least_pivot<Narrow<S>>());
-    return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
+    using M = Lane<Narrow<S>>;
+    const S least(least_pivot<M>());
+    if constexpr (IsPack<S>)
+        return if_less(abs(pivot), least, size * (epsilon<M>() * epsilon<M>()) + least, pivot);
+    else
+        return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
 /// A family Q(x) kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once added, lose the

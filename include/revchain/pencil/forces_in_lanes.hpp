@@ -46,53 +46,18 @@ template <class V>
     return {s.high, s.low + (x.low + y.low)};
 }
 
-/// Coupling over pivot, from its difference to 1 where that is small.
-template <class V>
-[[gnu::always_inline]] inline V ratio_in_lanes(const V& coupling, const V& pivot, const V& inverse) {
-    using T = Lane<V>;
-    const V change = (coupling - pivot) * inverse;
-    return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
-}
-
 /// Whether every element is a point mass at its lower pin: loops are compiled separately for those.
 template <bool Lumped>
 struct Terms {
     static constexpr bool lumped = Lumped;
 };
 
-/// L of an element, rounded.
-template <bool Spins, class V, class T>
-[[gnu::always_inline]] inline V stiffness_in_lanes(const Element<DoubleWord<T>, Spins>& e, const Factors<V>& at) {
-    const V k = at.stiffness * V(e.stiffness.high);
-    if constexpr (Spins)
-        return k + at.spin * V(e.spin.high);
-    else
-        return k;
-}
-
-/// The dynamic stiffness carried across an element, as `across` does.
-template <class Terms, bool Spins, class V, class T>
-[[gnu::always_inline]] inline V carried(Terms, const Element<DoubleWord<T>, Spins>& e, const V& k, const V& near,
-                                        const T& near_mass, const T& far_mass, const V& coupling, const V& inverse) {
-    if constexpr (Terms::lumped) {
-        if (near_mass == T(0)) return k * (near * inverse) - V(far_mass);
-        return k * ((near - V(near_mass)) * inverse);
-    } else {
-        const V far(far_mass), weight(e.weight), turning(e.turning.high), size = abs(inverse);
-        const V k_size = e.size(k);
-        const V of_coupling =
-            V(T(2)) * abs(coupling) * ((k_size + weight + V(near_mass) + far) * size) + (k_size + far);
-        const V of_weight = (k_size + far) * (abs(near) * size) + (k_size + turning) * (weight * size);
-        return if_less(of_coupling, of_weight, (k - far) - coupling * (coupling * inverse),
-                       (k - far) * (near * inverse) - (k - turning) * (weight * inverse));
-    }
-}
-
-template <class V>
-[[gnu::always_inline]] inline V not_zero_in_lanes(const V& pivot, const V& stiffness) {
-    using T = Lane<V>;
-    const V least(least_pivot<T>());
-    return if_less(abs(pivot), least, stiffness * (epsilon<T>() * epsilon<T>()) + least, pivot);
+/// An element rounded to T, as loops in lanes take it.
+template <bool Spins, class T>
+[[gnu::always_inline]] inline Element<T, Spins> high_part(const Element<DoubleWord<T>, Spins>& e) {
+    Element<T, Spins> high{e.stiffness.high, e.lower.high, e.upper.high, e.cross.high, e.turning.high, e.weight};
+    if constexpr (Spins) high.spin = e.spin.high;
+    return high;
 }
 
 /// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m, force, size, offset,

@@ -33,16 +33,6 @@ struct Negatives<V> {
     [[gnu::always_inline]] void add(const V& x) { count += x < V{}; }  // yes is -1
 };
 
-template <class V, class E>
-[[gnu::always_inline]] inline V usable_pivot(const E&, const V& pivot, const V& stiffness) {
-    if constexpr (IsPack<V>) {
-        const Lane<V> least = least_pivot<Lane<V>>(), tiny = epsilon<Lane<V>>() * epsilon<Lane<V>>();
-        return if_less(abs(pivot), V(least), E::size(stiffness) * tiny + V(least), pivot);
-    } else {
-        return not_zero(pivot, E::size(stiffness));
-    }
-}
-
 /// Negative pivots of Q(x) at each of several numbers or packs x. `InUnits`: weights span more than one unit; else loops
 /// keep to registers.
 template <bool InUnits, class Pencil, class V, std::size_t L>
@@ -58,7 +48,7 @@ template <bool InUnits, class Pencil, class V, std::size_t L>
         for (std::size_t i = 0; i < L; ++i) {
             if constexpr (InUnits) below[i] = ldexp(below[i], pencil.step_down(m));
             const V stiffness = e.stiffness_at(at[i]);
-            const V pivot = usable_pivot(e, below[i] + (stiffness - V(e.lower)), stiffness);
+            const V pivot = not_zero(V(below[i] + (stiffness - V(e.lower))), e.size(stiffness));
             negative[i].add(pivot);
             if constexpr (InUnits)
                 below[i] = propagate(e, stiffness, below[i], V(e.upper), V(1) / pivot);

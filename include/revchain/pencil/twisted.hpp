@@ -12,38 +12,68 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 
-/// cross / pivot, the ratio of two neighbouring offsets, from its difference to 1 where that is small: the slope of a
-/// smooth mode is then not the difference of two rounded offsets. The difference in digits of T, enough for offsets
-/// that are rounded to T in the end.
-template <class T, Real S>
-S ratio(const S& cross, const S& pivot) {
-    using std::abs;
-    const T change = static_cast<T>(cross - pivot) / static_cast<T>(pivot);
-    return abs(static_cast<Narrow<S>>(change)) < Narrow<S>(0.5) ? S(T(1)) + S(change) : cross / pivot;
+/// As `if_less` of packs.
+template <Real M, class S>
+S if_less(const M& x, const M& y, const S& a, const S& b) {
+    return x < y ? a : b;
 }
 
-/// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of
-/// the offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
+/// The one or the other where x < y and where not: of packs both are computed.
+template <class M, class F, class G>
+[[gnu::always_inline]] inline auto computed_if_less(const M& x, const M& y, const F& one, const G& other) {
+    if constexpr (IsPack<M>)
+        return if_less(x, y, one(), other());
+    else
+        return x < y ? one() : other();
+}
+
+/// Dynamic stiffness carried across an element, the ratio of the offset at the pin where it was known to that at the
+/// other, and one over the pivot.
 template <class S>
 struct Across {
-    S stiffness, ratio;
+    S stiffness, ratio, inverse{};
 };
 
-template <class Ratio, class E, Real S>
-Across<S> across(const E& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
+/// Across an element at a number or pack of numbers, from `near` at one pin, by the one of equations (1) and (2) that
+/// rounds less; `near_mass` and `far_mass` are the element's own at the two pins. `Lumped`: it is a point mass.
+///
+/// The ratio is taken from its difference to 1 where that is small: the slope of a smooth mode is then not the
+/// difference of two rounded offsets. The difference in digits of Ratio: those of the narrower scalar are enough for
+/// offsets that are rounded to it in the end.
+template <class Ratio, bool Lumped = false, class E, class S, class Mass>
+[[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near, const Mass& near_mass,
+                                               const Mass& far_mass) {
     using std::abs;
-    using T = Narrow<S>;
-    const auto size = [](const S& x) { return abs(static_cast<T>(x)); };
-    const S coupling = stiffness + e.cross;
-    const S pivot = not_zero(near + (stiffness - near_mass), e.size(stiffness));
-    const S inverse = S(T(1)) / pivot;
-    const T k = size(stiffness), lower = size(near_mass), far = size(far_mass), p = abs(static_cast<T>(pivot));
-    const T weight = abs(static_cast<T>(e.weight));
-    const T by_coupling = T(2) * abs(static_cast<T>(coupling)) * ((k + weight + lower + far) / p) + (k + far);
-    const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + e.resisted_size(k, T(1) / p);
-    return {by_coupling < by_weight ? propagate_by_coupling(stiffness, far_mass, coupling, inverse)
-                                    : propagate(e, stiffness, near, far_mass, inverse),
-            ratio<Ratio>(coupling, pivot)};
+    using V = Narrow<S>;
+    const auto size = [](const auto& x) REVCHAIN_INLINED { return abs(static_cast<V>(x)); };
+    const S coupling = Lumped ? stiffness : stiffness + S(e.cross), far(far_mass);
+    const S pivot = not_zero(S(near + (stiffness - S(near_mass))), e.size(stiffness));
+    const S inverse = S(V(1)) / pivot;
+    Across<S> result{{}, {}, inverse};
+    Ratio change = static_cast<Ratio>(coupling - pivot);
+    if constexpr (IsPack<S>)
+        change *= inverse;
+    else
+        change = change / static_cast<Ratio>(pivot);
+    result.ratio = computed_if_less(
+        size(change), V(Lane<V>(0.5)), [&]() REVCHAIN_INLINED { return S(V(1)) + S(change); },
+        [&]() REVCHAIN_INLINED { return coupling * inverse; });
+    if constexpr (Lumped) {
+        result.stiffness = near_mass == Mass(0) ? stiffness * (near * inverse) - far
+                                                : stiffness * ((near - S(near_mass)) * inverse);
+    } else {
+        const auto mass = [&](const auto& x) REVCHAIN_INLINED {
+            return V(e.mass_size(static_cast<Lane<V>>(x)));
+        };
+        const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass), over = size(inverse);
+        const V of_coupling = V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
+        const V of_weight = (k + far_size) * (size(near) * over) + e.resisted_size(k, over);
+        result.stiffness = computed_if_less(
+            of_coupling + (k + far_size), of_weight,
+            [&]() REVCHAIN_INLINED { return propagate_by_coupling(stiffness, far, coupling, inverse); },
+            [&]() REVCHAIN_INLINED { return propagate(e, stiffness, near, far, inverse); });
+    }
+    return result;
 }
 
 /// x in another unit, held where it would leave the range of the scalar: all but rigid.
@@ -106,11 +136,6 @@ struct UnroundedEigenvector {
 };
 
 namespace detail {
-
-template <Real M, class S>
-S if_less(const M& x, const M& y, const S& a, const S& b) {
-    return x < y ? a : b;
-}
 
 /// Offsets of pins 0 ... n from a twisted factorisation, 1 at `pin`. Below it each is `down` times that of the pin
 /// above, and above it `up` times that of the pin below.

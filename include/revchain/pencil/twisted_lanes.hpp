@@ -111,7 +111,7 @@ struct TwistInLanes {
     V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
 };
 template <class Terms, bool Spins, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms,
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms,
                                                                const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                                const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
@@ -119,48 +119,40 @@ template <class Terms, bool Spins, class V, class T>
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    const auto coupled = [](const auto& e, const V& k)
-                             REVCHAIN_INLINED { return lumped ? k : k + V(e.cross.high); };
     // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above.
     // The two take turns: each waits for its divisions.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
-        const auto& e = pencil.elements[m];
-        const V k = stiffness_in_lanes(e, at), coupling = coupled(e, k);
-        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), e.size(k));
-        const V inverse = one / pivot;
-        negative = if_less(pivot, zero, negative + one, negative);
+        const auto e = high_part(pencil.elements[m]);
+        const Across<V> rise = across<V, lumped>(e, e.stiffness_at(at), below, e.lower, e.upper);
+        negative = if_less(rise.inverse, zero, negative + one, negative);
         const std::size_t i = n - 1 - m;
-        const auto& f = pencil.elements[i];
-        const V k_f = stiffness_in_lanes(f, at);
-        if (m == 0) {
-            above = k_f - V(f.lower.high);
-            zero.store(&s.up[i * L]);
-        } else {
-            const V coupling_f = coupled(f, k_f);
-            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), f.size(k_f));
-            const V inverse_f = one / pivot_f;
-            inverse_f.store(&s.above[(i + 1) * L]);
-            ratio_in_lanes(coupling_f, pivot_f, inverse_f).store(&s.up[i * L]);
-            above = carried(terms, f, k_f, above, f.upper.high, f.lower.high, coupling_f, inverse_f);
+        const auto f = high_part(pencil.elements[i]);
+        const V k = f.stiffness_at(at);
+        Across<V> sink{k - V(f.lower), zero};
+        if (m > 0) {
+            sink = across<V, lumped>(f, k, above, f.upper, f.lower);
+            sink.inverse.store(&s.above[(i + 1) * L]);
         }
+        above = sink.stiffness;
+        sink.ratio.store(&s.up[i * L]);
         above.store(&s.change[i * L]);
         below.store(&s.rest[m * L]);
-        inverse.store(&s.below[m * L]);
-        ratio_in_lanes(coupling, pivot, inverse).store(&s.down[m * L]);
-        below = carried(terms, e, k, below, e.lower.high, e.upper.high, coupling, inverse);
+        rise.inverse.store(&s.below[m * L]);
+        rise.ratio.store(&s.down[m * L]);
+        below = rise.stiffness;
     }
     // They balance best where the mode is largest.
     V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
     for (std::size_t m = 0; m < n; ++m) {
-        const auto& e = pencil.elements[m];
-        const V k = e.size(stiffness_in_lanes(e, at)), forces = from_link + (k + V(e.lower.high));
+        const auto e = high_part(pencil.elements[m]);
+        const V k = e.size(e.stiffness_at(at)), forces = from_link + (k + V(e.lower));
         const V balance = abs(V::load(&s.rest[m * L]) + V::load(&s.change[m * L]));
         const auto better = balance * least_forces < least * forces;
         least = select(better, balance, least);
         least_forces = select(better, forces, least_forces);
         twist = select(better, V(static_cast<T>(m)), twist);
-        from_link = k + V(e.upper.high);
+        from_link = k + V(e.upper);
     }
     // Offsets, 1 at the twist, outwards by ratios.
     V y = one, side = one;  // of the axis: signs outlast offsets that underflow
