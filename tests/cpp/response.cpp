@@ -289,12 +289,12 @@ TEST_CASE("response: registers of two doubles, products not fused", "[linear]") 
             revchain::pencil::DrivenPins pins{{0, 17}};
             std::array<std::array<double, 2>, together> offset{};
             revchain::pencil::driven_lanes<false, false, V>(
-                driven.elements, at.data(), pins, found.data(),
+                driven.pencil.elements, at.data(), pins, found.data(),
                 [&](std::size_t lane, std::size_t which, const revchain::Wide<double>& y) {
                     offset[lane][which] = y.high;
                 });
             std::vector<double> scratch;
-            revchain::pencil::sharpen<false, false, V>(driven.elements, at.data(), found.data(), scratch);
+            revchain::pencil::sharpen<false, false, V>(driven.pencil.elements, at.data(), found.data(), scratch);
             for (std::size_t j = 0; j < together; ++j) {
                 const auto exact = truth(chain, heights[j]);
                 CAPTURE(family.name, heights[j]);

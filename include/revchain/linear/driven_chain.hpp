@@ -13,9 +13,8 @@ using pencil::Driving;
 
 /// A chain, or a rig, as the elements between its free end and what carries its support.
 struct DrivenChain {
-    std::vector<pencil::DrivenElement> elements;
+    pencil::SignedPencil<Wide<double>> pencil;  ///< L is height k + spin s, of the drives
     ChainUnits units;
-    bool one_unit = true;  ///< of weight
     bool turning = false;  ///< whether a stiffness goes with the speed
     Index standing = 0;    ///< elements that stand: so many negative pivots are no modes
     Index idle = 0;        ///< lowest links left out: nothing on them bears, spins or moves
@@ -30,34 +29,28 @@ inline bool tells_senses_apart(const Rig& rig) { return rig.has_momentum(); }
 inline DrivenChain driven_chain(const Chain<double>& chain) {
     const AssembledChain<double> assembled = assemble(chain);
     const auto& pencil = assembled.pencil;
-    DrivenChain result{{}, assembled.units, pencil.units.empty()};
-    result.elements.reserve(pencil.elements.size());
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const auto& e = pencil.elements[m];
-        const double part = pencil.entry_error;
-        const pencil::ElementError<double> error{e.stiffness.high * part + pencil.stiffness_underflow, 0,
-                                                 part * e.lower.high, part * e.upper.high,
-                                                 part * (std::abs(e.cross.high) + 2 * e.turning.high)};
-        result.elements.push_back(
-            {RigElement::of(e.stiffness, 0.0, e.lower, e.upper, e.cross, error), pencil.step_down(m)});
-    }
+    DrivenChain result{{}, assembled.units};
+    result.pencil.units = pencil.units;
+    for (const auto& e : pencil.elements)
+        result.pencil.elements.push_back(with_errors(e, pencil.entry_error, pencil.stiffness_underflow));
     return result;
 }
 
 inline DrivenChain driven_chain(const Rig& rig) {
-    DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum()};
+    DrivenChain result{{}, rig.chain().units(), rig.has_momentum()};
+    auto& elements = result.pencil.elements;
     Index m = 0;
     for (const RigLink& link : rig_links(rig)) {
         const bool stands = rig.stands(m++);
         const RigElement element = rig_element(link, stands);
-        if (result.elements.empty() && is_nothing(element)) {
+        if (elements.empty() && is_nothing(element)) {
             ++result.idle;
             continue;
         }
-        result.elements.push_back({element});
+        elements.push_back(element);
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig)) result.elements.push_back({*support}), result.end = 0;
+    if (const auto support = support_element(rig)) elements.push_back(*support), result.end = 0;
     return result;
 }
 
@@ -86,15 +79,15 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
                     if (lane < taken) put(static_cast<Index>(i + lane), which, y);
                 };
                 if (chain.turning)
-                    pencil::driven_lanes<true, fused, V>(chain.elements, padded, wanted, found, offset);
+                    pencil::driven_lanes<true, fused, V>(chain.pencil.elements, padded, wanted, found, offset);
                 else
-                    pencil::driven_lanes<false, fused, V>(chain.elements, padded, wanted, found, offset);
+                    pencil::driven_lanes<false, fused, V>(chain.pencil.elements, padded, wanted, found, offset);
                 bool sharp = true;
                 for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
                 if (!sharp && chain.turning)
-                    pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch, chain.end);
+                    pencil::sharpen<true, fused, V>(chain.pencil.elements, padded, found, scratch, chain.end);
                 if (!sharp && !chain.turning)
-                    pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch, chain.end);
+                    pencil::sharpen<false, fused, V>(chain.pencil.elements, padded, found, scratch, chain.end);
                 for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
                 advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
             }

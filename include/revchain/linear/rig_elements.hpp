@@ -12,6 +12,13 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// `spin`: times a speed it is stiffness.
 using RigElement = pencil::SignedElement<Wide<double>>;
 
+/// An element of a chain, whose numbers have small relative errors, with errors of its own.
+inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
+    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
+                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
+                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
+}
+
 /// One link: stiffness and spin negative where it stands.
 inline RigElement rig_element(const RigLink& link, bool stands) {
     constexpr double part = RigLink::error_part;

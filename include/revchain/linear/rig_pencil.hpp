@@ -141,11 +141,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
     // Links as in a chain, but for momentum.
     using S = Wide<double>;
     const AssembledChain<double> assembled = assemble(rig.chain());
-    const double error = assembled.pencil.entry_error;
-    for (const auto& e : assembled.pencil.elements)
-        elements.push_back(RigElement::of(e.stiffness, S(0.0), e.lower, e.upper, e.cross,
-                                          {error * e.stiffness.high, 0, error * e.lower.high, error * e.upper.high,
-                                           error * (std::abs(e.cross.high) + 2 * e.turning.high)}));
+    for (const auto& e : assembled.pencil.elements) elements.push_back(with_errors(e, assembled.pencil.entry_error));
     if (rig.has_momentum())
         for (Index m = 0; m < rig.size(); ++m) {
             RigElement& e = elements[static_cast<std::size_t>(m)];

@@ -127,7 +127,7 @@ class BoundedCarry<ElementPencil<S>> {
     };
 
     explicit BoundedCarry(const ElementPencil<S>& pencil)
-        : local_(M(2) * pencil.entry_error + M(6) * unit), stiffness_underflow_(pencil.stiffness_underflow) {}
+        : local_(M(2) * pencil.entry_error + M(6) * unit()), stiffness_underflow_(pencil.stiffness_underflow) {}
 
     Shift at(const S& x) const {
         using std::abs;
@@ -177,12 +177,12 @@ class BoundedCarry<ElementPencil<S>> {
         const M rest = shift.underflow * (M(1) + (size + e.weight) * inverse) +
                        tiny() * (k + of.upper + of.turning + gain + (k + of.turning) * inverse);
         at.error = inflate * (((push * at.error) * gain) / least_with_below + own + rest +
-                              M(2) * unit * abs(static_cast<M>(at.below)));
+                              M(2) * unit() * abs(static_cast<M>(at.below)));
     }
 
    private:
     static M tiny() { return M(2) * least_pivot<M>(); }
-    static constexpr M unit = operation_error<S>();
+    static M unit() { return operation_error<S>(); }
 
     M local_;  // stiffness times weight has both their errors
     M stiffness_underflow_;
@@ -219,7 +219,7 @@ class BoundedCarry<SignedPencil<S>> {
     [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
                                            BoundedStiffness<S>& at) const {
         using std::abs;
-        constexpr M u = operation_error<S>();
+        const M u = operation_error<S>();
         const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
         const M tiny = M(2) * least_pivot<M>();
         const M underflow = M(64) * std::numeric_limits<M>::denorm_min();  // of an operation

@@ -57,7 +57,7 @@ struct PinsAsked {
 
 /// The pins asked for, of a chain with so many `links`. A pin of an idle link is where the lowest other pin is.
 inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
-    const std::size_t below = chain.elements.size();
+    const std::size_t below = chain.pencil.elements.size();
     const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
     PinsAsked result;
     if (options.pins) {
@@ -132,16 +132,17 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
     const auto take = [&](Index row, const pencil::Driven& found) {
         store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
     };
-    if (chain.one_unit) driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
+    const bool one_unit = chain.pencil.units.empty();
+    if (one_unit) driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
     std::vector<Index> left;
     for (Index row = 0; row < rows; ++row)
-        if (!chain.one_unit || result.resonant[static_cast<std::size_t>(row)] != 0) left.push_back(row);
+        if (!one_unit || result.resonant[static_cast<std::size_t>(row)] != 0) left.push_back(row);
     parallel_for(left.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Index row = left[i];
             std::size_t which = pins.wanted.pins.size();
             const auto found = pencil::driven(
-                chain.elements, at[static_cast<std::size_t>(row)],
+                chain.pencil, at[static_cast<std::size_t>(row)],
                 [&](std::size_t pin, const Wide<double>& y) {
                     if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
                     put(row, --which, y);

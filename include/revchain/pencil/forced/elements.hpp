@@ -8,12 +8,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// An element between two neighbouring pins of  height K - M  whose end is moved from outside: stiffness
-/// height k + spin s, spin within two operations of what is meant.
-struct DrivenElement : SignedElement<Wide<double>> {
-    int step = 0;  ///< the unit of this element is 2^-step of the one below
-};
-
 /// The speed of a drive: height and, where elements have a stiffness that goes with the speed, height times speed.
 /// Each within two operations of what is meant.
 struct Driving {
@@ -57,11 +51,11 @@ struct Follows {
 /// is a pin of the chain, else 0: errors are over the largest offset of a pin.
 /// Cost: about 1.5 microseconds for each element.
 template <class Offsets>
-Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, const Offsets& offset, double end = 1) {
+Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset, double end = 1) {
     using S = Wide<double>;
     using I = Interval<S>;
     const double unit = operation_error<S>();
-    const std::size_t n = elements.size();
+    const std::size_t n = pencil.elements.size();
     std::vector<detail::Follows> follows(n);
     I below(S(0.0)), earlier_pivot, earlier_square, earlier_rest;
     bool compliant = false;  // `below` is the reciprocal
@@ -69,8 +63,9 @@ Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, con
     const auto two = [](const S& x, double part) { return detail::around(x, std::abs(x.high) * part); };
     const I height = two(at.height, 2 * unit), spin = two(at.spin, 2 * unit);
     for (std::size_t m = 0; m < n; ++m) {
-        const DrivenElement& e = elements[m];
-        if (e.step != 0) below = detail::rescaled(below, compliant ? -e.step : e.step);
+        const SignedElement<S>& e = pencil.elements[m];
+        const int step = pencil.step_down(m);
+        if (step != 0) below = detail::rescaled(below, compliant ? -step : step);
         I stiffness = height * detail::around(e.stiffness, e.error.stiffness);
         if (e.spin.high != 0) stiffness = stiffness + spin * two(e.spin, 4 * unit);
         const I lower = stiffness - detail::around(e.lower, e.error.lower);
@@ -80,15 +75,15 @@ Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, con
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;
             // p of the pin below times that of this one, of one sign whatever that of the small one
-            const I pair = earlier_pivot * (detail::rescaled(earlier_rest, e.step) + lower) -
-                           detail::rescaled(earlier_square, e.step);
+            const I pair = earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) -
+                           detail::rescaled(earlier_square, step);
             if (pair.negative()) ++result.negative;
             if (!pair.negative() || whole.may_vanish()) return result;
             const I force = coupling / whole;  // of what hangs below, over the offset of the pin above
             const I ratio = below * force;
             follows[m] = {ratio, 1};
-            follows[m - 1].ratio = follows[m - 1].ratio * detail::rescaled(force, -e.step);
-            const I node = (detail::rescaled(earlier_rest, e.step) * below - I(S(1.0)));
+            follows[m - 1].ratio = follows[m - 1].ratio * detail::rescaled(force, -step);
+            const I node = (detail::rescaled(earlier_rest, step) * below - I(S(1.0)));
             follows[m - 1].ratio = follows[m - 1].ratio * node;
             below = upper - square * (below / whole);
             compliant = false;

@@ -59,7 +59,7 @@ template <class V>
 }
 
 template <bool turning, bool fused, class V>
-[[gnu::always_inline]] inline void rise(const DrivenElement& e, bool kept, DrivenWalk<V>& w, DrivenRow<V>* row) {
+[[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept, DrivenWalk<V>& w, DrivenRow<V>* row) {
     constexpr double unit = operation_error<Wide<double>>();
     const DoubleWord<V> k = everywhere<V>(e.stiffness), mass = everywhere<V>(e.lower);
     DoubleWord<V> stiffness = product<fused>(w.height, k);
@@ -112,7 +112,7 @@ inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 /// `offset(lane, which, value)` for each pin wanted, highest first: value in two words, its relative error the bound.
 /// Cost: 8 to 20 ns for each link and drive with AVX-512, 26 to 40 ns with registers of two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
-[[gnu::always_inline]] inline void driven_lanes(const std::vector<DrivenElement>& elements, const Driving* at,
+[[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
                                                 DrivenPins& wanted, Driven* result, const Offsets& offset) {
     constexpr std::size_t P = 2, L = V::size;
     detail::DrivenWalk<V> walks[P];
@@ -171,7 +171,7 @@ template <bool turning, bool fused, class V, class Offsets>
 /// of the upper one. `end` as for `driven`. What `driven_lanes` adds up, errors of ratios, counts what happens to both
 /// sides of a node twice, without the signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
-[[gnu::always_inline]] inline void sharpen(const std::vector<DrivenElement>& elements, const Driving* at,
+[[gnu::always_inline]] inline void sharpen(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
                                            Driven* result, std::vector<double>& scratch, double end = 1) {
     constexpr std::size_t P = 2, L = V::size, stored = detail::DrivenRow<V>::stored;
     detail::DrivenWalk<V> walks[P];
