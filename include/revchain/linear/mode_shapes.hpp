@@ -34,6 +34,36 @@ void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const penc
     shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
 }
 
+/// Shapes of the modes that `shapes` has room for, eight at a time, and their residuals if there is room for those.
+/// Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` tells a mode's root, `alone(j)` finds
+/// a shape that lanes cannot, and `take(j, found, lane)` whatever else is wanted of the others.
+template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
+void shapes_in_eights(ModeShapes<T>& shapes, const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
+                      const Root& root, const Alone& alone, const Take& take, Progress* progress) {
+    const FloatingPointStateGuard quiet;
+    const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
+    const auto stride = static_cast<std::size_t>(shapes.offset.cols()), pins = stride - static_cast<std::size_t>(idle);
+    pencil::for_eights<T>(
+        static_cast<std::size_t>(shapes.offset.rows()), pencil.elements.size(),
+        [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+            pencil::RootsInLanes<T> roots;
+            for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
+                root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i], roots.rounded[i]);
+            pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
+            found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
+            for (std::size_t i = 0; i < there; ++i) {
+                const auto j = static_cast<Index>(first + i);
+                if (found.found[i]) {
+                    if (details) shapes.residual[j] = found.residual[i];
+                    take(j, found, i);
+                } else {
+                    alone(j);
+                }
+                advance(progress, 1.0);  // may be cancelled
+            }
+        });
+}
+
 /// Finds shapes of some modes of a chain, from heights in the units of its pencils.
 template <Real T>
 class ShapeFinder {
@@ -84,39 +114,22 @@ class ShapeFinder {
             set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue, fine_shape<T>(pencils.wide(), at.unrounded));
     }
 
-    /// Several modes at a time; those whose lanes say that they cannot, alone.
     void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
                   Progress* progress) const {
-        constexpr std::size_t lanes = pencil::shape_lanes;
-        const FloatingPointStateGuard quiet;
-        const bool lumped = pencil::is_lumped(pencils.wide());
         const bool details = shapes.residual.size() > 0;
         const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
-        const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;
-        pencil::for_eights<T>(height.size(), pins,
-                              [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-                                  pencil::RootsInLanes<T> roots;
-                                  std::vector<pencil::Crossing<T>> crossed;
-                                  for (std::size_t i = 0; i < lanes; ++i) {
-                                      const Height<T>& at = height[first + std::min(i, there - 1)];
-                                      roots.exact[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
-                                      roots.rounded[i] = at.eigenvalue;
-                                  }
-                                  pencil::shapes_in_lanes(pencils.wide(), lumped, roots, details, found);
-                                  T* const row = &shapes.offset(static_cast<Index>(first), 0);
-                                  found.store_rows(row, pins, there);
-                                  for (std::size_t i = 0; i < there; ++i) {
-                                      const auto j = static_cast<Index>(first + i);
-                                      if (!found.found[i]) {
-                                          alone(shapes, j, pencils, height[first + i]);
-                                      } else if (details) {
-                                          shapes.residual[j] = found.residual[i];
-                                          found.crossings(i, row + i * pins, crossed);
-                                          shapes.nodes[first + i] = nodes(chain_, places, crossed);
-                                      }
-                                      advance(progress, 1.0);  // may be cancelled
-                                  }
-                              });
+        const auto root = [&](Index j, Wide<T>& exact, Wide<T>& rounded) {
+            const Height<T>& at = height[static_cast<std::size_t>(j)];
+            exact = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
+            rounded = at.eigenvalue;
+        };
+        const auto take = [&](Index j, const pencil::ShapesInLanes<T>& found, std::size_t lane) {
+            if (!details) return;
+            const auto crossed = found.crossings(lane, &shapes.offset(j, 0));
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, places, crossed);
+        };
+        const auto one = [&](Index j) { alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]); };
+        shapes_in_eights(shapes, pencils.wide(), 0, root, one, take, progress);
     }
 
     Chain<T> chain_;

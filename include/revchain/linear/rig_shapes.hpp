@@ -51,43 +51,24 @@ class RigShapeFinder {
         for (Index i = 0; i <= sense_.size(); ++i)
             rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
         if (shapes.residual.size() > 0) shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
-        set_offsets(shapes, j, rounded.data());
+        shapes.offset.row(j).tail(shapes.offset.cols() - idle_) = rounded.head(shapes.offset.cols() - idle_).transpose();
+        complete(shapes, j);
     }
 
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
-        const FloatingPointStateGuard quiet;
-        const bool lumped = pencil::is_lumped(*elements_), details = shapes.residual.size() > 0;
-        const std::size_t pins = elements_->elements.size() + 1;
-        pencil::for_eights<double>(static_cast<std::size_t>(shapes.offset.rows()), pins,
-                                   [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<double>& found) {
-                                       const auto j = static_cast<Index>(first);
-                                       pencil::RootsInLanes<double> at;
-                                       std::vector<double> rows(pencil::shape_lanes * pins);
-                                       for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-                                           at.exact[i] = at.rounded[i] =
-                                               root(from + j + static_cast<Index>(std::min(i, there - 1)));
-                                       pencil::shapes_in_lanes(*elements_, lumped, at, details, found);
-                                       found.store_rows(rows.data(), pins, there);
-                                       for (std::size_t i = 0; i < there; ++i) {
-                                           const Index mode = j + static_cast<Index>(i);
-                                           if (found.found[i]) {
-                                               if (details) shapes.residual[mode] = found.residual[i];
-                                               set_offsets(shapes, mode, &rows[i * pins]);
-                                           } else {
-                                               alone(shapes, mode, root(from + mode));
-                                           }
-                                           advance(progress, 1.0);  // may be cancelled
-                                       }
-                                   });
+        shapes_in_eights(
+            shapes, *elements_, idle_,
+            [&](Index j, RigWord& exact, RigWord& rounded) { exact = rounded = root(from + j); },
+            [&](Index j) { alone(shapes, j, root(from + j)); },
+            [&](Index j, const auto&, std::size_t) { complete(shapes, j); }, progress);
     }
 
-    /// Stores the offsets of the pencil's pins, and nodes where there is room for them.
-    void set_offsets(ModeShapes<double>& shapes, Index j, const double* pins) const {
-        double* const offset = &shapes.offset(j, 0);
-        std::fill_n(offset, idle_, pins[0]);
-        std::copy_n(pins, shapes.offset.cols() - idle_, offset + idle_);
+    /// Offsets of the idle pins and, where there is room for them, nodes.
+    void complete(ModeShapes<double>& shapes, Index j) const {
+        auto offset = shapes.offset.row(j);
+        offset.head(idle_).setConstant(offset[idle_]);
         if (shapes.residual.size() > 0)
-            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(shapes.offset.row(j)));
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(offset));
     }
 
     /// The links on which offsets change sign, and where.

@@ -40,21 +40,21 @@ struct ShapesInLanes {
         offset.resize((links + 1) * shape_lanes);
         for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
     }
-    /// The first `count` lanes as rows of `pins` numbers.
-    void store_rows(T* rows, std::size_t pins, std::size_t count) const {
+    /// The first `pins` numbers of the first `count` lanes, as rows that are `stride` numbers apart.
+    void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
         constexpr std::size_t tile = 8;
         std::size_t m = 0;
         if (count == shape_lanes)
             for (; m + tile <= pins; m += tile)
                 for (std::size_t i = 0; i < shape_lanes; ++i)
-                    for (std::size_t k = 0; k < tile; ++k) rows[i * pins + m + k] = offset[(m + k) * shape_lanes + i];
+                    for (std::size_t k = 0; k < tile; ++k) rows[i * stride + m + k] = offset[(m + k) * shape_lanes + i];
         for (; m < pins; ++m)
-            for (std::size_t i = 0; i < count; ++i) rows[i * pins + m] = offset[m * shape_lanes + i];
+            for (std::size_t i = 0; i < count; ++i) rows[i * stride + m] = offset[m * shape_lanes + i];
     }
     /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
-    void crossings(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
+    std::vector<Crossing<T>> crossings(std::size_t lane, const T* row) const {
         const std::size_t n = down.size() / shape_lanes;
-        crossed.resize(n);
+        std::vector<Crossing<T>> crossed(n);
         std::size_t count = 0;
         for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches: nobody can foresee them
             crossed[count].element = static_cast<Index>(m);
@@ -66,6 +66,7 @@ struct ShapesInLanes {
         }
         crossed.resize(count);
         if (underflows[lane]) by_ratios(lane, row, crossed);
+        return crossed;
     }
 
    private:
