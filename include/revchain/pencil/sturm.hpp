@@ -18,46 +18,62 @@ inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
-/// Negative numbers seen, in a number or in each of a pack.
-template <class V>
-struct Negatives {
-    Index count = 0;
-
-    void add(const V& x) { count += x < V(Lane<V>(0)) ? 1 : 0; }
-};
-template <class V>
-    requires IsPack<V>
-struct Negatives<V> {
-    typename V::Mask count{};
-
-    [[gnu::always_inline]] void add(const V& x) { count += x < V{}; }  // yes is -1
-};
-
-/// Negative pivots of Q(x) at each of several numbers or packs x. `InUnits`: weights span more than one unit; else loops
-/// keep to registers.
-template <bool InUnits, class Pencil, class V, std::size_t L>
-[[gnu::always_inline]] inline std::array<Negatives<V>, L> negative_pivots(const Pencil& pencil,
-                                                                          const std::array<V, L>& x) {
-    using std::ldexp;
-    std::array<Factors<V>, L> at;
-    std::array<V, L> below{};
-    std::array<Negatives<V>, L> negative;
-    for (std::size_t i = 0; i < L; ++i) at[i] = pencil.factors(x[i]);
+/// Carries the dynamic stiffness D of everything below a pin up a string of elements, at several shifts, and counts
+/// negative pivots. `Carry` says how, with or without a bound: what it keeps of a shift, of an element and of D.
+template <class Carry, class Pencil, class X, std::size_t L>
+[[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil, const std::array<X, L>& shifts) {
+    std::array<typename Carry::Shift, L> at;
+    std::array<typename Carry::State, L> state{};
+    for (std::size_t i = 0; i < L; ++i) at[i] = carry.at(shifts[i]);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
-        for (std::size_t i = 0; i < L; ++i) {
-            if constexpr (InUnits) below[i] = ldexp(below[i], pencil.step_down(m));
-            const V stiffness = e.stiffness_at(at[i]);
-            const V pivot = not_zero(V(below[i] + (stiffness - V(e.lower))), e.size(stiffness));
-            negative[i].add(pivot);
-            if constexpr (InUnits)
-                below[i] = propagate(e, stiffness, below[i], V(e.upper), V(1) / pivot);
-            else
-                below[i] = propagate_in_one_unit(e, stiffness, below[i], V(e.upper), pivot);
-        }
+        if constexpr (Carry::in_units)
+            if (const int step = pencil.step_down(m); step != 0)
+                for (auto& each : state) carry.change_unit(each, step);
+        const auto sizes = carry.sizes(e);
+        for (std::size_t i = 0; i < L; ++i) carry(e, sizes, at[i], state[i]);
     }
-    return negative;
+    return state;
 }
+
+/// D and the negative pivots so far, at one shift or at each of a pack.
+template <class V>
+struct Counted {
+    V below{};
+    std::conditional_t<IsPack<V>, V, Index> negative{};
+
+    [[gnu::always_inline]] void add(const V& pivot) {
+        if constexpr (IsPack<V>)
+            negative += if_less(pivot, V{}, V(1), V{});
+        else
+            negative += pivot < V(0) ? 1 : 0;
+    }
+};
+
+/// Without a bound. `InUnits`: weights span more than one unit; else loops keep to registers.
+template <class Pencil, class V, bool InUnits>
+struct PlainCarry {
+    using Shift = Factors<V>;
+    using State = Counted<V>;
+    static constexpr bool in_units = InUnits;
+    const Pencil& pencil;
+
+    [[gnu::always_inline]] Shift at(const V& x) const { return pencil.factors(x); }
+    [[gnu::always_inline]] static int sizes(const auto&) { return 0; }
+    static void change_unit(State& state, int step) {
+        using std::ldexp;
+        state.below = ldexp(state.below, step);
+    }
+    [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at, State& state) const {
+        const V stiffness = e.stiffness_at(at);
+        const V pivot = not_zero(V(state.below + (stiffness - V(e.lower))), e.size(stiffness));
+        state.add(pivot);
+        if constexpr (InUnits)
+            state.below = propagate(e, stiffness, state.below, V(e.upper), V(1) / pivot);
+        else
+            state.below = propagate_in_one_unit(e, stiffness, state.below, V(e.upper), pivot);
+    }
+};
 
 }  // namespace detail
 
@@ -72,22 +88,25 @@ template <bool InUnits, class Pencil, class V, std::size_t L>
 /// scaled by a few ulp for each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
 std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
+    using Pencil = ElementPencil<T, Spins, OwnErrors>;
     std::array<Index, L> above;
-    const auto counted = [&](const auto& negative) {
-        for (std::size_t i = 0; i < L; ++i) above[i] = negative[i].count;
+    const auto counted = [&](const auto& state) {
+        for (std::size_t i = 0; i < L; ++i) above[i] = state[i].negative;
         return above;
     };
-    if (!pencil.units.empty()) return counted(detail::negative_pivots<true>(pencil, shifts));
+    if (!pencil.units.empty())
+        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>) && L % 8 == 0) {
         return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
-            using Packed = Pack<T, width, L / width>;
-            const auto negative = detail::negative_pivots<false>(pencil, std::array{Packed::load(shifts.data())});
-            for (std::size_t i = 0; i < L; ++i) above[i] = -static_cast<Index>(negative[0].count[i]);
+            using V = Pack<T, width, L / width>;
+            const detail::PlainCarry<Pencil, V, false> carry{pencil};
+            const auto state = detail::carried_up(carry, pencil, std::array{V::load(shifts.data())});
+            for (std::size_t i = 0; i < L; ++i) above[i] = static_cast<Index>(state[0].negative[i]);
             return above;
         });
     } else {
-        return counted(detail::negative_pivots<false>(pencil, shifts));
+        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
     }
 }
 
@@ -118,6 +137,8 @@ template <Real S>
 class BoundedCarry<ElementPencil<S>> {
    public:
     using M = Narrow<S>;  // magnitudes and errors
+    using State = BoundedStiffness<S>;
+    static constexpr bool in_units = true;
     struct Shift {
         S x;
         M underflow;  // of a pivot
@@ -139,13 +160,13 @@ class BoundedCarry<ElementPencil<S>> {
         return {static_cast<M>(e.lower), static_cast<M>(e.upper), turning,
                 abs(static_cast<M>(e.cross)) + M(2) * turning};
     }
-    static void change_unit(BoundedStiffness<S>& at, int step) {
+    static void change_unit(State& at, int step) {
         using std::ldexp;
         at.below = ldexp(at.below, step);
         at.error = ldexp(at.error, step) + tiny();
     }
     [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
-                                           BoundedStiffness<S>& at) const {
+                                           State& at) const {
         using std::abs;
         const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
         const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
@@ -196,6 +217,8 @@ template <Real S>
 class BoundedCarry<SignedPencil<S>> {
    public:
     using M = Narrow<S>;
+    using State = BoundedStiffness<S>;
+    static constexpr bool in_units = false;
     struct Shift {
         Factors<S> x;
         M stiffness_size, spin_size;
@@ -215,9 +238,8 @@ class BoundedCarry<SignedPencil<S>> {
         return {size_of(e.stiffness), size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
                 lower * upper + cross * cross};
     }
-    static void change_unit(BoundedStiffness<S>&, int) {}
     [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
-                                           BoundedStiffness<S>& at) const {
+                                           State& at) const {
         using std::abs;
         const M u = operation_error<S>();
         const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
@@ -269,20 +291,10 @@ class BoundedCarry<SignedPencil<S>> {
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {
-    using Carry = detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>>;
-    const Carry carry(pencil);
-    std::array<typename Carry::Shift, L> at;
-    std::array<detail::BoundedStiffness<S>, L> stiffness;
-    for (std::size_t i = 0; i < L; ++i) at[i] = carry.at(shifts[i]);
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const auto& e = pencil.elements[m];
-        if (const int step = pencil.step_down(m); step != 0)
-            for (auto& each : stiffness) Carry::change_unit(each, step);
-        const auto sizes = Carry::sizes(e);
-        for (std::size_t i = 0; i < L; ++i) carry(e, sizes, at[i], stiffness[i]);
-    }
+    const detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>> carry(pencil);
+    const auto state = detail::carried_up(carry, pencil, shifts);
     std::array<CertifiedCount, L> result;
-    for (std::size_t i = 0; i < L; ++i) result[i] = stiffness[i].count;
+    for (std::size_t i = 0; i < L; ++i) result[i] = state[i].count;
     return result;
 }
 
