@@ -5,6 +5,7 @@
 #include "revchain/cord.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
@@ -127,11 +128,8 @@ inline Index modes_above(const StraightCord& straight, double height) {
         if (not_above > most)
             throw_invalid("count_modes", "there are more than 1e15 modes above conical height", height);
     }
-    while (not_above - above > 1) {
-        const Index middle = above + (not_above - above) / 2;
-        (closed_height(straight, middle) > height ? above : not_above) = middle;
-    }
-    return above;
+    const auto side = [&](Index mode) { return closed_height(straight, mode) > height ? -1 : 1; };
+    return halved(above, not_above, side).first;
 }
 
 /// The modes of a straight cord that the options choose.

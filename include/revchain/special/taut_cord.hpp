@@ -19,8 +19,8 @@ namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 namespace detail {
 
 using tip_mass::detail::Ends;
-using tip_mass::detail::newton_between;
 using tip_mass::detail::OrderZero;
+using tip_mass::detail::phase_zero;
 using tip_mass::detail::series;
 using tip_mass::detail::ValueAndRate;
 using namespace analytic::detail;
@@ -57,7 +57,7 @@ inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const T
 /// z_L - z_0 of a mode: below mode pi, as theta' > 1.
 inline TwoDoubles apart(const Ends& ends, Index mode) {
     const double r = ends.ratio.high, g = ends.gap.high, high = static_cast<double>(mode) * std::numbers::pi;
-    return newton_between(0, high, high - 0.125 * std::min(1.0, g / r), [&](double at) {
+    return phase_zero(0, high, high - 0.125 * std::min(1.0, g / r), [&](double at) {
         const TwoDoubles place = TwoDoubles(at) / ends.gap;
         const LowerEnd end(place * ends.ratio);
         const ValueAndRate e = excess(end, place, TwoDoubles(at), mode);
@@ -156,10 +156,9 @@ class Mode {
     }
     /// z - z_0 at node i, at most `high`.
     double node_apart(Index i, double high) const {
-        return detail::newton_between(
-                   0, high, high - 0.125 * std::min(1.0, ends_.gap.high / ends_.ratio.high),
-                   [&](double at) { return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i); })
-            .high;
+        const double start = high - 0.125 * std::min(1.0, ends_.gap.high / ends_.ratio.high);
+        const auto off = [&](double at) { return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i); };
+        return detail::phase_zero(0, high, start, off).high;
     }
     double place_of(double apart) const {
         return length_ * (apart / apart_.high) * ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
