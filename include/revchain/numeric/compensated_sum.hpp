@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A sum with one word more than its terms have, where scalars consist of words: below. Of other scalars a plain sum.
+/// The sum of numbers that do not consist of words. Those below have one word more than their terms.
 template <class S>
 struct CompensatedSum {
     S high{};

@@ -8,23 +8,25 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
-/// The zero of a function of one number that is known to lie between two places. These functions serve all scalars,
-/// unlike the root finders of other libraries.
+/// The zero of a function of one number that is known to lie between two places. These functions
+/// serve all scalars, unlike the root finders of other libraries.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// More halvings than a bracket of numbers in T can need.
 template <Real T>
-inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+inline constexpr int most_halvings =
+    2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
 
-/// The last step of Newton's method. The zero is `from - step`, with more digits than T where that is subtracted in two
-/// words.
+/// The last step of Newton's method. The zero is `from - step`, with more digits than T where that
+/// is subtracted in two words.
 template <Real T>
 struct NewtonStep {
     T from, step;
 };
 
-/// The zero of a function that grows through it once between `low` and `high`: Newton's method from `start`, held
-/// within the bracket by halving, until a step is `enough` of the zero. `value_and_slope(x)` returns a pair.
+/// The zero of a function that grows through it once between `low` and `high`: Newton's method from
+/// `start`, held within the bracket by halving, until a step is `enough` of the zero.
+/// `value_and_slope(x)` returns a pair.
 template <Real T, class F>
 NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T enough) {
     using std::abs;
@@ -35,13 +37,13 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
         (value < T(0) ? low : high) = x;
         const T step = value / slope;
         if (abs(step) <= enough * abs(x)) return {x, step};
+        const auto is_within = [&](const T& place) { return place > low && place < high; };
         T next = x - step;
         // Steps that do not shrink by half are no better than halving, and may creep.
-        if (!(next > low && next < high) || abs(step) > last / T(2)) next = low + (high - low) / T(2);
+        if (!is_within(next) || abs(step) > last / T(2)) next = low + (high - low) / T(2);
         last = abs(next - x);
-        const bool last_digit = last <= epsilon<T>() / T(2) * abs(next) || !(next > low && next < high);
         x = next;
-        if (last_digit) break;
+        if (last <= epsilon<T>() / T(2) * abs(next) || !is_within(next)) break;
     }
     return {x, T(0)};
 }
@@ -55,15 +57,16 @@ T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() 
     return last.from - last.step;
 }
 
-/// The zeros of a function that grows through one above the first, third, ... of `places` and falls through one above
-/// the others, each below the next place or `end`.
+/// The zeros of a function that grows through one above the first, third, ... of `places` and falls
+/// through one above the others, each below the next place or `end`.
 template <class F>
 Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
     Vector<double> zeros(places.size());
     for (Index i = 0; i < places.size(); ++i) {
         look();
         const double sign = i % 2 == 0 ? 1 : -1;
-        zeros[i] = zero_between(places[i], i + 1 < places.size() ? places[i + 1] : end, [&](double x) {
+        const double next = i + 1 < places.size() ? places[i + 1] : end;
+        zeros[i] = zero_between(places[i], next, [&](double x) {
             const auto [value, slope] = value_and_slope(x);
             return std::pair(sign * value, sign * slope);
         });
@@ -83,15 +86,17 @@ struct SignChange {
     ValueAt<T> low, high;
 };
 
-/// A sign change of a function that grows through 0 at a positive number: from `guess` upwards or downwards by factors
-/// of 2.
+/// A sign change of a function that grows through 0 at a positive number: from `guess` upwards or
+/// downwards by factors of 2.
 template <Real T, class F>
 SignChange<T> sign_change_near(T guess, const F& value) {
     const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
     SignChange<T> found{at(guess), {}};
     found.high = found.low;
-    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i) found = {found.high, at(found.high.x * T(2))};
-    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i) found = {at(found.low.x / T(2)), found.low};
+    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i)
+        found = {found.high, at(found.high.x * T(2))};
+    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i)
+        found = {at(found.low.x / T(2)), found.low};
     return found;
 }
 
@@ -101,20 +106,23 @@ struct Enough {
     T width{}, value{};
 };
 
-/// The zero within a sign change of a function without a slope: inverse quadratic interpolation, and halving where
-/// three places do not show a bend that this follows. NaN where the signs do not differ, and as soon as `value(x)` is.
-/// Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is that of the chord.
-/// Cost: six to nine evaluations of a smooth function.
+/// The zero within a sign change of a function without a slope: inverse quadratic interpolation,
+/// and halving where three places do not show a bend that this follows. NaN where the signs do not
+/// differ, and as soon as `value(x)` is.
+/// Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is that of
+/// the chord. Cost: five to nine evaluations of a smooth function.
 template <Real T, class F>
 T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& enough = {}) {
     using std::abs;
-    ValueAt<T> a = bracket.high, b = bracket.low, c = b;  // the last place, one on the other side, the one before
+    // the last place, one on the other side of the zero, and the last that one of them has replaced
+    ValueAt<T> a = bracket.high, b = bracket.low, c = b;
     if (a.value != T(0) && b.value != T(0) && (a.value < T(0)) == (b.value < T(0)))
         return std::numeric_limits<T>::quiet_NaN();
     T share = a.value / (a.value - b.value);  // of the way from a to b
     for (int round = 0; round < most_halvings<T>; ++round) {
         const ValueAt<T>& nearest = abs(a.value) < abs(b.value) ? a : b;
-        const T width = b.x - a.x, least = (enough.width + epsilon<T>() * abs(nearest.x)) / abs(width);
+        const T width = b.x - a.x;
+        const T least = (enough.width + epsilon<T>() * abs(nearest.x)) / abs(width);
         if (abs(nearest.value) <= enough.value || !(least < T(0.5))) return nearest.x;
         const T x = a.x + std::clamp(share, least, T(1) - least) * width;
         const ValueAt<T> now{x, value(x)};
@@ -123,18 +131,19 @@ T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& en
         c = same_side ? a : b;
         if (!same_side) b = a;
         a = now;
-        const T place = (a.x - b.x) / (c.x - b.x), part = (a.value - b.value) / (c.value - b.value);
+        const T at_a = a.value, at_b = b.value, at_c = c.value;
+        const T place = (a.x - b.x) / (c.x - b.x), part = (at_a - at_b) / (at_c - at_b);
         share = T(0.5);
         if (part * part < place && (T(1) - part) * (T(1) - part) < T(1) - place)
-            share = a.value / (b.value - a.value) * (c.value / (b.value - c.value)) +
-                    (c.x - a.x) / (b.x - a.x) * (a.value / (c.value - a.value)) * (b.value / (c.value - b.value));
+            share = at_a / (at_b - at_a) * (at_c / (at_b - at_c)) +
+                    (c.x - a.x) / (b.x - a.x) * (at_a / (at_c - at_a)) * (at_b / (at_c - at_b));
     }
     return a.x;
 }
 
-/// Two numbers of any kind between which something changes, brought together by halving, at most 200 times, until none
-/// is between them. `side(x)` is negative where x may replace `low`, positive where it may replace `high`, and 0 where
-/// that cannot be told, which ends the search.
+/// Two numbers of any kind between which something changes, brought together by halving, at most
+/// 200 times, until none is between them. `side(x)` is negative where x may replace `low`, positive
+/// where it may replace `high`, and 0 where that cannot be told, which ends the search.
 template <class N, class F>
 std::pair<N, N> halved(N low, N high, const F& side) {
     for (int round = 0; round < 200; ++round) {

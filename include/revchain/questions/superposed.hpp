@@ -121,25 +121,24 @@ class OscillatingChain {
     AssembledChain<S> assembled_;
 };
 
-/// Cosine and sine of a large angle, reduced in double-double.
-struct Turned {
-    double cosine, sine;
-};
-inline Turned turned(const DoubleDouble& angle) {
+/// exp(i angle) of a large angle, reduced in double-double.
+inline std::complex<double> turned(const DoubleDouble& angle) {
     const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
     const DoubleDouble rest = angle - turn * DoubleDouble(std::nearbyint((angle / turn).high()));
     const double c = std::cos(rest.high()), s = std::sin(rest.high());
     return {c - s * rest.low(), s + c * rest.low()};
 }
 
-/// What the modes kept have of a start: offsets are the sum of amplitude shape exp(i speed t), or of its real part.
+/// What the modes kept have of a start: offsets are the sum of amplitude shape exp(i speed t), or of
+/// its real part.
 struct Superposition {
-    double rounding;  ///< bound of what rounding does to a sum, in 2^-53 of the largest sum of |amplitude shape|
+    double rounding;  ///< what that does to a sum, in 2^-53 of the largest sum of |amplitude shape|
     double at_once;   ///< what a residual does, over it, besides what grows with time
     std::vector<DoubleDouble> speed{};
     std::vector<std::complex<double>> amplitude{};
-    std::vector<double> size{}, unbalanced{};  ///< |amplitude|, and that times the residual
-    Vector<double> reached{};                  ///< bound of the sum of |amplitude shape| at each pin
+    std::vector<double> size{};        ///< of each amplitude, at most
+    std::vector<double> unbalanced{};  ///< that times the residual
+    Vector<double> reached{};  ///< bound of the sum of |amplitude shape| at each pin
 
     void add(const DoubleDouble& turns, const std::complex<double>& part, double residual,
              const Eigen::Ref<const Vector<double>>& shape) {
@@ -152,28 +151,30 @@ struct Superposition {
     }
 };
 
-/// Offsets and velocities at each time, of complex numbers in both level directions, and the bound of their errors.
-/// `reach` is the square root of the largest flexibility.
+/// Offsets and velocities at each time, complex where they are in both level directions, and the
+/// bound of their errors. `reach` is the square root of the largest flexibility.
 template <class Result>
-void superpose(Result& result, const Superposition& modes, const std::vector<double>& time, double reach,
-               Progress* progress) {
+void superpose(Result& result, const Superposition& modes, const std::vector<double>& time,
+               double reach, Progress* progress) {
     using Number = typename decltype(result.offset)::Scalar;
     constexpr std::size_t planes = sizeof(Number) / sizeof(double);
     const auto times = static_cast<Index>(time.size()), pins = result.shape.cols();
-    result.offset.resize(times, pins), result.velocity.resize(times, pins), result.error_bound.resize(times);
-    std::vector<std::array<CompensatedSum<double>, 2 * planes>> sums(static_cast<std::size_t>(pins));
+    for (auto* table : {&result.offset, &result.velocity}) table->resize(times, pins);
+    result.error_bound.resize(times);
+    using Sums = std::array<CompensatedSum<double>, 2 * planes>;
+    std::vector<Sums> sums(static_cast<std::size_t>(pins));
     const double largest = modes.speed.empty() ? 0 : modes.reached.maxCoeff();
     for (Index i = 0; i < times; ++i) {
         const DoubleDouble now(time[static_cast<std::size_t>(i)]);
-        std::fill(sums.begin(), sums.end(), std::array<CompensatedSum<double>, 2 * planes>{});
+        std::fill(sums.begin(), sums.end(), Sums{});
         double bound = modes.rounding * 0x1p-53 * largest;
         for (std::size_t k = 0; k < modes.speed.size(); ++k) {
             const DoubleDouble angle = modes.speed[k] * now;
             const double turns = std::abs(angle.high()), n = modes.speed[k].high();
-            const Turned turn = turned(angle);
-            const std::complex<double> y = modes.amplitude[k] * std::complex<double>(turn.cosine, turn.sine);
+            const std::complex<double> y = modes.amplitude[k] * turned(angle);
             const std::array<double, 4> part{y.real(), -n * y.imag(), y.imag(), n * y.real()};
-            bound += modes.size[k] * turns * 0x1p-96 + reach * modes.unbalanced[k] * (modes.at_once + 2 * turns);
+            bound += modes.size[k] * turns * 0x1p-96;
+            bound += reach * modes.unbalanced[k] * (modes.at_once + 2 * turns);
             const double* shape = result.shape.row(static_cast<Index>(k)).data();
             for (std::size_t m = 0; m < sums.size(); ++m)
                 for (std::size_t p = 0; p < 2 * planes; ++p) sums[m][p].add(part[p] * shape[m]);

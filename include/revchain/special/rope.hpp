@@ -118,7 +118,8 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
         return detail::logarithm_of_ratio(r.*equation[0].ratio, r.*equation[1].ratio) - wanted;
     };
     constexpr double farthest = 340;  // kappa or kappa' = 1e-148
-    const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)}, {farthest, off(farthest)}};
+    const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)},
+                                                      {farthest, off(farthest)}};
     const double logarithm = revchain::detail::zero_between(within, off);
     if (std::isnan(logarithm)) detail::throw_invalid(place, "no rope that double can hold has this form");
     functions_ = JacobiFunctions(detail::rope_modulus(logarithm));
@@ -173,11 +174,13 @@ inline RopePoint SkippingRope::at_arc(double arc) const {
     if (!(arc >= 0 && arc <= length() * (1 + 1e-15)))
         detail::throw_invalid("analytic::SkippingRope::at_arc", "arc must lie between 0 and the length", arc);
     const double end = 2 * waves() * functions_.complete().K;
-    const auto off = [&](double u) {
-        const RopePoint at = at_argument(u);
+    const auto off = [&](double argument) {
+        const RopePoint at = at_argument(argument);
         return std::pair(at.arc - arc, quarter_ / functions_.complete().K * at.tension_ratio);
     };
-    RopePoint point = at_argument(std::min(revchain::detail::zero_between(0.0, end * (1 + 4e-15), off, 0x1p-51), end));
+    const auto last =
+        revchain::detail::newton_between(0.0, end * (1 + 4e-15), off, arc / length() * end, 0x1p-51);
+    RopePoint point = at_argument(std::min(last.from - last.step, end));
     point.arc = arc;
     return point;
 }

@@ -157,7 +157,9 @@ class Mode {
     /// z - z_0 at node i, at most `high`.
     double node_apart(Index i, double high) const {
         const double start = high - 0.125 * std::min(1.0, ends_.gap.high / ends_.ratio.high);
-        const auto off = [&](double at) { return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i); };
+        const auto off = [&](double at) {
+            return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i);
+        };
         return detail::phase_zero(0, high, start, off).high;
     }
     double place_of(double apart) const {

@@ -83,8 +83,8 @@ struct ValueAndRate {
     double value, rate;
 };
 
-/// A zero of an increasing function between `low` and `high`, by Newton's method from w, in two words: what the last
-/// step leaves is its square.
+/// A zero of an increasing function between `low` and `high`, by Newton's method from w, in two
+/// words: what the last step leaves is its square.
 template <class F>
 TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate) {
     const auto last = revchain::detail::newton_between(low, high, value_and_rate, w, 1e-9);
@@ -133,7 +133,8 @@ struct Ends {
         return part > 0 ? part * ((1 + r) / (z + r)) : 0.0;
     }
 
-    /// z_L - z_0 by Newton's method on the phases. It is below mode pi, as theta_0' > 1 and theta_0 > theta_2 at z_0.
+    /// z_L - z_0 by Newton's method on the phases. It is below mode pi, as theta_0' > 1 and
+    /// theta_0 > theta_2 at z_0.
     TwoDoubles apart(Index mode) const {
         const double r = ratio.high, g = gap.high, k = static_cast<double>(mode);
         const double low = g * (k - 0.25) * std::numbers::pi, high = k * std::numbers::pi;

@@ -287,8 +287,8 @@ class LineDensity {
     static bool is_jump(const Given& f, double low, double high, Piece& piece) {
         const double first = std::nextafter(low, high), last = std::nextafter(high, low);
         const double lower = f(first), upper = f(last), jump = std::abs(upper - lower);
-        const double above =
-            detail::halved(first, last, [&](double at) { return std::abs(f(at) - lower) < jump / 2 ? -1 : 1; }).second;
+        const auto side = [&](double at) { return std::abs(f(at) - lower) < jump / 2 ? -1 : 1; };
+        const double above = detail::halved(first, last, side).second;
         for (double at = std::nextafter(low, high); at < high; at += 0x1p-48 * high)
             if (!(std::abs(f(at) - (at < above ? lower : upper)) <= 1e-3 * jump)) return false;
         piece.factor = {(lower * (above - low) + upper * (high - above)) / (high - low)};

@@ -127,14 +127,15 @@ class BranchLine {
         const revchain::detail::SignChange<double> ends{{0, value(a)}, {1, value(b)}};
         double least = std::min(std::abs(ends.low.value), std::abs(ends.high.value));
         std::optional<Point> best = std::abs(ends.low.value) == least ? a : b;
-        const auto at = [&](double share) {
-            const auto point = next_to(a.at + share * chord, direction, 2 * size(chord));
+        const auto at = [&](double along) {
+            const auto point = next_to(a.at + along * chord, direction, 2 * size(chord));
             if (!point) return std::numeric_limits<double>::quiet_NaN();
             const double now = value(*point);
             if (std::abs(now) <= least) least = std::abs(now), best = point;
             return now;
         };
-        if (std::isnan(revchain::detail::zero_between(ends, at, {.width = 4e-16}))) return std::nullopt;
+        const double share = revchain::detail::zero_between(ends, at, {.width = 4e-16});
+        if (std::isnan(share)) return std::nullopt;
         return best;
     }
 

@@ -201,8 +201,9 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
         const auto excess = [&](double height) {
             return std::log(place_of(height, j).back().arc * height / chain.length);
         };
-        const auto near = revchain::detail::sign_change_near(j == 1 ? chain.length : heights[j - 2], excess);
-        heights[j - 1] = revchain::detail::zero_between(near, excess, {.value = 2 * epsilon<double>()});
+        const double guess = j == 1 ? chain.length : heights[j - 2];
+        heights[j - 1] = revchain::detail::zero_between(
+            revchain::detail::sign_change_near(guess, excess), excess, {.value = 2 * epsilon<double>()});
     }
     return heights;
 }

@@ -302,9 +302,9 @@ class PathSeries {
     double latest_ = std::numeric_limits<double>::infinity();  ///< time, beyond a piece that is short
 };
 
-/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so,
-/// to 2^-51 of itself: the rounding of a series of 25 terms does not give the last digit. `value_and_slope(t)` returns
-/// a pair.
+/// The time at which, within a step of a series, a function that grows through 0 once between 0 and
+/// `latest` does so, to 2^-51 of itself: the rounding of a series of 25 terms does not give the last
+/// digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
     return revchain::detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
