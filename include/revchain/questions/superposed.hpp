@@ -177,6 +177,7 @@ void superpose(Result& result, const Superposition& modes, const std::vector<dou
             bound += reach * modes.unbalanced[k] * (modes.at_once + 2 * turns);
             const double* shape = result.shape.row(static_cast<Index>(k)).data();
             for (std::size_t m = 0; m < sums.size(); ++m)
+#pragma GCC unroll 4
                 for (std::size_t p = 0; p < 2 * planes; ++p) sums[m][p].add(part[p] * shape[m]);
         }
         for (Index pin = 0; pin < pins; ++pin) {
