@@ -49,7 +49,7 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
 }
 
 /// The same zero to the last digit of T, or to `enough` of itself.
-/// Cost: about ten evaluations, and one for each halving where Newton's method fails.
+/// Cost: about six evaluations, and one for each halving where Newton's method fails.
 template <Real T, class F>
 T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() / T(2)) {
     const T middle = low + (high - low) / T(2);
