@@ -350,8 +350,8 @@ REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOption
     result.energy_left_out = std::max(0.0, height + motion - kept);
     whole += before;
     result.error_estimate = detail::tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();
-    // Sums in double: the errors of the modes exceed theirs. `superpose` (questions/superposed.hpp) takes seven times as
-    // many instructions for 40 modes at 101 places.
+    // Sums in double: the errors of the modes exceed theirs. `superpose` (questions/superposed.hpp)
+    // takes seven times as many instructions for 40 modes at 101 places.
     const auto times = static_cast<Index>(options.time.size());
     result.offset.resize(times, arc.size()), result.velocity.resize(times, arc.size());
     for (Index i = 0; i < times; ++i) {

@@ -5,7 +5,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The sum of numbers that do not consist of words. Those below have one word more than their terms.
+/// The plain sum of scalars that do not consist of words. The sums below have one word more than
+/// their terms.
 template <class S>
 struct CompensatedSum {
     S high{};

@@ -165,8 +165,8 @@ inline RoughWhirls merged(const RigModes& found) {
 }
 
 /// Finds the amplitude of each whirl, once more in double words, and takes it from the start; see `whirl_swing`.
-inline Superposition split_start(WhirlSwing& result, const RigPencil& rig, const RoughWhirls& rough, PlaneOffsets& rest,
-                            PlaneOffsets& rest_speed, Progress* progress) {
+inline Superposition split_start(WhirlSwing& result, const RigPencil& rig, const RoughWhirls& rough,
+                                 PlaneOffsets& rest, PlaneOffsets& rest_speed, Progress* progress) {
     using S = Wide<double>;
     const WhirlForms forms(rig);
     const Index count = result.shape.rows(), pins = result.shape.cols();
@@ -262,19 +262,15 @@ REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions
     const detail::Superposition whirls =
         detail::split_start(result, pencil, detail::merged(found), rest, rest_speed, options.progress);
 
-    // What is left moves by itself, and keeps its energy, which bounds it where every link hangs in tension.
-    result.truncation_error = Vector<double>::Constant(pins, std::numeric_limits<double>::infinity());
-    result.energy_left_out = std::numeric_limits<double>::infinity();
-    double reach = std::numeric_limits<double>::infinity();
+    // The energy bounds what is left where every link hangs in tension.
+    const detail::WhirlForms forms(pencil);
+    detail::LeftOut left{std::numeric_limits<double>::infinity(), Vector<double>::Ones(pins),
+                         pencil.units.weight_exponent - pencil.units.length_exponent};
     if (pencil.stiffness_positive) {
-        const detail::WhirlForms forms(pencil);
-        const Vector<double> flexibility = forms.flexibility();
-        const double squares = forms.energy(rest, rest_speed, pencil.pace);
-        result.truncation_error = (squares * flexibility.head(pins)).cwiseSqrt();
-        result.energy_left_out = std::ldexp(squares / 2, pencil.units.weight_exponent - pencil.units.length_exponent);
-        reach = std::sqrt(flexibility[0]) * (1 + 1e-10);
+        left.size = std::sqrt(forms.energy(rest, rest_speed, pencil.pace));
+        left.flexibility = forms.flexibility();
     }
-    detail::superpose(result, whirls, options.time, reach, options.progress);
+    detail::superpose(result, whirls, left, options.time, options.progress);
     return result;
 }
 

@@ -151,11 +151,18 @@ struct Superposition {
     }
 };
 
-/// Offsets and velocities at each time, complex where they are in both level directions, and the
-/// bound of their errors. `reach` is the square root of the largest flexibility.
+/// What the modes kept lack of a start. It moves by itself, and keeps its energy.
+struct LeftOut {
+    double size;                 ///< bound of the square root of twice that energy
+    Vector<double> flexibility;  ///< |y_m|^2 <= flexibility_m y^T K y
+    int exponent;                ///< of 2, the unit of energies
+};
+
+/// Fills in offsets and velocities at each time, complex where they are in both level directions,
+/// the bound of their errors and what is left out.
 template <class Result>
-void superpose(Result& result, const Superposition& modes, const std::vector<double>& time,
-               double reach, Progress* progress) {
+void superpose(Result& result, const Superposition& modes, const LeftOut& rest,
+               const std::vector<double>& time, Progress* progress) {
     using Number = typename decltype(result.offset)::Scalar;
     constexpr std::size_t planes = sizeof(Number) / sizeof(double);
     const auto times = static_cast<Index>(time.size()), pins = result.shape.cols();
@@ -163,6 +170,9 @@ void superpose(Result& result, const Superposition& modes, const std::vector<dou
     result.error_bound.resize(times);
     using Sums = std::array<CompensatedSum<double>, 2 * planes>;
     std::vector<Sums> sums(static_cast<std::size_t>(pins));
+    result.truncation_error = rest.size * rest.flexibility.head(pins).cwiseSqrt();
+    result.energy_left_out = std::ldexp(rest.size * rest.size / 2, rest.exponent);
+    const double reach = std::sqrt(rest.flexibility[0]) * (1 + 1e-10);
     const double largest = modes.speed.empty() ? 0 : modes.reached.maxCoeff();
     for (Index i = 0; i < times; ++i) {
         const DoubleDouble now(time[static_cast<std::size_t>(i)]);
@@ -274,15 +284,12 @@ Result superposed(const OscillatingChain& system, const Options& options, const 
         advance(options.progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
     }
 
-    // What is left moves by itself, and keeps its energy.
     const double left = std::sqrt(std::max(0.0, static_cast<double>(system.stiffness(rest, rest)))) + unsettled;
     const double left_speed =
         std::sqrt(std::max(0.0, static_cast<double>(system.inertia(rest_speed, rest_speed) / gravity)));
-    const Vector<double> flexibility = system.flexibility();
-    const double norm = std::hypot(left, left_speed) * (1 + 1e-10);
-    result.truncation_error = norm * flexibility.head(pins).cwiseSqrt();
-    result.energy_left_out = std::ldexp(norm * norm / 2, weight - length);
-    superpose(result, parts, options.time, std::sqrt(flexibility[0]) * (1 + 1e-10), options.progress);
+    const double size = std::hypot(left, left_speed) * (1 + 1e-10);
+    const LeftOut lacking{size, system.flexibility(), weight - length};
+    superpose(result, parts, lacking, options.time, options.progress);
     return result;
 }
 

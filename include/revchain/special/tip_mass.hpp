@@ -232,7 +232,8 @@ class Mode {
         return points;
     }
 
-    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length. Cost: seven slopes each.
+    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length.
+    /// Cost: seven slopes each.
     Vector<double> vertical_points() const {
         return revchain::detail::zeros_between(nodes(), length_, [&](double x) {
             const double steep = slope(x);

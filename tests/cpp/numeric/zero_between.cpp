@@ -21,7 +21,8 @@ struct Case {
 };
 const Case cases[]{
     {0, 2, std::sqrt(2.0), [](double x) { return x * x - 2; }, [](double x) { return 2 * x; }},
-    {-3, 40, 0.5, [](double x) { return std::exp(x - 0.5) - 1; }, [](double x) { return std::exp(x - 0.5); }},
+    {-3, 40, 0.5, [](double x) { return std::exp(x - 0.5) - 1; },
+     [](double x) { return std::exp(x - 0.5); }},
     {-8, 9, 0.25, [](double x) { return std::atan(8 * x - 2); },
      [](double x) { return 8 / (1 + std::pow(8 * x - 2, 2)); }},
     {0.1, 1e6, 3, [](double x) { return 1 - 3 / x; }, [](double x) { return 3 / (x * x); }},
@@ -40,8 +41,9 @@ TEST_CASE("zeros by Newton's method within a bracket", "[core]") {
         };
         CHECK(std::abs(zero_between(one.low, one.high, function) / one.zero - 1) <= 0x1p-51);
         CHECK(std::abs(zero_between(one.low, one.high, function, 1e-3) / one.zero - 1) <= 1e-3);
-        const auto last = revchain::detail::newton_between(one.low, one.high, function, one.zero * (1 + 1e-9), 1e-6);
-        CHECK(last.from == one.zero * (1 + 1e-9));  // one step from next to it
+        const double start = one.zero * (1 + 1e-9);
+        const auto last = revchain::detail::newton_between(one.low, one.high, function, start, 1e-6);
+        CHECK(last.from == start);  // one step from next to it
         CHECK(std::abs((last.from - last.step) / one.zero - 1) <= 0x1p-51);
     }
     CAPTURE(evaluations);
@@ -103,7 +105,10 @@ TEST_CASE("sign changes from a guess, and numbers brought together by halving", 
 TEST_CASE("compensated sums of double words and of other scalars", "[core]") {
     revchain::CompensatedSum<revchain::DoubleWord<double>> three;
     revchain::CompensatedSum<DoubleDouble> plain;
-    for (int i = 0; i < 1000; ++i) three.add({1.0, 0x1p-60}), three.add({0x1p-110, 0}), plain.add(DoubleDouble(0.5));
+    for (int i = 0; i < 1000; ++i) {
+        three.add({1.0, 0x1p-60}), three.add({0x1p-110, 0});
+        plain.add(DoubleDouble(0.5));
+    }
     CHECK(three.value() == revchain::DoubleWord<double>(1000, 1000 * 0x1p-60 + 1000 * 0x1p-110));
     CHECK(plain.value() == DoubleDouble(500));
 }
