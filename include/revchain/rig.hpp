@@ -10,6 +10,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
@@ -262,7 +263,7 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
     std::vector<RigLink> links;
     links.reserve(static_cast<std::size_t>(rig.size()));
-    detail::RunningSum<S> hung;
+    CompensatedSum<S> hung;
     double hung_size = 0;
     for (Index m = 0; m < rig.size(); ++m) {
         const Link<double> link = chain.link(m);

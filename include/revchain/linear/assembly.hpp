@@ -5,6 +5,7 @@
 #include <array>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
@@ -65,7 +66,7 @@ template <class Where>
     const Index size = chain.size();
     auto& elements = result.pencil.elements;
     elements.resize(static_cast<std::size_t>(size));
-    DoubleWord<double> below;
+    CompensatedSum<double> below;
     double shortest = 1;
     for (Index first = 0; first < size; first += static_cast<Index>(V::size)) {
         const std::size_t there = std::min(V::size, static_cast<std::size_t>(size - first));
@@ -84,12 +85,11 @@ template <class Where>
             ratio_low[i] = chain.gyration_ratio()[m].low;
             hung[i] = below.high;
             hung_low[i] = below.low;
-            const DoubleWord<double> sum = two_sum(below.high, weight[i]);
-            below = {sum.high, below.low + sum.low};
+            below.add(weight[i]);
             lumped = lumped && centroid[i] == length[i] && ratio[i] == 0;
             shortest = std::min(shortest, length[i]);
         }
-        below = fast_two_sum(below.high, below.low);
+        below.normalise();
         const auto all = [](const Numbers& x) REVCHAIN_INLINED { return V::load(x.data()); };
         const V W = all(weight);
         const Words a(all(length)), S = fast_two_sum(all(hung), all(hung_low));

@@ -5,10 +5,35 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// The plain sum of scalars that do not consist of words. The sums below have one word more than
+/// their terms.
+template <class S>
+struct CompensatedSum {
+    S high{};
+
+    void add(const S& x) { high = high + x; }
+    S value() const { return high; }
+};
+
+/// Sum of double words in three words.
+template <std::floating_point T>
+struct CompensatedSum<DoubleWord<T>> {
+    T high{}, middle{}, low{};
+
+    void add(const DoubleWord<T>& x) {
+        const DoubleWord<T> first = two_sum(high, x.high), second = two_sum(middle, x.low);
+        const DoubleWord<T> both = two_sum(first.low, second.high);
+        high = first.high;
+        middle = both.high;
+        low += both.low + second.low;
+    }
+    DoubleWord<T> value() const { return DoubleWord<T>(high, middle) + DoubleWord<T>(low); }
+};
+
 /// Sum of numbers, or of packs lane by lane, in two words: the second is the sum of the rounding errors of the first.
 /// Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
 template <Word V>
-struct CompensatedSum {
+struct CompensatedSum<V> {
     V high{}, low{};
 
     [[gnu::always_inline]] void add(const V& x) {

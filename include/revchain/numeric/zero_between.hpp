@@ -1,50 +1,159 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
+/// The zero of a function of one number that is known to lie between two places. These functions
+/// serve all scalars, unlike the root finders of other libraries.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The zero of a function that grows through it once between `low` and `high`: Newton's method, held within the bracket
-/// by halving. `value_and_slope(x)` returns a pair. It serves all scalars, unlike root finders of other libraries.
-/// Cost: about ten evaluations, and one for each halving where Newton's method fails.
+/// More halvings than a bracket of numbers in T can need.
+template <Real T>
+inline constexpr int most_halvings =
+    2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+
+/// The last step of Newton's method. The zero is `from - step`, with more digits than T where that
+/// is subtracted in two words.
+template <Real T>
+struct NewtonStep {
+    T from, step;
+};
+
+/// The zero of a function that grows through it once between `low` and `high`: Newton's method from
+/// `start`, held within the bracket by halving, until a step is `enough` of the zero.
+/// `value_and_slope(x)` returns a pair.
 template <Real T, class F>
-T zero_between(T low, T high, const F& value_and_slope) {
-    constexpr int most = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T enough) {
     using std::abs;
-    T x = low + (high - low) / T(2), last = high - low;
-    for (int round = 0; round < most; ++round) {
+    T x = start, last = high - low;
+    for (int round = 0; round < most_halvings<T>; ++round) {
         const auto [value, slope] = value_and_slope(x);
-        if (value == T(0)) return x;
+        if (value == T(0)) break;
         (value < T(0) ? low : high) = x;
-        T next = x - value / slope;
+        const T step = value / slope;
+        if (abs(step) <= enough * abs(x)) return {x, step};
+        const auto is_within = [&](const T& place) { return place > low && place < high; };
+        T next = x - step;
         // Steps that do not shrink by half are no better than halving, and may creep.
-        if (!(next > low && next < high) || abs(next - x) > last / T(2)) next = low + (high - low) / T(2);
+        if (!is_within(next) || abs(step) > last / T(2)) next = low + (high - low) / T(2);
         last = abs(next - x);
-        if (last <= epsilon<T>() / T(2) * abs(next) || next == x || !(next > low && next < high)) return next;
         x = next;
+        if (last <= epsilon<T>() / T(2) * abs(next) || !is_within(next)) break;
     }
-    return x;
+    return {x, T(0)};
 }
 
-/// The zeros of a function that grows through one above the first, third, ... of `places` and falls through one above
-/// the others, each below the next place or `end`.
+/// The same zero to the last digit of T, or to `enough` of itself.
+/// Cost: about six evaluations, and one for each halving where Newton's method fails.
+template <Real T, class F>
+T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() / T(2)) {
+    const T middle = low + (high - low) / T(2);
+    const NewtonStep<T> last = newton_between(low, high, value_and_slope, middle, enough);
+    return last.from - last.step;
+}
+
+/// The zeros of a function that grows through one above the first, third, ... of `places` and falls
+/// through one above the others, each below the next place or `end`.
 template <class F>
 Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
     Vector<double> zeros(places.size());
     for (Index i = 0; i < places.size(); ++i) {
         look();
         const double sign = i % 2 == 0 ? 1 : -1;
-        zeros[i] = zero_between(places[i], i + 1 < places.size() ? places[i + 1] : end, [&](double x) {
+        const double next = i + 1 < places.size() ? places[i + 1] : end;
+        zeros[i] = zero_between(places[i], next, [&](double x) {
             const auto [value, slope] = value_and_slope(x);
             return std::pair(sign * value, sign * slope);
         });
     }
     return zeros;
+}
+
+/// A place, and the value of a function there.
+template <Real T>
+struct ValueAt {
+    T x, value;
+};
+
+/// Two places at which a function has different signs, or is 0 at one of them.
+template <Real T>
+struct SignChange {
+    ValueAt<T> low, high;
+};
+
+/// A sign change of a function that grows through 0 at a positive number: from `guess` upwards or
+/// downwards by factors of 2.
+template <Real T, class F>
+SignChange<T> sign_change_near(T guess, const F& value) {
+    const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
+    SignChange<T> found{at(guess), {}};
+    found.high = found.low;
+    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i)
+        found = {found.high, at(found.high.x * T(2))};
+    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i)
+        found = {at(found.low.x / T(2)), found.low};
+    return found;
+}
+
+/// How near to a zero a search ends. It ends at the last digit in any case.
+template <Real T>
+struct Enough {
+    T width{}, value{};
+};
+
+/// The zero within a sign change of a function without a slope: inverse quadratic interpolation,
+/// and halving where three places do not show a bend that this follows. NaN where the signs do not
+/// differ, and as soon as `value(x)` is.
+/// Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is that of
+/// the chord. Cost: five to nine evaluations of a smooth function.
+template <Real T, class F>
+T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& enough = {}) {
+    using std::abs;
+    // the last place, one on the other side of the zero, and the last that one of them has replaced
+    ValueAt<T> a = bracket.high, b = bracket.low, c = b;
+    if (a.value != T(0) && b.value != T(0) && (a.value < T(0)) == (b.value < T(0)))
+        return std::numeric_limits<T>::quiet_NaN();
+    T share = a.value / (a.value - b.value);  // of the way from a to b
+    for (int round = 0; round < most_halvings<T>; ++round) {
+        const ValueAt<T>& nearest = abs(a.value) < abs(b.value) ? a : b;
+        const T width = b.x - a.x;
+        const T least = (enough.width + epsilon<T>() * abs(nearest.x)) / abs(width);
+        if (abs(nearest.value) <= enough.value || !(least < T(0.5))) return nearest.x;
+        const T x = a.x + std::clamp(share, least, T(1) - least) * width;
+        const ValueAt<T> now{x, value(x)};
+        if (now.value != now.value) return now.value;
+        const bool same_side = (now.value < T(0)) == (a.value < T(0));
+        c = same_side ? a : b;
+        if (!same_side) b = a;
+        a = now;
+        const T at_a = a.value, at_b = b.value, at_c = c.value;
+        const T place = (a.x - b.x) / (c.x - b.x), part = (at_a - at_b) / (at_c - at_b);
+        share = T(0.5);
+        if (part * part < place && (T(1) - part) * (T(1) - part) < T(1) - place)
+            share = at_a / (at_b - at_a) * (at_c / (at_b - at_c)) +
+                    (c.x - a.x) / (b.x - a.x) * (at_a / (at_c - at_a)) * (at_b / (at_c - at_b));
+    }
+    return a.x;
+}
+
+/// Two numbers of any kind between which something changes, brought together by halving, at most
+/// 200 times, until none is between them. `side(x)` is negative where x may replace `low`, positive
+/// where it may replace `high`, and 0 where that cannot be told, which ends the search.
+template <class N, class F>
+std::pair<N, N> halved(N low, N high, const F& side) {
+    for (int round = 0; round < 200; ++round) {
+        const N middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high)) break;
+        const int found = side(middle);
+        if (found == 0) break;
+        (found < 0 ? low : high) = middle;
+    }
+    return {low, high};
 }
 
 }  // namespace revchain::detail

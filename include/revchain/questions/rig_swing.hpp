@@ -164,53 +164,13 @@ inline RoughWhirls merged(const RigModes& found) {
     return result;
 }
 
-/// What the whirls kept have of a start: for the sums and for their bounds.
-struct WhirlSum {
-    std::vector<DoubleDouble> speed;
-    double largest = 0;                         ///< sum of |amplitude shape|, at the pin where it is largest
-    std::vector<double> amplitude, unbalanced;  ///< size of each; that times `residual`
-};
-
-/// Offsets and velocities at each time.
-inline void superpose(WhirlSwing& result, const WhirlSum& whirls, const std::vector<double>& time, double reach,
-                      Progress* progress) {
-    const auto pins = static_cast<std::size_t>(result.shape.cols());
-    std::array<std::vector<CompensatedSum<double>>, 4> sums;
-    for (std::size_t i = 0; i < time.size(); ++i) {
-        for (auto& each : sums) each.assign(pins, CompensatedSum<double>{});
-        double bound = 16 * 0x1p-53 * whirls.largest;
-        for (std::size_t k = 0; k < whirls.speed.size(); ++k) {
-            const auto row = static_cast<Index>(k);
-            const DoubleDouble angle = whirls.speed[k] * DoubleDouble(time[i]);
-            const double size = std::abs(angle.high()), n = whirls.speed[k].high();
-            const Turned turn = turned(angle);
-            const std::complex<double> now = result.amplitude[row] * std::complex<double>(turn.cosine, turn.sine);
-            bound += whirls.amplitude[k] * size * 0x1p-96 + reach * whirls.unbalanced[k] * 2 * (1 + size);
-            const double* shape = result.shape.row(row).data();
-            for (std::size_t m = 0; m < pins; ++m) {
-                sums[0][m].add(now.real() * shape[m]), sums[1][m].add(now.imag() * shape[m]);
-                sums[2][m].add(-n * now.imag() * shape[m]), sums[3][m].add(n * now.real() * shape[m]);
-            }
-        }
-        const auto at = static_cast<Index>(i);
-        for (std::size_t m = 0; m < pins; ++m) {
-            const auto pin = static_cast<Index>(m);
-            result.offset(at, pin) = {sums[0][m].value(), sums[1][m].value()};
-            result.velocity(at, pin) = {sums[2][m].value(), sums[3][m].value()};
-        }
-        result.error_bound[at] = bound * (1 + 1e-10);
-        advance(progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(time.size()));
-    }
-}
-
 /// Finds the amplitude of each whirl, once more in double words, and takes it from the start; see `whirl_swing`.
-inline WhirlSum split_start(WhirlSwing& result, const RigPencil& rig, const RoughWhirls& rough, PlaneOffsets& rest,
-                            PlaneOffsets& rest_speed, Progress* progress) {
+inline Superposition split_start(WhirlSwing& result, const RigPencil& rig, const RoughWhirls& rough,
+                                 PlaneOffsets& rest, PlaneOffsets& rest_speed, Progress* progress) {
     using S = Wide<double>;
     const WhirlForms forms(rig);
     const Index count = result.shape.rows(), pins = result.shape.cols();
-    WhirlSum whirls;
-    Vector<double> reached = Vector<double>::Zero(pins);
+    Superposition whirls{16, 2};
     for (Index k = 0; k < count; ++k) {
         const auto at = static_cast<std::size_t>(k);
         std::vector<S> shape(rest[0].size());
@@ -232,15 +192,11 @@ inline WhirlSum split_start(WhirlSwing& result, const RigPencil& rig, const Roug
         result.amplitude[k] = {c.high, d.high};
         result.energy[k] =
             std::ldexp(0.5 * ((c * c + d * d) * part / x).high, rig.units.weight_exponent - rig.units.length_exponent);
-        const double amplitude = std::abs(result.amplitude[k]) * (1 + 1e-15);
-        whirls.speed.emplace_back(n);
-        whirls.amplitude.push_back(amplitude);
-        whirls.unbalanced.push_back(rig.stiffness_positive ? amplitude * forms.residual(x, shape)
-                                                           : std::numeric_limits<double>::infinity());
-        reached += 1.5 * amplitude * result.shape.row(k).cwiseAbs().transpose();
+        const double residual =
+            rig.stiffness_positive ? forms.residual(x, shape) : std::numeric_limits<double>::infinity();
+        whirls.add(DoubleDouble(n), result.amplitude[k], residual, result.shape.row(k).transpose());
         advance(progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
     }
-    whirls.largest = count == 0 ? 0 : reached.maxCoeff();
     return whirls;
 }
 
@@ -303,24 +259,18 @@ REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions
     const auto all_pins = static_cast<std::size_t>(pencil.pencil.size() + 1);
     detail::PlaneOffsets rest = detail::in_double_words(from, all_pins),
                          rest_speed = detail::in_double_words(speed, all_pins);
-    const detail::WhirlSum whirls =
+    const detail::Superposition whirls =
         detail::split_start(result, pencil, detail::merged(found), rest, rest_speed, options.progress);
 
-    // What is left moves by itself, and keeps its energy, which bounds it where every link hangs in tension.
-    result.truncation_error = Vector<double>::Constant(pins, std::numeric_limits<double>::infinity());
-    result.energy_left_out = std::numeric_limits<double>::infinity();
-    double reach = std::numeric_limits<double>::infinity();
+    // The energy bounds what is left where every link hangs in tension.
+    const detail::WhirlForms forms(pencil);
+    detail::LeftOut left{std::numeric_limits<double>::infinity(), Vector<double>::Ones(pins),
+                         pencil.units.weight_exponent - pencil.units.length_exponent};
     if (pencil.stiffness_positive) {
-        const detail::WhirlForms forms(pencil);
-        const Vector<double> flexibility = forms.flexibility();
-        const double squares = forms.energy(rest, rest_speed, pencil.pace);
-        result.truncation_error = (squares * flexibility.head(pins)).cwiseSqrt();
-        result.energy_left_out = std::ldexp(squares / 2, pencil.units.weight_exponent - pencil.units.length_exponent);
-        reach = std::sqrt(flexibility[0]) * (1 + 1e-10);
+        left.size = std::sqrt(forms.energy(rest, rest_speed, pencil.pace));
+        left.flexibility = forms.flexibility();
     }
-    const auto times = static_cast<Index>(options.time.size());
-    result.offset.resize(times, pins), result.velocity.resize(times, pins), result.error_bound.resize(times);
-    detail::superpose(result, whirls, options.time, reach, options.progress);
+    detail::superpose(result, whirls, left, options.time, options.progress);
     return result;
 }
 

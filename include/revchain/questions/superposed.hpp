@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -119,51 +121,86 @@ class OscillatingChain {
     AssembledChain<S> assembled_;
 };
 
-/// Cosine and sine of a large angle, reduced in double-double.
-struct Turned {
-    double cosine, sine;
-};
-inline Turned turned(const DoubleDouble& angle) {
+/// exp(i angle) of a large angle, reduced in double-double.
+inline std::complex<double> turned(const DoubleDouble& angle) {
     const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
     const DoubleDouble rest = angle - turn * DoubleDouble(std::nearbyint((angle / turn).high()));
     const double c = std::cos(rest.high()), s = std::sin(rest.high());
     return {c - s * rest.low(), s + c * rest.low()};
 }
 
-/// What each mode kept has of a start.
+/// What the modes kept have of a start: offsets are the sum of amplitude shape exp(i speed t), or of
+/// its real part.
 struct Superposition {
-    std::vector<DoubleDouble> frequency;
-    double largest = 0;              ///< sum of |amplitude shape|, at the pin where it is largest
-    std::vector<double> amplitude;   ///< of each mode, at most
-    std::vector<double> unbalanced;  ///< amplitude times `residual`
+    double rounding;  ///< what that does to a sum, in 2^-53 of the largest sum of |amplitude shape|
+    double at_once;   ///< what a residual does, over it, besides what grows with time
+    std::vector<DoubleDouble> speed{};
+    std::vector<std::complex<double>> amplitude{};
+    std::vector<double> size{};        ///< of each amplitude, at most
+    std::vector<double> unbalanced{};  ///< that times the residual
+    Vector<double> reached{};  ///< bound of the sum of |amplitude shape| at each pin
+
+    void add(const DoubleDouble& turns, const std::complex<double>& part, double residual,
+             const Eigen::Ref<const Vector<double>>& shape) {
+        speed.push_back(turns);
+        amplitude.push_back(part);
+        size.push_back(std::abs(part) * (1 + 1e-15));
+        unbalanced.push_back(std::max(size.back(), 1e-300) * residual);
+        if (reached.size() == 0) reached = Vector<double>::Zero(shape.size());
+        reached += 1.5 * size.back() * shape.cwiseAbs();
+    }
 };
 
-/// Offsets and velocities at each time.
+/// What the modes kept lack of a start. It moves by itself, and keeps its energy.
+struct LeftOut {
+    double size;                 ///< bound of the square root of twice that energy
+    Vector<double> flexibility;  ///< |y_m|^2 <= flexibility_m y^T K y
+    int exponent;                ///< of 2, the unit of energies
+};
+
+/// Fills in offsets and velocities at each time, complex where they are in both level directions,
+/// the bound of their errors and what is left out.
 template <class Result>
-void superpose(Result& result, const Superposition& modes, const std::vector<double>& time, double reach,
-               Progress* progress) {
-    const Index pins = result.shape.cols(), count = result.shape.rows();
-    std::vector<CompensatedSum<double>> y(static_cast<std::size_t>(pins)), v(y);
-    for (std::size_t i = 0; i < time.size(); ++i) {
-        for (auto* sums : {&y, &v}) std::fill(sums->begin(), sums->end(), CompensatedSum<double>{});
-        double bound = 10 * 0x1p-53 * modes.largest;
-        for (Index k = 0; k < count; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            const DoubleDouble angle = modes.frequency[at] * DoubleDouble(time[i]);
-            const double size = std::abs(angle.high());
-            const Turned turn = turned(angle);
-            const double c = result.cosine[k], s = result.sine[k], n = modes.frequency[at].high();
-            const double now = c * turn.cosine + s * turn.sine, rate = n * (s * turn.cosine - c * turn.sine);
-            bound += modes.amplitude[at] * size * 0x1p-96 + reach * modes.unbalanced[at] * (8.0 / 3 + 2 * size);
-            const double* shape = result.shape.row(k).data();
-            for (std::size_t m = 0; m < y.size(); ++m) y[m].add(now * shape[m]), v[m].add(rate * shape[m]);
+void superpose(Result& result, const Superposition& modes, const LeftOut& rest,
+               const std::vector<double>& time, Progress* progress) {
+    using Number = typename decltype(result.offset)::Scalar;
+    constexpr std::size_t planes = sizeof(Number) / sizeof(double);
+    const auto times = static_cast<Index>(time.size()), pins = result.shape.cols();
+    for (auto* table : {&result.offset, &result.velocity}) table->resize(times, pins);
+    result.error_bound.resize(times);
+    using Sums = std::array<CompensatedSum<double>, 2 * planes>;
+    std::vector<Sums> sums(static_cast<std::size_t>(pins));
+    result.truncation_error = rest.size * rest.flexibility.head(pins).cwiseSqrt();
+    result.energy_left_out = std::ldexp(rest.size * rest.size / 2, rest.exponent);
+    const double reach = std::sqrt(rest.flexibility[0]) * (1 + 1e-10);
+    const double largest = modes.speed.empty() ? 0 : modes.reached.maxCoeff();
+    for (Index i = 0; i < times; ++i) {
+        const DoubleDouble now(time[static_cast<std::size_t>(i)]);
+        std::fill(sums.begin(), sums.end(), Sums{});
+        double bound = modes.rounding * 0x1p-53 * largest;
+        for (std::size_t k = 0; k < modes.speed.size(); ++k) {
+            const DoubleDouble angle = modes.speed[k] * now;
+            const double turns = std::abs(angle.high()), n = modes.speed[k].high();
+            const std::complex<double> y = modes.amplitude[k] * turned(angle);
+            const std::array<double, 4> part{y.real(), -n * y.imag(), y.imag(), n * y.real()};
+            bound += modes.size[k] * turns * 0x1p-96;
+            bound += reach * modes.unbalanced[k] * (modes.at_once + 2 * turns);
+            const double* shape = result.shape.row(static_cast<Index>(k)).data();
+            for (std::size_t m = 0; m < sums.size(); ++m)
+#pragma GCC unroll 4
+                for (std::size_t p = 0; p < 2 * planes; ++p) sums[m][p].add(part[p] * shape[m]);
         }
-        for (std::size_t m = 0; m < y.size(); ++m) {
-            result.offset(static_cast<Index>(i), static_cast<Index>(m)) = y[m].value();
-            result.velocity(static_cast<Index>(i), static_cast<Index>(m)) = v[m].value();
+        for (Index pin = 0; pin < pins; ++pin) {
+            const auto& sum = sums[static_cast<std::size_t>(pin)];
+            if constexpr (planes == 1) {
+                result.offset(i, pin) = sum[0].value(), result.velocity(i, pin) = sum[1].value();
+            } else {
+                result.offset(i, pin) = {sum[0].value(), sum[2].value()};
+                result.velocity(i, pin) = {sum[1].value(), sum[3].value()};
+            }
         }
-        result.error_bound[static_cast<Index>(i)] = bound * (1 + 1e-10);
-        advance(progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(time.size()));
+        result.error_bound[i] = bound * (1 + 1e-10);
+        advance(progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(times));
     }
 }
 
@@ -223,12 +260,12 @@ Result superposed(const OscillatingChain& system, const Options& options, const 
     }
 
     const S gravity = ldexp(S(options.gravity), -length);
-    Superposition parts;
+    Superposition parts{10, 8.0 / 3};
     const auto modes = found(1, count);
     result.shape.resize(count, pins);
     for (auto* column : {&result.angular_frequency, &result.energy, &result.cosine, &result.sine})
         column->resize(count);
-    Vector<double> reached = Vector<double>::Zero(pins), rough = Vector<double>::Zero(all_pins);
+    Vector<double> rough = Vector<double>::Zero(all_pins);
     for (Index k = 0; k < count; ++k) {
         rough.head(pins) = modes.shapes().row(k).transpose();
         const S height = pencil::rayleigh_quotient(system.pencil(), rough);
@@ -242,26 +279,17 @@ Result superposed(const OscillatingChain& system, const Options& options, const 
         result.cosine[k] = static_cast<double>(cosine), result.sine[k] = static_cast<double>(sine);
         result.energy[k] = std::ldexp(static_cast<double>(S(0.5) * (cosine * cosine + sine * sine) * inertia / height),
                                       weight - length);
-        const double amplitude = std::hypot(result.cosine[k], result.sine[k]) * (1 + 1e-15);
-        parts.frequency.push_back(frequency);
-        parts.amplitude.push_back(amplitude);
-        parts.unbalanced.push_back(amplitude * system.residual(height, shape));
-        reached += 1.5 * amplitude * result.shape.row(k).cwiseAbs().transpose();
+        parts.add(frequency, {result.cosine[k], -result.sine[k]}, system.residual(height, shape),
+                  result.shape.row(k).transpose());
         advance(options.progress, 0.5 * static_cast<double>(k + 1) / static_cast<double>(count));
     }
-    parts.largest = count == 0 ? 0 : reached.maxCoeff();
 
-    // What is left moves by itself, and keeps its energy.
     const double left = std::sqrt(std::max(0.0, static_cast<double>(system.stiffness(rest, rest)))) + unsettled;
     const double left_speed =
         std::sqrt(std::max(0.0, static_cast<double>(system.inertia(rest_speed, rest_speed) / gravity)));
-    const Vector<double> flexibility = system.flexibility();
-    const double norm = std::hypot(left, left_speed) * (1 + 1e-10);
-    result.truncation_error = norm * flexibility.head(pins).cwiseSqrt();
-    result.energy_left_out = std::ldexp(norm * norm / 2, weight - length);
-    const auto times = static_cast<Index>(options.time.size());
-    result.offset.resize(times, pins), result.velocity.resize(times, pins), result.error_bound.resize(times);
-    superpose(result, parts, options.time, std::sqrt(flexibility[0]) * (1 + 1e-10), options.progress);
+    const double size = std::hypot(left, left_speed) * (1 + 1e-10);
+    const LeftOut lacking{size, system.flexibility(), weight - length};
+    superpose(result, parts, lacking, options.time, options.progress);
     return result;
 }
 

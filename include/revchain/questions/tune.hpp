@@ -10,6 +10,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/tune_candidates.hpp"
 #include "revchain/tune.hpp"
 
@@ -77,15 +78,9 @@ struct Enclosed {
     double value, error_bound;
 };
 
-/// Bisects by proved counts between two values on different sides; at most 200 counts.
-inline Enclosed enclosed(const Tuning& tuning, double low, double high, int low_side) {
-    for (int round = 0; round < 200; ++round) {
-        const double middle = low > 0 && high > 4 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
-        if (!(middle > low && middle < high)) break;
-        const int side = tuning.side(middle);
-        if (side == 0) break;
-        (side == low_side ? low : high) = middle;
-    }
+/// By proved counts between two values on different sides.
+inline Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
+    const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
     const double value = low + (high - low) / 2;
     return {value, std::max(value - low, high - value)};
 }

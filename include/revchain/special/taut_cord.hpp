@@ -19,8 +19,8 @@ namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 namespace detail {
 
 using tip_mass::detail::Ends;
-using tip_mass::detail::newton_between;
 using tip_mass::detail::OrderZero;
+using tip_mass::detail::phase_zero;
 using tip_mass::detail::series;
 using tip_mass::detail::ValueAndRate;
 using namespace analytic::detail;
@@ -57,7 +57,7 @@ inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const T
 /// z_L - z_0 of a mode: below mode pi, as theta' > 1.
 inline TwoDoubles apart(const Ends& ends, Index mode) {
     const double r = ends.ratio.high, g = ends.gap.high, high = static_cast<double>(mode) * std::numbers::pi;
-    return newton_between(0, high, high - 0.125 * std::min(1.0, g / r), [&](double at) {
+    return phase_zero(0, high, high - 0.125 * std::min(1.0, g / r), [&](double at) {
         const TwoDoubles place = TwoDoubles(at) / ends.gap;
         const LowerEnd end(place * ends.ratio);
         const ValueAndRate e = excess(end, place, TwoDoubles(at), mode);
@@ -84,7 +84,7 @@ inline double conical_height(Index mode, double length, const detail::TwoDoubles
     return ends.height(detail::apart(ends, mode), length);
 }
 
-/// One mode of the cord. Cost: that of its height, and ten slopes.
+/// One mode of the cord. Cost: that of its height, and seven slopes.
 class Mode {
    public:
     Mode(Index mode, double length, const detail::TwoDoubles& lower)
@@ -96,7 +96,7 @@ class Mode {
           height_(ends_.height(apart_, length)),
           place_(apart_ / ends_.gap * ends_.ratio),
           end_(place_) {
-        const double node = mode > 1 ? place_of(node_apart(1, std::numbers::pi)) : length;
+        const double node = mode > 1 ? place_of(node_apart(1)) : length;
         largest_ = shape(vertical_points(Vector<double>::Zero(1), node)[0]);
     }
 
@@ -131,13 +131,13 @@ class Mode {
         Vector<double> points(mode_ - 1);
         for (Index i = 1; i < mode_; ++i) {
             revchain::detail::look();
-            points[i - 1] = place_of(node_apart(i, static_cast<double>(i) * std::numbers::pi));
+            points[i - 1] = place_of(node_apart(i));
         }
         return points;
     }
 
     /// Distances x at which the cord is vertical, one below each node and one below the upper end. Accuracy: 1e-15
-    /// length. Cost: ten slopes each.
+    /// length. Cost: seven slopes each.
     Vector<double> vertical_points() const {
         Vector<double> from(mode_);
         from << 0.0, nodes();
@@ -154,12 +154,14 @@ class Mode {
         analytic::detail::check_place(where, x, length_);
         return apart_.high * ends_.part_apart(x / length_);
     }
-    /// z - z_0 at node i, at most `high`.
-    double node_apart(Index i, double high) const {
-        return detail::newton_between(
-                   0, high, high - 0.125 * std::min(1.0, ends_.gap.high / ends_.ratio.high),
-                   [&](double at) { return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i); })
-            .high;
+    /// z - z_0 at node i.
+    double node_apart(Index i) const {
+        const double high = static_cast<double>(i) * std::numbers::pi;
+        const double start = high - 0.125 * std::min(1.0, ends_.gap.high / ends_.ratio.high);
+        const auto off = [&](double at) {
+            return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i);
+        };
+        return detail::phase_zero(0, high, start, off).high;
     }
     double place_of(double apart) const {
         return length_ * (apart / apart_.high) * ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));

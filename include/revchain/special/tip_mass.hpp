@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <numbers>
 
 #include "revchain/numeric/progress.hpp"
@@ -84,16 +83,12 @@ struct ValueAndRate {
     double value, rate;
 };
 
-/// A zero of an increasing function between `low` and `high` (or infinity), by Newton's method from w.
+/// A zero of an increasing function between `low` and `high`, by Newton's method from w, in two
+/// words: what the last step leaves is its square.
 template <class F>
-TwoDoubles newton_between(double low, double high, double w, const F& value_and_rate) {
-    for (int round = 0;; ++round) {
-        const ValueAndRate e = value_and_rate(w);
-        (e.value < 0 ? low : high) = w;
-        const double step = e.value / e.rate;
-        if (std::abs(step) <= 1e-9 * w || round == 60) return TwoDoubles(w) - step;
-        w = w - step > low && w - step < high ? w - step : (high < 1e300 ? low + 0.5 * (high - low) : 2 * w);
-    }
+TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate) {
+    const auto last = revchain::detail::newton_between(low, high, value_and_rate, w, 1e-9);
+    return TwoDoubles(last.from) - last.step;
 }
 
 /// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
@@ -138,14 +133,15 @@ struct Ends {
         return part > 0 ? part * ((1 + r) / (z + r)) : 0.0;
     }
 
-    /// z_L - z_0 by Newton's method on the phases, kept between bounds.
+    /// z_L - z_0 by Newton's method on the phases. It is below mode pi, as theta_0' > 1 and
+    /// theta_0 > theta_2 at z_0.
     TwoDoubles apart(Index mode) const {
         const double r = ratio.high, g = gap.high, k = static_cast<double>(mode);
-        const double low = g * (k - 0.25) * std::numbers::pi, high = std::numeric_limits<double>::infinity();
+        const double low = g * (k - 0.25) * std::numbers::pi, high = k * std::numbers::pi;
         const double strings = (k - 1) * std::numbers::pi, c = r > 0 ? 4 * g * (0.125 + 1.875 / r) : 0;
         double w = 0.5 * (strings + std::sqrt(strings * strings + c));  // both ends far out
         if (!(w * r > 2 * g)) w = low * (1 + 1e-3);
-        return newton_between(low, high, w, [&](double at) {
+        return phase_zero(low, high, w, [&](double at) {
             const TwoDoubles place = TwoDoubles(at) / gap;
             const LowerEnd end(place * ratio);
             const ValueAndRate e = excess(end, place, TwoDoubles(at), mode);
@@ -228,7 +224,7 @@ class Mode {
             revchain::detail::look();
             double w = std::max(high - std::numbers::pi, 0.5 * high);
             if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy particle
-            w = high = detail::newton_between(0, high, w, [&](double at) {
+            w = high = detail::phase_zero(0, high, w, [&](double at) {
                            return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i);
                        }).high;
             points[i - 1] = length_ * (w / apart_.high) * ((w + 2 * end_.z) / (apart_.high + 2 * end_.z));
@@ -236,7 +232,8 @@ class Mode {
         return points;
     }
 
-    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length. Cost: ten slopes each.
+    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length.
+    /// Cost: seven slopes each.
     Vector<double> vertical_points() const {
         return revchain::detail::zeros_between(nodes(), length_, [&](double x) {
             const double steep = slope(x);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/dispatch.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
@@ -62,33 +63,6 @@ namespace detail {
 
 /// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
-
-/// Sum of non-negative numbers with one word more than they have. Its error is about one rounding, however many are
-/// added.
-template <Real S>
-class RunningSum {
-   public:
-    void add(const S& x) {
-        if constexpr (std::floating_point<S>) {
-            const DoubleWord<S> s = two_sum(sum_, x);
-            sum_ = s.high;
-            rest_ += s.low;
-        } else if constexpr (is_double_word<S>) {
-            const auto high = two_sum(sum_.high, x.high);
-            const auto low = two_sum(sum_.low, x.low);
-            const auto middle = two_sum(high.low, low.high);
-            sum_ = {high.high, middle.high};
-            rest_ += middle.low + low.low;
-        } else {
-            sum_ = sum_ + x;
-        }
-    }
-    S value() const { return sum_ + S(rest_); }
-
-   private:
-    S sum_{Narrow<S>(0)};
-    Narrow<S> rest_{};
-};
 
 }  // namespace detail
 
@@ -162,7 +136,7 @@ Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* be
     using S = Wide<T>;
     if (column.is_scalar()) return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
     T least = column[0], most{};
-    detail::RunningSum<S> sum;
+    CompensatedSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
         detail::look();

@@ -9,6 +9,7 @@
 
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/status.hpp"
+#include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -284,10 +285,10 @@ class LineDensity {
 
     /// Whether the function jumps once within a narrow piece: then the piece has its mean, exactly.
     static bool is_jump(const Given& f, double low, double high, Piece& piece) {
-        double below = std::nextafter(low, high), above = std::nextafter(high, low);
-        const double lower = f(below), upper = f(above), jump = std::abs(upper - lower);
-        for (double at = below + (above - below) / 2; at > below && at < above; at = below + (above - below) / 2)
-            (std::abs(f(at) - lower) < jump / 2 ? below : above) = at;
+        const double first = std::nextafter(low, high), last = std::nextafter(high, low);
+        const double lower = f(first), upper = f(last), jump = std::abs(upper - lower);
+        const auto side = [&](double at) { return std::abs(f(at) - lower) < jump / 2 ? -1 : 1; };
+        const double above = detail::halved(first, last, side).second;
         for (double at = std::nextafter(low, high); at < high; at += 0x1p-48 * high)
             if (!(std::abs(f(at) - (at < above ? lower : upper)) <= 1e-3 * jump)) return false;
         piece.factor = {(lower * (above - low) + upper * (high - above)) / (high - low)};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "revchain/numeric/zero_between.hpp"
 #include "revchain/system/line_density.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -301,23 +302,12 @@ class PathSeries {
     double latest_ = std::numeric_limits<double>::infinity();  ///< time, beyond a piece that is short
 };
 
-/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so,
-/// to 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not
-/// go on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
-/// returns a pair.
+/// The time at which, within a step of a series, a function that grows through 0 once between 0 and
+/// `latest` does so, to 2^-51 of itself: the rounding of a series of 25 terms does not give the last
+/// digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
-    double low = 0, high = latest, t = latest / 2;
-    for (int i = 0; i < 100; ++i) {
-        const auto [value, slope] = value_and_slope(t);
-        (value < 0 ? low : high) = t;
-        double next = t - value / slope;
-        if (std::abs(next - t) <= std::min(0x1p-52 * latest, 0x1p-51 * t)) break;
-        if (!(next > low && next < high)) next = low + (high - low) / 2;
-        if (next == low || next == high) break;
-        t = next;
-    }
-    return t;
+    return revchain::detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
 }
 
 /// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
