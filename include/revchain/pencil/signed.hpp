@@ -47,12 +47,6 @@ struct SignedPencil {
     Factors<X> factors(const X& x) const {
         return quadratic ? Factors<X>{x * x, x} : Factors<X>{x, X(S(Narrow<S>(0)))};
     }
-    /// Their derivatives.
-    template <class X>
-    Factors<X> slopes(const X& x) const {
-        const X one(S(Narrow<S>(1)));
-        return quadratic ? Factors<X>{x + x, one} : Factors<X>{one, X(S(Narrow<S>(0)))};
-    }
     /// Returns the pencil with every spin reversed: its x are those of this pencil with the other sign.
     SignedPencil reversed() const {
         SignedPencil other = *this;
