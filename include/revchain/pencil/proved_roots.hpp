@@ -33,16 +33,16 @@ void for_eights(std::size_t count, std::size_t links, const F& f) {
     });
 }
 
-/// Proves roots that Rayleigh quotients gave, numbers `first`, `first` + 1, ..., descending. At first
-/// `off` is how far a root may be from that of its quotient, and an exact root lies within `reach` of
-/// that; then `off` is what is proved. Exactly as many roots as these lie between `below` and `above`, so
-/// where their intervals are apart each holds one, nearer to its quotient than the square of `reach` over
-/// the room to the next interval (Kato, Temple). Where intervals meet, counts on either side,
-/// `certified(x)`, number the others: false where they cannot. `worst`: how far a root may be off
-/// (relative) to count as proved.
+/// Proves roots that Rayleigh quotients gave, numbers `first`, `first` + 1, ..., descending. At
+/// first `off` is how far a root may be from that of its quotient, and an exact root lies within
+/// `reach` of that; then `off` is what is proved. Exactly as many roots as these lie between
+/// `below` and `above`, so where their intervals are apart each holds one, nearer to its quotient
+/// than the square of `reach` over the room to the next interval (Kato, Temple). Where intervals
+/// meet, counts on either side, `certified(x)`, number the others: false where they cannot.
+/// `worst`: how far a root may be off (relative) to count as proved.
 template <std::floating_point T, class Certified>
-bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first, const T& below,
-           const T& above, const T& worst, const Certified& certified) {
+bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first,
+           const T& below, const T& above, const T& worst, const Certified& certified) {
     const T infinity = std::numeric_limits<T>::infinity();
     const std::size_t count = roots.size();
     const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
@@ -58,8 +58,10 @@ bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index
         const T down_to = end(j - 1, -1), up_to = end(j, 1);
         gap[j] = {down_to - up_to, down_to, up_to};
     }
-    const auto meets = [&](std::size_t j) { return !(gap[j].width > T(0)); };  // its interval that above it
-    // Roots that meet need not lie in their intervals: a count has to show that they are on their side.
+    // Whether the interval of root j meets that above it.
+    const auto meets = [&](std::size_t j) { return !(gap[j].width > T(0)); };
+    // Roots that meet need not lie in their intervals: a count has to show that they keep their
+    // side.
     for (std::size_t j = 1; j < count; ++j) {
         if (meets(j) || !(meets(j - 1) || meets(j + 1))) continue;
         const T middle = gap[j].up_to + gap[j].width / T(2);
@@ -78,8 +80,8 @@ bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index
     return true;
 }
 
-/// The roots number `first`, `first` + 1, ... next to `starts`, descending, each as `prove` proves it, from what a
-/// residual shows around each start; the rest as there. Preconditions as those of `quotients_in_lanes`.
+/// The roots number `first`, `first` + 1, ... next to `starts`, descending, as `prove` proves them
+/// from what a residual shows around each start. Preconditions as those of `quotients_in_lanes`.
 template <bool spinning = false, std::floating_point T, class Certified>
 std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
                                                        const std::vector<T>& starts, Index first, const T& below,

@@ -26,31 +26,32 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// Steps of Weierstrass's method: from approximate roots x_j to x_j - w_j, w_j = P(x_j)/(c prod (x_j - x_k)), with the
-/// leading coefficient c of P = det Q without its zeros at 0.
+/// Steps of Weierstrass's method: from approximate roots x_j to x_j - w_j with w_j = P(x_j)/(c prod
+/// (x_j - x_k)), c the leading coefficient of P = det Q without its zeros at 0.
 struct WeierstrassSteps {
     std::vector<std::complex<double>> step;
-    std::vector<double> blur;  ///< how far a step may be off, relative; infinite where nothing is known of it
+    std::vector<double> blur;  ///< how far a step may be off, relative; infinite where not known
 };
 
 /// Calls f(lanes, how many of them count) for all of `which`, so many at a time.
 template <class F>
 void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
                const F& f) {
-    revchain::detail::parallel_for(which.size(), value_lanes, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t first = begin; first < end; first += value_lanes) {
+    constexpr std::size_t L = value_lanes;
+    revchain::detail::parallel_for(which.size(), L, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += L) {
             advance(0.6);
-            std::size_t lane[value_lanes];
-            for (std::size_t i = 0; i < value_lanes; ++i) lane[i] = which[std::min(first + i, end - 1)];
-            f(lane, std::min(value_lanes, end - first));
+            std::size_t lane[L];
+            for (std::size_t i = 0; i < L; ++i) lane[i] = which[std::min(first + i, end - 1)];
+            f(lane, std::min(L, end - first));
         }
     });
 }
 
 /// P at the roots `which`.
-inline void evaluate(const SignedPencil<Wide<double>>& pencil, const std::vector<ComplexWord>& roots,
-                     const std::vector<std::size_t>& which, std::vector<ScaledValue>& values,
-                     const std::function<void(double)>& advance) {
+inline void evaluate(const SignedPencil<Wide<double>>& pencil,
+                     const std::vector<ComplexWord>& roots, const std::vector<std::size_t>& which,
+                     std::vector<ScaledValue>& values, const std::function<void(double)>& advance) {
     for_lanes(which, advance, [&](const std::size_t* lane, std::size_t count) {
         ComplexWord x[value_lanes];
         ScaledValue found[value_lanes];
@@ -82,7 +83,8 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
             const double exponent = value.exponent - under.exponent - leading.exponent;
             const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
             const std::complex<double> ratio = value.fraction / under.fraction;
-            result.step[lane[i]] = {std::ldexp(ratio.real(), shift), std::ldexp(ratio.imag(), shift)};
+            result.step[lane[i]] = {std::ldexp(ratio.real(), shift),
+                                    std::ldexp(ratio.imag(), shift)};
             result.blur[lane[i]] =
                 (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
         }
@@ -90,8 +92,9 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
     return result;
 }
 
-/// Those roots that are `meant`, until they stand still: by Weierstrass's steps, each divided by one more than the sum
-/// of w_j/(x_i - x_j) over the others (Börsch-Supan), which also parts what lies close together.
+/// Those roots that are `meant`, until they stand still: by Weierstrass's steps, each divided by
+/// one more than the sum of w_j/(x_i - x_j) over the others (Börsch-Supan), which also parts what
+/// lies close together.
 inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
                    const std::vector<bool>& meant, const std::function<void(double)>& advance) {
     constexpr int sweeps = 60;
@@ -141,10 +144,11 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
     return result;
 }
 
-/// Discs that hold exactly one root each. All roots lie within d |w_j| of the approximations x_j, d the degree and w_j
-/// the steps of Weierstrass's method, and where such discs are apart each holds one (Smith). Then x_j - root =
-/// w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum of r_k/(|x_j - x_k| - r_k).
-/// Returns which discs meet others; `found` has the roots if none does.
+/// Discs that hold exactly one root each. All roots lie within d |w_j| of the approximations x_j, d
+/// the degree and w_j the steps of Weierstrass's method, and where such discs are apart each holds
+/// one (Smith). Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) -
+/// 1), s the sum of r_k/(|x_j - x_k| - r_k). Returns which discs meet others; `found` has the roots
+/// if none does.
 inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
                                  std::vector<EnclosedRoot>& found,
                                  const std::function<void(double)>& advance) {
@@ -171,7 +175,8 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     std::vector<bool> known(n);
     for (const std::size_t i : heads) {
         if (i < at.real) w.step[i] = w.step[i].real();
-        const double radius = static_cast<double>(n) * std::abs(w.step[i]) * (1 + 2 * w.blur[i]) * slack;
+        const double size = std::abs(w.step[i]) * (1 + 2 * w.blur[i]);
+        const double radius = static_cast<double>(n) * size * slack;
         known[i] = w.blur[i] < 0.25 && radius < infinity;
         if (known[i]) split.radius[i] = radius;
         if (i >= at.real) split.radius[i + 1] = split.radius[i];
@@ -179,7 +184,9 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     std::vector<double> nearest(n), shares(n);
     for_lanes(heads, advance, [&](const std::size_t* lane, std::size_t count) {
         double near[value_lanes], sums[value_lanes];
-        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
+        simd([&](auto where) REVCHAIN_INLINED {
+            distances_in_lanes(where, split, lane, near, sums);
+        });
         for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
     });
     std::vector<bool> meets(n, false);
@@ -236,7 +243,8 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);
-            // Two that meet on the real axis may belong beside it, and a pair on it: symmetry would keep them.
+            // Two that meet on the real axis may belong beside it, and a pair on it: symmetry keeps
+            // them.
             for (std::size_t i = 0; i < words.size(); ++i) {
                 if (!meets[i]) continue;
                 if (i < there->real)

@@ -16,9 +16,10 @@ namespace spectrum {
 struct Candidate {
     double shift = 0;           ///< mu the vector was computed at
     ProvedRoot<double> root{};  ///< its Rayleigh quotient, and how far rounding may have moved that
-    double residual = std::numeric_limits<double>::infinity();  ///< an eigenvalue lies within it, relative
-    double rounding = 0;                                        ///< what rounding has in `residual`
-    std::size_t place = 0;                                      ///< links below where it lives
+    /// An eigenvalue lies within this of it, relative.
+    double residual = std::numeric_limits<double>::infinity();
+    double rounding = 0;    ///< what rounding has in `residual`
+    std::size_t place = 0;  ///< links below where it lives
 };
 
 /// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
@@ -44,9 +45,10 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
         if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector says nothing of this shift
         const double value = q.ratio / c.shift;
         c.root = {DoubleWord<double>(value), rounding_quotient(chain, c.shift) * value};
-        // The residual is least at the quotient; 2^-40 covers its own rounding and the change of scale, |ratio - 1|.
+        // The residual is least at the quotient; 2^-40 covers its own rounding and the change of
+        // scale, |ratio - 1|.
         c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
-        if (!std::isfinite(c.residual)) c.residual = std::numeric_limits<double>::infinity();  // no NaN
+        if (std::isnan(c.residual)) c.residual = std::numeric_limits<double>::infinity();
         c.rounding = q.rounding;
         c.place = q.twist;
     }
@@ -105,9 +107,11 @@ class Candidates {
     /// By counts alone.
     std::vector<Certified<double>> counted(Index first, Index last, double guess) const {
         std::vector<Certified<double>> result;
-        for (const auto& bracket : bisect(pencil_, first, last - first, 2 * epsilon<double>(), guess)) {
+        const double width = 2 * epsilon<double>();
+        for (const auto& bracket : bisect(pencil_, first, last - first, width, guess)) {
             const Index j = first + static_cast<Index>(result.size());
-            result.push_back(certified_eigenvalue(wide_, pencil_, j, between(bracket.lower, bracket.upper)));
+            const double start = between(bracket.lower, bracket.upper);
+            result.push_back(certified_eigenvalue(wide_, pencil_, j, start));
         }
         return result;
     }
@@ -174,8 +178,9 @@ class Candidates {
                 Candidate& c = all_[i];
                 const double value = c.root.root.high;
                 const double off = foreseen ? (*foreseen)[i].off : infinity;
-                const bool done = std::isfinite(off) && c.root.off <= 64 * epsilon<double>() * value;
-                if (done && (!fine_ || (round > 0 && off < 0.01 * epsilon<double>() * value))) continue;
+                const double ulp = epsilon<double>() * value;
+                const bool done = std::isfinite(off) && c.root.off <= 64 * ulp;
+                if (done && (!fine_ || (round > 0 && off < 0.01 * ulp))) continue;
                 if (!(std::abs(1 / value - starts_[i]) < 0.4 * room(i))) {
                     if (round == 0) continue;
                     c.root.root = DoubleWord<double>(1 / starts_[i]);
@@ -189,7 +194,8 @@ class Candidates {
 
     /// The candidates' roots as `prove` leaves them.
     template <class Count>
-    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above, const Count& count) const {
+    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above,
+                                                                 const Count& count) const {
         std::vector<ProvedRoot<double>> roots;
         std::vector<double> reach;
         for (const Candidate& c : all_) {
@@ -200,7 +206,8 @@ class Candidates {
         return roots;
     }
 
-    /// What no vector says anything of is left to counts, and so is what is then not apart from its neighbours.
+    /// What no vector says anything of is left to counts, and then what is not apart from
+    /// neighbours.
     std::optional<std::vector<Certified<double>>> proved(Index first, Index last) {
         for (std::size_t i = 0; i < all_.size(); ++i) {
             Candidate& c = all_[i];
