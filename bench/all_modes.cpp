@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 // All modes of one chain, values only: LAPACK (dlasq1 and dsterf for plummets, dsbgv for rods) and this library in one
 // interleaved run, CPU time on one thread, medians, as CSV. Arguments: N (10000), repetitions (3).
+// With the argument `engines`: `modes` by each of its methods, a chain built for each call, heights
+// alone and with shapes, against double-double (a sample of 50 heights). Further arguments: the modes
+// asked for (0: all), rtol (0: none), sizes.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "lapack_names.hpp"
 #include "revchain/linear/assembly.hpp"
+#include "revchain/modes.hpp"
 #include "revchain/pencil/spectrum/interpolated.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
@@ -79,9 +84,82 @@ double dsbgv(const Pencil& p, std::vector<double>& heights) {
 
 #endif
 
+struct Engine {
+    std::string name;
+    revchain::ModesMethod method;
+    std::vector<double> heights, shapes;  ///< microseconds of a call
+};
+
+/// A line for each method that serves this chain.
+void compare_engines(const support::Family& family, Index n, Index asked, std::optional<double> rtol) {
+    using revchain::Chain;
+    using revchain::DoubleDouble;
+    using revchain::ModesMethod;
+    const Index count = asked == 0 ? n : std::min(asked, n);
+    const Chain<double> chain = family.make(n);
+    std::vector<revchain::Link<double>> links;
+    for (Index m = 0; m < n; ++m) links.push_back(chain.link(m));
+    std::vector<Engine> engines{{"automatic", ModesMethod::automatic, {}, {}},
+                                {"bisection", ModesMethod::bisection, {}, {}},
+                                {"aberth", ModesMethod::aberth, {}, {}},
+                                {"interpolated", ModesMethod::interpolated, {}, {}},
+                                {"condensed", ModesMethod::condensed, {}, {}}};
+    const auto ask = [&](const Engine& e, const Chain<double>& of) {
+        return revchain::modes(of, {.count = count, .rtol = rtol, .method = e.method});
+    };
+    std::erase_if(engines, [&](const Engine& e) {
+        if (e.method == ModesMethod::automatic) return false;
+        if (e.method == ModesMethod::condensed && count > n / 8) return true;
+        return ask(e, chain).method != e.name;
+    });
+    double sink = 0;
+    for (int round = 0; round < 5; ++round)
+        for (Engine& e : engines) {
+            e.heights.push_back(
+                1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).conical_height[0]; }, 1e-3));
+            e.shapes.push_back(
+                1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
+        }
+    if (sink == 0) return;
+    const Chain<DoubleDouble> exact = revchain::converted<DoubleDouble>(chain);
+    std::vector<revchain::Modes<double>> found;
+    for (const Engine& e : engines) found.push_back(ask(e, chain));
+    std::vector<double> worst(engines.size());
+    for (Index j = 0; j < count; j += std::max<Index>(1, count / 50)) {  // a sample where there are many
+        const DoubleDouble height = revchain::modes(exact, {.first = j + 1, .count = 1}).conical_height[0];
+        for (std::size_t i = 0; i < engines.size(); ++i) {
+            const DoubleDouble off = (DoubleDouble(found[i].conical_height[j]) - height) / height;
+            worst[i] = std::max(worst[i], std::abs(static_cast<double>(off)) / 0x1p-52);
+        }
+    }
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+        const Engine& e = engines[i];
+        std::printf("%s,%ld,%ld,%s,%s,%.3f,%.3f,%.3f,%.2f\n", family.name.c_str(), static_cast<long>(n),
+                    static_cast<long>(count), e.name.c_str(), found[i].method.c_str(), median(e.heights),
+                    median(e.shapes), worst[i], found[i].error_bound.maxCoeff() / 0x1p-52);
+    }
+    std::fflush(stdout);
+}
+
+void compare_engines(int argc, char** argv) {
+    const Index asked = argc > 2 ? std::atol(argv[2]) : 0;
+    const double rtol = argc > 3 ? std::atof(argv[3]) : 0;
+    std::vector<Index> sizes{2, 5, 10, 20, 50, 100, 300, 1000, 3000};
+    if (argc > 4) sizes.clear();
+    for (int i = 4; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
+    std::printf("chain,N,modes,method,used,heights_us,with_shapes_us,worst_error_ulp,worst_bound_ulp\n");
+    for (const std::size_t f : {3, 2, 0})  // random rods, random plummets, equal plummets
+        for (const Index n : sizes)
+            compare_engines(support::families()[f], n, asked, rtol > 0 ? std::optional(rtol) : std::nullopt);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 1 && std::string_view(argv[1]) == "engines") {
+        compare_engines(argc, argv);
+        return 0;
+    }
     const Index n = argc > 1 ? std::atol(argv[1]) : 10'000;
     const int repetitions = argc > 2 ? std::atoi(argv[2]) : 3;
     std::printf(

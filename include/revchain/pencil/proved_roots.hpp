@@ -33,11 +33,55 @@ void for_eights(std::size_t count, std::size_t links, const F& f) {
     });
 }
 
-/// The roots number `first`, `first` + 1, ... next to `starts`, descending. Proved: exactly as many roots as there are
-/// starts lie between `below` and `above`, and around each start a residual shows one in an interval of its own. The
-/// Rayleigh quotient is nearer to it than the square of the residual over the room to the next interval (Kato, Temple).
-/// Where intervals meet, counts on either side, `certified(x)`, number the others. Nothing where they cannot, and
-/// `worst`: how far a root may be off (relative) to count as proved. Preconditions as those of `quotients_in_lanes`.
+/// Proves roots that Rayleigh quotients gave, numbers `first`, `first` + 1, ..., descending. At
+/// first `off` is how far a root may be from that of its quotient, and an exact root lies within
+/// `reach` of that; then `off` is what is proved. Exactly as many roots as these lie between
+/// `below` and `above`, so where their intervals are apart each holds one, nearer to its quotient
+/// than the square of `reach` over the room to the next interval (Kato, Temple). Where intervals
+/// meet, counts on either side, `certified(x)`, number the others: false where they cannot.
+/// `worst`: how far a root may be off (relative) to count as proved.
+template <std::floating_point T, class Certified>
+bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first,
+           const T& below, const T& above, const T& worst, const Certified& certified) {
+    const T infinity = std::numeric_limits<T>::infinity();
+    const std::size_t count = roots.size();
+    const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
+        return roots[j].root.high + T(side) * (reach[j] + roots[j].off) * (T(1) + T(0x1p-20));
+    };
+    if (!(end(0, 1) < above && end(count - 1, -1) > below)) return false;
+    struct Gap {           // above the interval of root j
+        T width;           // not positive (or NaN) where intervals meet
+        T down_to, up_to;  // of the roots above it, and of those below
+    };
+    std::vector<Gap> gap(count + 1, Gap{infinity, above, below});
+    for (std::size_t j = 1; j < count; ++j) {
+        const T down_to = end(j - 1, -1), up_to = end(j, 1);
+        gap[j] = {down_to - up_to, down_to, up_to};
+    }
+    // Whether the interval of root j meets that above it.
+    const auto meets = [&](std::size_t j) { return !(gap[j].width > T(0)); };
+    // Roots that meet need not lie in their intervals: a count has to show that they keep their
+    // side.
+    for (std::size_t j = 1; j < count; ++j) {
+        if (meets(j) || !(meets(j - 1) || meets(j + 1))) continue;
+        const T middle = gap[j].up_to + gap[j].width / T(2);
+        const CertifiedCount there = certified(middle);
+        if (!there.proved || there.above != first + static_cast<Index>(j)) return false;
+        gap[j].down_to = gap[j].up_to = middle;
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+        const T root = roots[j].root.high, blur = roots[j].off;
+        const T nearest = std::min(gap[j].down_to - root, root - gap[j + 1].up_to);
+        const T room = nearest - blur - T(4) * epsilon<T>() * root;
+        const T off = (reach[j] * (reach[j] / room) + blur) * (T(1) + T(0x1p-20));
+        const bool proved = !meets(j) && !meets(j + 1) && room > reach[j] && off <= worst * root;
+        roots[j].off = proved ? off : infinity;
+    }
+    return true;
+}
+
+/// The roots number `first`, `first` + 1, ... next to `starts`, descending, as `prove` proves them
+/// from what a residual shows around each start. Preconditions as those of `quotients_in_lanes`.
 template <std::floating_point T, bool Spins, class Certified>
 std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
                                                        const std::vector<T>& starts, Index first, const T& below,
@@ -52,34 +96,7 @@ std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<Doubl
         for (std::size_t i = 0; i < there; ++i)
             roots[from + i] = {found.root[i], found.blur[i]}, reach[from + i] = found.reach[i];
     });
-    const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
-        return roots[j].root.high + T(side) * (reach[j] + roots[j].off) * (T(1) + T(0x1p-20));
-    };
-    if (!(end(0, 1) < above && end(count - 1, -1) > below)) return std::nullopt;
-    std::vector<T> gap(count + 1);  // [j]: above the interval of root j; not positive (or NaN) where intervals meet
-    for (std::size_t j = 1; j < count; ++j) gap[j] = end(j - 1, -1) - end(j, 1);
-    gap[0] = gap[count] = std::numeric_limits<T>::infinity();
-    const auto meets = [&](std::size_t j) { return !(gap[j] > T(0)); };  // its interval that above it
-    // In each gap, where the roots above it may reach down to and those below it up to. Roots that meet need not lie in
-    // their intervals: a count has to show that they are on their side of the gap.
-    std::vector<T> down_to(count + 1, above), up_to(count + 1, below);
-    for (std::size_t j = 1; j < count; ++j) {
-        down_to[j] = end(j - 1, -1), up_to[j] = end(j, 1);
-        if (meets(j) || !(meets(j - 1) || meets(j + 1))) continue;
-        const T middle = up_to[j] + gap[j] / T(2);
-        const CertifiedCount there = certified(middle);
-        if (!there.proved || there.above != first + static_cast<Index>(j)) return std::nullopt;
-        down_to[j] = up_to[j] = middle;
-    }
-    std::vector<T> off(count, std::numeric_limits<T>::infinity());
-    for (std::size_t j = 0; j < count; ++j) {
-        if (meets(j) || meets(j + 1)) continue;
-        const T root = roots[j].root.high;
-        const T room = std::min(down_to[j] - root, root - up_to[j + 1]) - roots[j].off - T(4) * epsilon<T>() * root;
-        const T far = (reach[j] * (reach[j] / room) + roots[j].off) * (T(1) + T(0x1p-20));
-        if (room > reach[j] && far <= worst * root) off[j] = far;
-    }
-    for (std::size_t j = 0; j < count; ++j) roots[j].off = off[j];
+    if (!prove(roots, reach, first, below, above, worst, certified)) return std::nullopt;
     return roots;
 }
 

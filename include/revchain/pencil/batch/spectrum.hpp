@@ -10,8 +10,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Where the first approximations come from. With the recurrence alone all modes of 10 links took 2.5 times as long, of
-/// 16 3 times.
+/// Where the first approximations come from. With the recurrence alone all modes of 10 links took
+/// 2.5 times as long, of 16 3 times. Chains one by one, by `modes`, take 2.2 to 2.8 times as long
+/// as the recurrence for 17 links, 1.2 to 1.5 times for 100.
 enum class LaneMethod {
     coefficients,  ///< zeros of the polynomial written out, deflated: cheapest up to 16 links
     recurrence,    ///< zeros of the recurrence, known ones divided out: any number of links

@@ -26,51 +26,101 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// P'/P - zeros/x of P(x) = det Q(x): the sum of p'/p over the pivots.
-inline ComplexWord log_derivative(const SignedPencil<Wide<double>>& pencil, const ComplexWord& x, Index zeros) {
-    using S = Wide<double>;
-    using V = ComplexWord;
-    const V one = S(1.0), two_x = x + x;
-    const Factors<V> f = pencil.factors(x), g = pencil.quadratic ? Factors<V>{two_x, one} : Factors<V>{one, S(0.0)};
-    V below = S(0.0), slope_below = S(0.0), sum = S(0.0);
-    for (const SignedElement<S>& e : pencil.elements) {
-        const V L = e.stiffness_at(f), slope = e.stiffness_at(g);
-        const V p = below + (L - V(e.lower)), q = (L + V(e.cross)) / p;
-        const V p_slope = slope_below + slope;
-        sum = sum + p_slope / p;
-        below = (L - V(e.upper)) - (L + V(e.cross)) * q;
-        slope_below = slope - (q + q) * slope + q * q * p_slope;
-    }
-    return zeros == 0 ? sum : sum - V(S(static_cast<double>(zeros))) / x;
+/// Steps of Weierstrass's method: from approximate roots x_j to x_j - w_j with w_j = P(x_j)/(c prod
+/// (x_j - x_k)), c the leading coefficient of P = det Q without its zeros at 0.
+struct WeierstrassSteps {
+    std::vector<std::complex<double>> step;
+    std::vector<double> blur;  ///< how far a step may be off, relative; infinite where not known
+};
+
+/// Calls f(lanes, how many of them count) for all of `which`, so many at a time.
+template <class F>
+void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
+               const F& f) {
+    constexpr std::size_t L = value_lanes;
+    revchain::detail::parallel_for(which.size(), L, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += L) {
+            advance(0.6);
+            std::size_t lane[L];
+            for (std::size_t i = 0; i < L; ++i) lane[i] = which[std::min(first + i, end - 1)];
+            f(lane, std::min(L, end - first));
+        }
+    });
 }
 
-/// Those roots that are `meant`, by Newton's method in two words with all others divided out, until they stand still.
+/// P at the roots `which`.
+inline void evaluate(const SignedPencil<Wide<double>>& pencil,
+                     const std::vector<ComplexWord>& roots, const std::vector<std::size_t>& which,
+                     std::vector<ScaledValue>& values, const std::function<void(double)>& advance) {
+    for_lanes(which, advance, [&](const std::size_t* lane, std::size_t count) {
+        ComplexWord x[value_lanes];
+        ScaledValue found[value_lanes];
+        for (std::size_t i = 0; i < value_lanes; ++i) x[i] = roots[lane[i]];
+        simd([&](auto where) REVCHAIN_INLINED { values_in_lanes(where, pencil, x, found); });
+        for (std::size_t i = 0; i < count; ++i) values[lane[i]] = found[i];
+    });
+}
+
+/// The steps of the roots `which` from the values of P there.
+inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                              const std::vector<ComplexWord>& roots,
+                              const std::vector<std::size_t>& which,
+                              const std::vector<ScaledValue>& values,
+                              const std::function<void(double)>& advance) {
+    const std::size_t n = roots.size();
+    const double sums = static_cast<double>(16 * n + 64) * epsilon<double>();
+    const SplitWords split(roots);
+    const ScaledValue leading = leading_term(pencil).coefficient;
+    WeierstrassSteps result{std::vector<std::complex<double>>(n), std::vector<double>(n)};
+    for_lanes(which, advance, [&](const std::size_t* lane, std::size_t count) {
+        ScaledValue products[value_lanes];
+        simd([&](auto where) REVCHAIN_INLINED { products_in_lanes(where, split, lane, products); });
+        for (std::size_t i = 0; i < count; ++i) {
+            const ScaledValue& value = values[lane[i]];
+            ScaledValue& under = products[i];
+            under.times(leading.fraction);
+            for (Index k = 0; k < zeros; ++k) under.times(std::complex<double>(roots[lane[i]]));
+            const double exponent = value.exponent - under.exponent - leading.exponent;
+            const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
+            const std::complex<double> ratio = value.fraction / under.fraction;
+            result.step[lane[i]] = {std::ldexp(ratio.real(), shift),
+                                    std::ldexp(ratio.imag(), shift)};
+            result.blur[lane[i]] =
+                (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
+        }
+    });
+    return result;
+}
+
+/// Those roots that are `meant`, until they stand still: by Weierstrass's steps, each divided by
+/// one more than the sum of w_j/(x_i - x_j) over the others (Börsch-Supan), which also parts what
+/// lies close together.
 inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
                    const std::vector<bool>& meant, const std::function<void(double)>& advance) {
-    using S = Wide<double>;
     constexpr int sweeps = 60;
     std::vector<double> last(roots.size(), std::numeric_limits<double>::infinity());
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        bool moved = false;
-        for (std::size_t i = 0; i < roots.size(); ++i) {
-            if (!meant[i] || last[i] == 0) continue;
-            ComplexWord rate = log_derivative(pencil, roots[i], zeros);
-            for (std::size_t j = 0; j < roots.size(); ++j) {
-                if (j == i) continue;
-                const ComplexWord apart = roots[i] - roots[j];
-                if (size_of(apart) > 0) rate = rate - ComplexWord(S(1.0)) / apart;
-            }
-            const ComplexWord step = ComplexWord(S(1.0)) / rate;
-            const double share = size_of(step) / size_of(roots[i]);
-            const bool finite = std::isfinite(share);
-            if (finite) roots[i] = roots[i] - step;
+    std::vector<ScaledValue> values(roots.size());
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < roots.size(); ++i)
+        if (meant[i]) moving.push_back(i);
+    for (int sweep = 0; sweep < sweeps && !moving.empty(); ++sweep) {
+        evaluate(pencil, roots, moving, values, advance);
+        const WeierstrassSteps w = steps(pencil, zeros, roots, moving, values, advance);
+        std::vector<ComplexWord> next = roots;
+        std::vector<std::size_t> left;
+        for (const std::size_t i : moving) {
+            std::complex<double> rate = 1;
+            for (const std::size_t j : moving)
+                if (j != i) rate += w.step[j] / std::complex<double>(roots[i] - roots[j]);
+            const std::complex<double> step = w.step[i] / rate;
+            const double share = std::abs(step) / size_of(roots[i]);
+            if (!std::isfinite(share)) continue;
+            next[i] = roots[i] - ComplexWord(step);
             // At the last digits steps no longer shrink.
-            const bool stands = !finite || share < 1e-29 || (share < 1e-20 && share > last[i] / 4);
-            last[i] = stands ? 0 : share;
-            moved = moved || !stands;
-            advance(static_cast<double>(sweep) / sweeps);
+            if (!(share < 1e-29 || (share < 1e-20 && share > last[i] / 4))) left.push_back(i);
+            last[i] = share;
         }
-        if (!moved) break;
+        roots = std::move(next), moving = std::move(left);
     }
 }
 
@@ -94,108 +144,70 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
     return result;
 }
 
-/// Discs that hold exactly one root each. With P of leading coefficient c and degree d and x_j the approximations, let
-/// w_j = P(x_j)/(c prod (x_j - x_k)). All roots lie within d |w_j| of the x_j, and where such discs are apart each
-/// holds one (Smith). Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum
-/// of r_k/(|x_j - x_k| - r_k). Returns which discs meet others; `found` has the roots if none does.
+/// Discs that hold exactly one root each. All roots lie within d |w_j| of the approximations x_j, d
+/// the degree and w_j the steps of Weierstrass's method, and where such discs are apart each holds
+/// one (Smith). Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) -
+/// 1), s the sum of r_k/(|x_j - x_k| - r_k). Returns which discs meet others; `found` has the roots
+/// if none does.
 inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
-                                 std::vector<EnclosedRoot>& found, const std::function<void(double)>& advance) {
+                                 std::vector<EnclosedRoot>& found,
+                                 const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
-    const std::size_t n = at.roots.size(), heads = at.real + (n - at.real) / 2;
-    const auto place = [&](std::size_t head) { return head < at.real ? head : at.real + 2 * (head - at.real); };
-    const auto mirrored = [&](std::size_t head) {
-        ComplexWord& x = at.roots[place(head)];
-        if (head >= at.real) at.roots[place(head) + 1] = {x.real, -x.imag};
-    };
-    std::vector<ScaledValue> values(heads + value_lanes), products(heads + value_lanes);
-    std::vector<double> nearest(heads + value_lanes), shares(heads + value_lanes);
-    const auto lanes_of = [&](const std::vector<std::size_t>& which, const auto& f) {
-        revchain::detail::parallel_for(which.size(), value_lanes, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t first = begin; first < end; first += value_lanes) {
-                advance(0.6);
-                std::size_t lane[value_lanes];
-                for (std::size_t i = 0; i < value_lanes; ++i) lane[i] = which[std::min(first + i, end - 1)];
-                f(lane, std::min(value_lanes, end - first));
-            }
-        });
-    };
-    std::vector<std::size_t> all(heads), left;
-    for (std::size_t i = 0; i < heads; ++i) all[i] = i;
-    left = all;
+    const std::size_t n = at.roots.size();
+    std::vector<std::size_t> heads;  // the real roots, and one of each pair
+    for (std::size_t i = 0; i < n; i += i < at.real ? 1 : 2) heads.push_back(i);
+    std::vector<std::size_t> left = heads;
+    std::vector<ScaledValue> values(n);
     // At the very root, or where a pivot vanishes, nothing is proved: then beside it.
     for (const double aside : {0.0, 0x1p-64, 0x1p-56, 0x1p-48, 0x1p-40}) {
         for (const std::size_t i : left) {
-            ComplexWord& x = at.roots[place(i)];
-            x = x + x * ComplexWord(S(aside)), mirrored(i);
+            ComplexWord& x = at.roots[i];
+            x = x + x * ComplexWord(S(aside));
+            if (i >= at.real) at.roots[i + 1] = {x.real, -x.imag};
         }
-        lanes_of(left, [&](const std::size_t* lane, std::size_t count) {
-            ComplexWord x[value_lanes];
-            ScaledValue found_here[value_lanes];
-            for (std::size_t i = 0; i < value_lanes; ++i) x[i] = at.roots[place(lane[i])];
-            simd([&](auto where) REVCHAIN_INLINED { values_in_lanes(where, pencil, x, found_here); });
-            for (std::size_t i = 0; i < count; ++i) values[lane[i]] = found_here[i];
-        });
+        evaluate(pencil, at.roots, left, values, advance);
         std::erase_if(left, [&](std::size_t i) { return std::isfinite(values[i].error); });
         if (left.empty()) break;
     }
+    WeierstrassSteps w = steps(pencil, zeros, at.roots, heads, values, advance);
     SplitWords split(at.roots);
-    const auto places = [&](const std::size_t* lane, std::size_t* of) {
-        for (std::size_t i = 0; i < value_lanes; ++i) of[i] = place(lane[i]);
-    };
-    lanes_of(all, [&](const std::size_t* lane, std::size_t count) {
-        std::size_t of[value_lanes];
-        ScaledValue found_here[value_lanes];
-        places(lane, of);
-        simd([&](auto where) REVCHAIN_INLINED { products_in_lanes(where, split, of, found_here); });
-        for (std::size_t i = 0; i < count; ++i) products[lane[i]] = found_here[i];
-    });
-    const ScaledValue leading = leading_term(pencil).coefficient;
-    std::vector<std::complex<double>> step(heads);
-    std::vector<double> blur(heads);
-    std::vector<bool> known(heads);
-    for (std::size_t i = 0; i < heads; ++i) {
-        ScaledValue under = products[i];
-        under.times(leading.fraction);
-        const std::complex<double> x(at.roots[place(i)]);
-        for (Index k = 0; k < zeros; ++k) under.times(x);
-        const double exponent = values[i].exponent - under.exponent - leading.exponent;
-        const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
-        const std::complex<double> ratio = values[i].fraction / under.fraction;
-        step[i] = {std::ldexp(ratio.real(), shift), i < at.real ? 0.0 : std::ldexp(ratio.imag(), shift)};
-        blur[i] =
-            (values[i].error + leading.error + under.error + static_cast<double>(16 * n + 64) * epsilon<double>()) *
-            slack;
-        const double radius = static_cast<double>(n) * std::abs(step[i]) * (1 + 2 * blur[i]) * slack;
-        known[i] = blur[i] < 0.25 && radius < infinity;
-        if (known[i]) split.radius[place(i)] = radius;
-        if (i >= at.real) split.radius[place(i) + 1] = split.radius[place(i)];
+    std::vector<bool> known(n);
+    for (const std::size_t i : heads) {
+        if (i < at.real) w.step[i] = w.step[i].real();
+        const double size = std::abs(w.step[i]) * (1 + 2 * w.blur[i]);
+        const double radius = static_cast<double>(n) * size * slack;
+        known[i] = w.blur[i] < 0.25 && radius < infinity;
+        if (known[i]) split.radius[i] = radius;
+        if (i >= at.real) split.radius[i + 1] = split.radius[i];
     }
-    lanes_of(all, [&](const std::size_t* lane, std::size_t count) {
-        std::size_t of[value_lanes];
+    std::vector<double> nearest(n), shares(n);
+    for_lanes(heads, advance, [&](const std::size_t* lane, std::size_t count) {
         double near[value_lanes], sums[value_lanes];
-        places(lane, of);
-        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, of, near, sums); });
+        simd([&](auto where) REVCHAIN_INLINED {
+            distances_in_lanes(where, split, lane, near, sums);
+        });
         for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
     });
     std::vector<bool> meets(n, false);
     bool apart = true;
     found.clear();
-    for (std::size_t i = 0; i < heads; ++i) {
-        const ComplexWord& x = at.roots[place(i)];
-        const double radius = split.radius[place(i)], size = size_of(x);
+    for (const std::size_t i : heads) {
+        const ComplexWord& x = at.roots[i];
+        const double radius = split.radius[i], size = size_of(x);
         const bool alone = known[i] && nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size &&
                            radius < size / 2 && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
         apart = apart && alone;
-        meets[place(i)] = !alone;
-        if (i >= at.real) meets[place(i) + 1] = !alone;
-        EnclosedRoot root{x - ComplexWord(step[i])};
+        meets[i] = !alone;
+        EnclosedRoot root{x - ComplexWord(w.step[i])};
         root.value = std::complex<double>(root.x);
         root.is_real = i < at.real;
         const double rounded = size_of(root.x - ComplexWord(root.value)), spread = shares[i] * (1 + shares[i]);
-        root.radius = ((spread + 2 * blur[i]) * (1 + spread) * std::abs(step[i]) + rounded) * slack + 0x1p-98 * size;
+        const double off = (spread + 2 * w.blur[i]) * (1 + spread) * std::abs(w.step[i]);
+        root.radius = (off + rounded) * slack + 0x1p-98 * size;
         found.push_back(root);
         if (root.is_real) continue;
+        meets[i + 1] = !alone;
         root.x.imag = -root.x.imag, root.value = std::conj(root.value);
         found.push_back(root);
     }
@@ -223,7 +235,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
     }
     std::vector<ComplexWord> words;
     for (const std::complex<double>& x : detail::first_roots(pencil, zeros, degree, advance)) words.emplace_back(x);
-    constexpr double most_work = 4e6;  // 4 seconds a sweep
+    constexpr double most_work = 4e6;  // a tenth of a second a sweep
     for (const double flat : {0x1p-40, 1e-22}) {
         std::vector<bool> meets(words.size(), true);
         if (auto there = detail::conjugates(words, flat)) {
@@ -231,12 +243,19 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);
-            for (std::size_t i = 0; i < there->real; ++i)  // two that meet on the real axis may belong beside it
-                if (meets[i]) words[i].imag = words[i].real * Wide<double>(i % 2 == 0 ? 0x1p-44 : -0x1p-44);
+            // Two that meet on the real axis may belong beside it, and a pair on it: symmetry keeps
+            // them.
+            for (std::size_t i = 0; i < words.size(); ++i) {
+                if (!meets[i]) continue;
+                if (i < there->real)
+                    words[i].imag = words[i].real * Wide<double>(i % 2 == 0 ? 0x1p-44 : -0x1p-44);
+                else if (words[i].imag.high > 0)
+                    words[i].real = words[i].real + words[i].imag * Wide<double>(0.25);
+            }
         }
         const double work = static_cast<double>(std::count(meets.begin(), meets.end(), true) * pencil.size());
         if (flat < 0x1p-40 || work > most_work) break;
-        detail::refine(pencil, zeros, words, meets, [&](double share) { advance(0.6 + 0.4 * share); });
+        detail::refine(pencil, zeros, words, meets, advance);
     }
     std::sort(result.roots.begin(), result.roots.end(), [](const EnclosedRoot& x, const EnclosedRoot& y) {
         return std::pair(std::abs(x.value), x.value.imag()) > std::pair(std::abs(y.value), y.value.imag());

@@ -4,26 +4,22 @@
 #include <numeric>
 
 #include "revchain/pencil/certificate.hpp"
+#include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/spectrum/refinement.hpp"
 #include "revchain/pencil/spectrum/window.hpp"
-#include "revchain/pencil/twisted.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace spectrum {
 
-/// An eigenvalue with what is known of it before its neighbours are.
+/// An eigenvalue on its way to a proof.
 struct Candidate {
-    double shift = 0;                                           ///< mu the vector was computed at
-    double eigenvalue = 0;                                      ///< Rayleigh quotient, rounded
-    double rest = 0;                                            ///< and what rounding left
-    double residual = std::numeric_limits<double>::infinity();  ///< some eigenvalue lies within this, relative
-    double bound = std::numeric_limits<double>::infinity();     ///< proved, relative to the exact eigenvalue
-    double rounding = 0;                                        ///< what rounding has in `residual`
-    double error = std::numeric_limits<double>::infinity();     ///< of the quotient, besides the vector's, relative
-    double reach = std::numeric_limits<double>::infinity();     ///< residual and rounding of the quotient
-    std::size_t place = 0;                                      ///< links below where it lives
-    bool counted = false;                                       ///< proved by counts, its number with it
+    double shift = 0;           ///< mu the vector was computed at
+    ProvedRoot<double> root{};  ///< its Rayleigh quotient, and how far rounding may have moved that
+    /// An eigenvalue lies within this of it, relative.
+    double residual = std::numeric_limits<double>::infinity();
+    double rounding = 0;    ///< what rounding has in `residual`
+    std::size_t place = 0;  ///< links below where it lives
 };
 
 /// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
@@ -47,14 +43,13 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
         Candidate& c = all[which[j]];
         const Quotient& q = quotients[j];
         if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector says nothing of this shift
-        c.eigenvalue = q.ratio / c.shift;
-        // the residual is least at the quotient; 2^-40 covers its own rounding and the change of scale, |ratio - 1|
+        const double value = q.ratio / c.shift;
+        c.root = {DoubleWord<double>(value), rounding_quotient(chain, c.shift) * value};
+        // The residual is least at the quotient; 2^-40 covers its own rounding and the change of
+        // scale, |ratio - 1|.
         c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
-        if (!std::isfinite(c.residual))
-            c.residual = std::numeric_limits<double>::infinity();  // no NaN among neighbours
+        if (std::isnan(c.residual)) c.residual = std::numeric_limits<double>::infinity();
         c.rounding = q.rounding;
-        c.error = rounding_quotient(chain, c.shift);
-        c.reach = c.residual * (1 + 0x1p-50) + 2 * c.error + 0x1p-50;
         c.place = q.twist;
     }
 }
@@ -65,7 +60,7 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
-        shifts.push_back(1 / all[i].eigenvalue);
+        shifts.push_back(1 / all[i].root.root.high);
         if (placed) places.push_back(all[i].place);
     }
     const auto quotients = fine_quotients_all(chain, shifts, places, longest);
@@ -77,37 +72,12 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
         const double shift = shifts[j], high = 1 / shift;
         const DoubleWord<double> product = two_product(high, shift);
         const double left = (1 - product.high) - product.low;
-        const DoubleWord<double> value = fast_two_sum(high, high * (left + q.excess));
         c.shift = shift;
-        c.eigenvalue = value.high;
-        c.rest = value.low;
+        c.root.root = fast_two_sum(high, high * (left + q.excess));
+        c.root.off = q.error * (1 + 0x1p-30) * c.root.root.high;
         c.residual = q.residual / std::min(1 + q.excess, 1.0) * (1 + 0x1p-40);
-        c.error = (epsilon<double>() / 2 + q.error) * (1 + 0x1p-30);
-        c.reach = c.residual * (1 + 0x1p-50) + 2 * c.error + 0x1p-50;
         c.place = q.twist;
     }
-}
-
-/// Distance of a quotient, `of` one of two neighbours, to the interval of the other, relative to it. Negative where
-/// that is not wholly on its own side: each interval below the one before leaves no place for two in one, or one in
-/// two.
-inline double gap(const Candidate& larger, const Candidate& smaller, const Candidate& of) {
-    const Candidate& other = &of == &larger ? smaller : larger;
-    return ((larger.eigenvalue - smaller.eigenvalue) - other.reach * other.eigenvalue) / of.eigenvalue;
-}
-
-/// Kato and Temple: |lambda - quotient| <= residual^2 / distance to the rest of the spectrum.
-inline double temple(const Candidate& c, double distance) { return c.residual * c.residual / distance; }
-
-/// An eigenvalue that counts have proved.
-inline Candidate counted(const Certified<double>& sure) {
-    Candidate c;
-    c.shift = 1 / sure.eigenvalue;
-    c.eigenvalue = sure.eigenvalue, c.rest = static_cast<double>(sure.unrounded - Wide<double>(sure.eigenvalue));
-    c.residual = c.bound = sure.error_bound;
-    c.reach = sure.error_bound * (1 + 0x1p-50) + 0x1p-50;
-    c.counted = true;
-    return c;
 }
 
 /// Below this tolerance quotients in double do not suffice.
@@ -122,33 +92,31 @@ class Candidates {
         : wide_(wide),
           pencil_(rounded<double>(wide)),
           chain_(chain),
-          tolerance_(tolerance),
+          fine_(tolerance < loosest_fine),
+          worst_(std::min(tolerance, 0x1p-32) * (1 - 0x1p-20) - epsilon<double>() / 2),
           leg_(std::bit_floor(std::clamp(chain.size() / 8, std::size_t(1), longest_leg))) {}
 
-    /// Candidate number j (from 0, descending).
-    const Candidate& operator[](Index j) const { return all_[static_cast<std::size_t>(j - begin_)]; }
-
-    /// By windows and quotients; false where these prove too little.
-    bool solve(Index first, Index last, Index total) {
-        if (!chain_.fit || chain_.size() < 2 || !separate(first, last, total)) return false;
+    /// By windows and quotients; nothing where these prove too little.
+    std::optional<std::vector<Certified<double>>> solve(Index first, Index last, Index total) {
+        if (!chain_.fit || chain_.size() < 2 || !separate(first, last, total)) return std::nullopt;
         improve();
-        refine_bounds();
-        return settle(first, last);
+        refine_roots();
+        return proved(first, last);
     }
 
     /// By counts alone.
-    void count(Index first, Index last) {
-        begin_ = first;
-        all_.clear();
-        for (const auto& bracket : bisect(pencil_, first, last - first, 2 * epsilon<double>(), 1.0))
-            all_.push_back(proved(first + static_cast<Index>(all_.size()), bracket));
+    std::vector<Certified<double>> counted(Index first, Index last, double guess) const {
+        std::vector<Certified<double>> result;
+        const double width = 2 * epsilon<double>();
+        for (const auto& bracket : bisect(pencil_, first, last - first, width, guess)) {
+            const Index j = first + static_cast<Index>(result.size());
+            const double start = between(bracket.lower, bracket.upper);
+            result.push_back(certified_eigenvalue(wide_, pencil_, j, start));
+        }
+        return result;
     }
 
    private:
-    Candidate proved(Index j, const Bracket<double>& bracket) const {
-        return counted(certified_eigenvalue(wide_, pencil_, j, between(bracket.lower, bracket.upper)));
-    }
-
     /// First shifts. With the proved counts at both ends there are as many eigenvalues as candidates.
     bool separate(Index first, Index last, Index total) {
         std::vector<Window> found;
@@ -161,9 +129,12 @@ class Candidates {
         };
         if (begin_ > 0 && !is_proved(found.front().lower, begin_)) return false;
         if (end < total && !is_proved(found.back().upper, end)) return false;
-        if (begin_ > 0) top_ = 1 / found.front().lower;
-        if (end < total) bottom_ = 1 / found.back().upper;
-        for (const Candidate& c : all_) starts_.push_back(c.shift);
+        if (begin_ > 0) top_ = 1 / found.front().lower * (1 - 0x1p-50);
+        if (end < total) bottom_ = 1 / found.back().upper * (1 + 0x1p-50);
+        for (Candidate& c : all_) {
+            starts_.push_back(c.shift);
+            c.root.root = DoubleWord<double>(1 / c.shift);
+        }
         return true;
     }
 
@@ -180,9 +151,9 @@ class Candidates {
             for (const std::size_t i : which) {
                 Candidate& c = all_[i];
                 if (!(c.rounding < 0x1p-10)) continue;  // double has no more to say
-                const double next = 1 / c.eigenvalue, apart = room(i);
+                const double next = 1 / c.root.root.high, apart = room(i);
                 const bool rough = c.residual > 4 * c.rounding;
-                if (!rough || temple(c, 0.5 * apart / starts_[i]) < 0x1p-56) continue;
+                if (!rough || c.residual * c.residual < 0x1p-57 * apart / starts_[i]) continue;
                 // On to the quotient, unless a vector joined at a bad place led astray.
                 const bool near = std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
                 c.shift = near ? next : starts_[i];
@@ -194,17 +165,26 @@ class Candidates {
 
     /// Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray
     /// at the first one, joined at any pin near where the mode seems to live, at last anywhere.
-    void refine_bounds() {
-        const bool fine = tolerance_ < loosest_fine;
+    void refine_roots() {
         for (int round = 0; round < 3; ++round) {
+            // What will be proved, were counts where intervals meet as they should be.
+            const double infinity = std::numeric_limits<double>::infinity();
+            const auto foreseen = roots_between(-infinity, infinity, [&](double x) {
+                const auto below = std::lower_bound(starts_.begin(), starts_.end(), 1 / x);
+                return CertifiedCount{begin_ + (below - starts_.begin()), true};
+            });
             std::vector<std::size_t> some;
             for (std::size_t i = 0; i < all_.size(); ++i) {
                 Candidate& c = all_[i];
-                if (set_bound(i) && (!fine || (round > 0 && c.bound < 0.51 * epsilon<double>()))) continue;
-                if (!(std::abs(1 / c.eigenvalue - starts_[i]) < 0.4 * room(i))) {
+                const double value = c.root.root.high;
+                const double off = foreseen ? (*foreseen)[i].off : infinity;
+                const double ulp = epsilon<double>() * value;
+                const bool done = std::isfinite(off) && c.root.off <= 64 * ulp;
+                if (done && (!fine_ || (round > 0 && off < 0.01 * ulp))) continue;
+                if (!(std::abs(1 / value - starts_[i]) < 0.4 * room(i))) {
                     if (round == 0) continue;
-                    c.eigenvalue = 1 / starts_[i];
-                    c.residual = c.reach = std::numeric_limits<double>::infinity();  // of this nothing is known
+                    c.root.root = DoubleWord<double>(1 / starts_[i]);
+                    c.residual = infinity;  // of this nothing is known
                 }
                 some.push_back(i);
             }
@@ -212,39 +192,47 @@ class Candidates {
         }
     }
 
-    /// What is not apart from its neighbours is left to counts, and what then is not apart from those.
-    bool settle(Index first, Index last) {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t i = 0; i < all_.size(); ++i) {
-                Candidate& c = all_[i];
-                if (c.counted || set_bound(i)) continue;
-                const Index j = begin_ + static_cast<Index>(i);
-                if ((j < first || j >= last) && distance(i) - c.reach > 0) continue;  // a neighbour only
-                const double guess = std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift;
-                c = proved(j, bisect(pencil_, j, Index(1), 2 * epsilon<double>(), guess).front());
-                changed = true;
-                if (!std::isfinite(c.bound)) return false;
-            }
+    /// The candidates' roots as `prove` leaves them.
+    template <class Count>
+    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above,
+                                                                 const Count& count) const {
+        std::vector<ProvedRoot<double>> roots;
+        std::vector<double> reach;
+        for (const Candidate& c : all_) {
+            roots.push_back(c.root);
+            reach.push_back(std::min(c.residual, 0x1p500) * c.root.root.high);
         }
-        return true;
+        if (!prove(roots, reach, begin_, below, above, worst_, count)) return std::nullopt;
+        return roots;
     }
 
-    bool set_bound(std::size_t i) {
-        Candidate& c = all_[i];
-        const double apart = distance(i) - c.reach;
-        const double b = apart > 0 ? temple(c, apart) + c.error : std::numeric_limits<double>::infinity();
-        c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
-        return c.bound <= tolerance_ && c.error <= 64 * epsilon<double>();
+    /// What no vector says anything of is left to counts, and then what is not apart from
+    /// neighbours.
+    std::optional<std::vector<Certified<double>>> proved(Index first, Index last) {
+        for (std::size_t i = 0; i < all_.size(); ++i) {
+            Candidate& c = all_[i];
+            if (std::isfinite(c.residual)) continue;
+            const Index j = begin_ + static_cast<Index>(i);
+            const Certified<double> sure = counted(j, j + 1, c.root.root.high).front();
+            c.root = {sure.unrounded, sure.error_bound * sure.eigenvalue};
+            c.residual = 0;
+        }
+        const auto roots = roots_between(bottom_, top_, [&](double x) {
+            return certified_count<S, 1>(wide_, {S(x)})[0];
+        });
+        if (!roots) return std::nullopt;
+        std::vector<Certified<double>> result;
+        for (Index j = first; j < last; ++j) {
+            const auto& [root, off] = (*roots)[static_cast<std::size_t>(j - begin_)];
+            const double rounded = fine_ || root.low != 0 ? epsilon<double>() / 2 : 0.0;
+            if (std::isfinite(off))
+                result.push_back({root.high, (off / root.high + rounded) * (1 + 0x1p-30), root});
+            else
+                result.push_back(counted(j, j + 1, root.high).front());
+        }
+        return result;
     }
-    /// To the interval of the next candidate, or the end of the windows; NaN where a neighbour is not known.
-    double distance(std::size_t i) const {
-        const Candidate& c = all_[i];
-        const double above = i > 0 ? gap(all_[i - 1], c, c) : (top_ * (1 - 0x1p-50) - c.eigenvalue) / c.eigenvalue;
-        const double below =
-            i + 1 < all_.size() ? gap(c, all_[i + 1], c) : (c.eigenvalue - bottom_ * (1 + 0x1p-50)) / c.eigenvalue;
-        return std::isnan(above) ? above : std::min(below, above);
-    }
+
     /// To the next start.
     double room(std::size_t i) const {
         const double below = i > 0 ? starts_[i] - starts_[i - 1] : starts_[i];
@@ -255,7 +243,8 @@ class Candidates {
     const ElementPencil<S>& wide_;
     ElementPencil<double> pencil_;
     const LumpedChain& chain_;
-    double tolerance_;
+    bool fine_;
+    double worst_;  // how far a root may be off, relative, before it is rounded
     std::size_t leg_;
     Index begin_ = 0;  // number of all_.front()
     std::vector<Candidate> all_;
@@ -282,13 +271,10 @@ class Candidates {
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
                                                Index first, Index last, Index total, double tolerance) {
-    std::vector<Certified<double>> result;
-    if (first >= last) return result;
-    spectrum::Candidates<S> found(wide, chain, tolerance);
-    if (!found.solve(first, last, total)) found.count(first, last);
-    for (Index j = first; j < last; ++j)
-        result.push_back({found[j].eigenvalue, found[j].bound, {found[j].eigenvalue, found[j].rest}});
-    return result;
+    if (first >= last) return {};
+    spectrum::Candidates<S> candidates(wide, chain, tolerance);
+    if (auto found = candidates.solve(first, last, total)) return *found;
+    return candidates.counted(first, last, 1.0);
 }
 
 template <Real S>

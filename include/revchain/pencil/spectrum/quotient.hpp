@@ -16,6 +16,9 @@ struct Quotient {
     std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
+/// Quotients of their own beside those of `proved_roots`, which take 2.4 to 6 times as long for
+/// each mode and link: with those, all modes of 300 links took 1.2 to 1.5 times as long, of 1000
+/// 1.6 to 2.2 times.
 inline constexpr std::size_t quotient_packs = 4;
 
 /// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
