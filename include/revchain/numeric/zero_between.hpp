@@ -31,6 +31,41 @@ T zero_between(T low, T high, const F& value_and_slope) {
     return x;
 }
 
+/// A zero of a function without a slope, whose values `at_low` and `at_high` have different signs:
+/// secants, the value at an end that stays halved (Illinois), and halving where three of them have
+/// not halved the bracket. A `value(x)` of 0 ends it: what is near enough may be returned as 0.
+/// The last x that `value` saw is within a rounding of the zero. Cost: about ten evaluations.
+template <Real T, class F>
+T zero_without_slope(T low, T high, T at_low, T at_high, const F& value) {
+    constexpr int most = 400;
+    using std::abs;
+    if (at_low == T(0)) return low;
+    if (at_high == T(0)) return high;
+    T x = low, width = high - low;
+    int stays = 0;  // the end that stayed in the last round, -1 or 1
+    for (int round = 1; round < most; ++round) {
+        T next = low - at_low * ((high - low) / (at_high - at_low));
+        const bool slow = round % 3 == 0 && high - low > width / T(2);
+        if (round % 3 == 0) width = high - low;
+        if (slow || !(next > low && next < high)) next = low + (high - low) / T(2);
+        const bool near = round > 1 && abs(next - x) <= epsilon<T>() / T(2) * abs(next);
+        if (near || !(next > low && next < high)) return next;
+        x = next;
+        const T here = value(x);
+        if (here == T(0)) return x;
+        if ((here < T(0)) == (at_low < T(0))) {
+            low = x, at_low = here;
+            if (stays == 1) at_high = at_high / T(2);
+            stays = 1;
+        } else {
+            high = x, at_high = here;
+            if (stays == -1) at_low = at_low / T(2);
+            stays = -1;
+        }
+    }
+    return x;
+}
+
 /// The zeros of a function that grows through one above the first, third, ... of `places` and falls through one above
 /// the others, each below the next place or `end`.
 template <class F>

@@ -3,6 +3,7 @@
 
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
+#include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -120,29 +121,20 @@ class BranchLine {
         return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
                          BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
     }
-    /// The point between two at which `value`, of a point, is 0: it has different signs at both. Bisection and
-    /// Illinois' rule along the chord.
+    /// The point between two at which `value`, of a point, is 0: it has different signs at both.
     template <class F>
     std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
         const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
-        double low = 0, high = 1, at_low = value(a), at_high = value(b);
-        std::optional<Point> best = std::abs(at_low) < std::abs(at_high) ? a : b;
-        double least = std::min(std::abs(at_low), std::abs(at_high));
-        for (int round = 0; round < 100 && least > 0; ++round) {
-            double w = low - at_low * (high - low) / (at_high - at_low);
-            if (round % 4 == 3 || !(w > low && w < high)) w = low + (high - low) / 2;
-            if (w == low || w == high) break;
-            const auto point = next_to(a.at + w * chord, direction, 2 * size(chord));
-            if (!point) return std::nullopt;
-            const double now = value(*point);
-            if (std::abs(now) <= least) least = std::abs(now), best = point;
-            if ((now < 0) == (at_low < 0)) {
-                low = w, at_low = now, at_high *= round % 4 == 3 ? 1.0 : 0.5;
-            } else {
-                high = w, at_high = now, at_low *= round % 4 == 3 ? 1.0 : 0.5;
-            }
-            if (high - low < 4e-16) break;
-        }
+        const double at_a = value(a), at_b = value(b);
+        std::optional<Point> best = std::abs(at_a) < std::abs(at_b) ? a : b;
+        double least = std::min(std::abs(at_a), std::abs(at_b));
+        if (least == 0) return best;
+        revchain::detail::zero_without_slope(0.0, 1.0, at_a, at_b, [&](double share) {
+            const auto point = next_to(a.at + share * chord, direction, 2 * size(chord));
+            const double now = point ? value(*point) : 0;
+            if (!point || std::abs(now) <= least) least = std::abs(now), best = point;
+            return now;
+        });
         return best;
     }
 

@@ -172,8 +172,8 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
 }
 
 /// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by
-/// the same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the
-/// height does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
+/// the same series with T = V. Method: the place of crossing j of a chain that goes on beyond its
+/// support falls as the height does: secants within a bracket. Accuracy: 4e-15 relative.
 /// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
 /// Throws InvalidArgument for a count below 1 or above 1e5.
 inline Vector<double> critical_heights(const ContinuousChain& chain, Index count) {

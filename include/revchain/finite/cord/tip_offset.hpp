@@ -84,30 +84,21 @@ inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_
     return {tip, law};
 }
 
-/// The height at which a falling or rising function of it is 0: from a height at which it is positive (or above all
-/// such) downwards, then the secant method on the logarithm of the ratio of the two, whatever the unit, within the
-/// bracket.
+/// The height at which a falling or rising function of it is 0: from a height at which it is
+/// positive (or above all such) downwards, then secants on the logarithm of the ratio of the two,
+/// whatever the unit, within the bracket.
 template <class F>
 double height_where(const F& excess, double from) {
     const auto value_at = [&](double x) { return excess(from * std::exp(x)); };
     double high = 0, low = high, at_high = value_at(0), at_low = at_high;
     for (int i = 0; i < 1000 && at_high < 0; ++i) low = high, at_low = at_high, high += 0.7, at_high = value_at(high);
     for (int i = 0; i < 1000 && at_low > 0; ++i) high = low, at_high = at_low, low -= 0.7, at_low = value_at(low);
-    double x = low;
-    for (int round = 0; round < 200 && high - low > 0; ++round) {
-        x = low - at_low * (high - low) / (at_high - at_low);
-        if (round % 3 == 2 || !(x > low && x < high)) x = low + (high - low) / 2;
+    const auto near = [&](double x) {
         const double value = value_at(x);
-        if (std::abs(value) <= 2 * epsilon<double>()) break;
-        if (value < 0) {
-            if (x == low) break;
-            low = x, at_low = value;
-        } else {
-            if (x == high) break;
-            high = x, at_high = value;
-        }
-    }
-    return from * std::exp(x);
+        return std::abs(value) <= 2 * epsilon<double>() ? 0.0 : value;
+    };
+    using revchain::detail::zero_without_slope;
+    return from * std::exp(zero_without_slope(low, high, at_low, at_high, near));
 }
 
 }  // namespace revchain::finite
