@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -34,7 +35,7 @@ T zero_between(T low, T high, const F& value_and_slope) {
 /// A zero of a function without a slope, whose values `at_low` and `at_high` have different signs:
 /// secants, the value at an end that stays halved (Illinois), and halving where three of them have
 /// not halved the bracket. A `value(x)` of 0 ends it: what is near enough may be returned as 0.
-/// The last x that `value` saw is within a rounding of the zero. Cost: about ten evaluations.
+/// The last x that `value` saw is within a rounding of the zero. Cost: 6 to 20 evaluations.
 template <Real T, class F>
 T zero_without_slope(T low, T high, T at_low, T at_high, const F& value) {
     constexpr int most = 400;
@@ -47,9 +48,11 @@ T zero_without_slope(T low, T high, T at_low, T at_high, const F& value) {
         T next = low - at_low * ((high - low) / (at_high - at_low));
         const bool slow = round % 3 == 0 && high - low > width / T(2);
         if (round % 3 == 0) width = high - low;
-        if (slow || !(next > low && next < high)) next = low + (high - low) / T(2);
-        const bool near = round > 1 && abs(next - x) <= epsilon<T>() / T(2) * abs(next);
-        if (near || !(next > low && next < high)) return next;
+        if (slow || !(next >= low && next <= high)) next = low + (high - low) / T(2);
+        // a rounding away from both ends, so that the zero is soon between two neighbours
+        const T least = epsilon<T>() * abs(next);
+        next = std::max(T(low + least), std::min(next, T(high - least)));
+        if (!(next > low && next < high)) return x;
         x = next;
         const T here = value(x);
         if (here == T(0)) return x;

@@ -202,8 +202,8 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends
 /// Newton's method on the forces at the lower end, their height kept, until the upper end has the
 /// rise wanted; returns whether it got there. `sweep(forces)` returns the upper end. Steps are
 /// compared with the forces before or after, the larger; those of the force across with it alone if
-/// shapes have mirror images, which its sign tells apart. A step below `enough` is the last, and so is one below `rounding` that has not shrunk to
-/// a quarter of the one before.
+/// shapes have mirror images, which its sign tells apart. A step below `enough` is the last, and so
+/// is one below `rounding` that has not shrunk to a quarter of the one before.
 template <class S, class Sweep>
 bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, double rounding, const Sweep& sweep) {
     const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
