@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/branch/continuation.hpp"
+#include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -68,31 +69,23 @@ struct WithinStep {
 
 namespace detail {
 
-/// Where, between two points of the step at which f has values of different signs, f(measured) vanishes: regula falsi
-/// with its stale end's weight halved (Illinois).
+/// Where f(measured) vanishes between two points of the step at which its signs differ.
 template <class Measure, class F>
 std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
                                     double at_low, double at_high, double tolerance) {
     std::optional<WithinStep> best;
-    int side = 0;
-    for (int round = 0; round < 60; ++round) {
-        double share = (low * at_high - high * at_low) / (at_high - at_low);
-        if (!(share > low && share < high)) share = low + (high - low) / 2;
+    const auto value_at = [&](double share) {
         auto point = walk.within(share);
-        if (!point) return best;
+        if (!point) return std::numeric_limits<double>::quiet_NaN();
         const double value = f(measure(*point));
         best = WithinStep{share, std::move(*point)};
-        if (std::abs(value) <= tolerance || high - low < 1e-12) return best;
-        if ((value > 0) == (at_low > 0)) {
-            low = share, at_low = value;
-            if (side == -1) at_high /= 2;
-            side = -1;
-        } else {
-            high = share, at_high = value;
-            if (side == 1) at_low /= 2;
-            side = 1;
-        }
-    }
+        return value;
+    };
+    if (at_high == 0)
+        value_at(high);
+    else
+        zero_between(revchain::detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
+                     {.width = 2e-16, .value = tolerance});
     return best;
 }
 

@@ -7,7 +7,6 @@
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/enclosed_diagram.hpp"
 #include "revchain/finite/shapes/isolation.hpp"
-#include "revchain/numeric/progress.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -62,25 +61,21 @@ class DiagramProver {
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
+        const auto spent = [&] { return proof.rectangles >= budget_; };
+        const auto open = [&](const Rectangle& part) { leave_open(proof, part); };
+        const auto visit = [&](const std::vector<Rectangle>& parts, const auto& wait) {
+            const auto y = offsets_over(parts);
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                if (settled(parts[i], y[i], proof, known)) continue;
+                if (!split(parts[i], y[i], wait)) open(parts[i]);
+            }
+        };
         const int slabs = std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
         for (int i = 0; i < slabs; ++i) {
             const double share = 1.0 / slabs, high = highest * std::pow(lowest / highest, i * share),
                          low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
-            stack_.push_back({0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)});
-            while (!stack_.empty()) {
-                revchain::detail::look();
-                if (proof.rectangles >= budget_) {
-                    leave_open(proof, {0, 0, lowest, high});
-                    return proof;
-                }
-                std::array<Rectangle, batch> parts;
-                const std::size_t count = std::min(batch, stack_.size());
-                std::copy_n(stack_.rbegin(), count, parts.begin());
-                stack_.resize(stack_.size() - count);
-                const auto y = offsets_over(parts, count);
-                for (std::size_t each = 0; each < count; ++each)
-                    if (!settled(parts[each], y[each], proof, known)) leave_open(proof, parts[each]);
-            }
+            const Rectangle slab{0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)};
+            detail::each_cell<batch>(std::deque{slab}, spent, visit, open);
         }
         return proof;
     }
@@ -94,7 +89,7 @@ class DiagramProver {
         proof.complete = false;
     }
 
-    /// Whether nothing is left to show there but in the parts it was split into.
+    /// Whether nothing is left to show there.
     template <class Known>
     bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
@@ -102,17 +97,19 @@ class DiagramProver {
         if ((!from_zero && !y.value.may_vanish()) || !y.slope[0].may_vanish()) return true;
         if (const auto graph = graph_over(part, y, proof)) {
             if (from_zero) return true;
-            const double middle = part.x().middle();
-            const int low = sign(middle, graph->height_low), high = sign(middle, graph->height_high);
-            if (low * high == 1) return true;  // no zero in it
-            if (low * high == -1 && known(zero_at(middle, *graph, low), *graph)) return true;
+            const double x = part.x().middle();
+            const auto low = diagram_.at(x, graph->height_low);
+            const auto high = diagram_.at(x, graph->height_high);
+            const int signs = low.sign() * high.sign();
+            if (signs == 1) return true;  // no zero in it
+            if (signs == -1 && known(zero_at(x, *graph, low, high), *graph)) return true;
         }
-        return split(part, y);
+        return false;
     }
     /// Over several rectangles, side by side in registers; those of the compiler's flags, as `over` is not inlined: in
     /// a portable build code for AVX-512 or AVX2 at run time took 4 times as long.
-    std::array<Taylor<double, 2>, batch> offsets_over(const std::array<Rectangle, batch>& parts,
-                                                      std::size_t count) const {
+    std::array<Taylor<double, 2>, batch> offsets_over(const std::vector<Rectangle>& parts) const {
+        const std::size_t count = parts.size();
         if (diagram_.spins()) {
             std::array<Taylor<double, 2>, batch> result;
             for (std::size_t i = 0; i < count; ++i)
@@ -146,8 +143,7 @@ class DiagramProver {
             return result;
         });
     }
-    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}, 1).front(); }
-    int sign(double x, double height) const { return diagram_.sign(x, height); }
+    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}).front(); }
     bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
     /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
@@ -170,20 +166,21 @@ class DiagramProver {
         return beyond;
     }
 
-    /// Where on the line through x the offset vanishes.
-    DiagramPoint zero_at(double x, const Rectangle& within, int low_sign) const {
-        double low = within.height_low, high = within.height_high;
-        for (int round = 0; round < 60; ++round) {
-            const double middle = low + (high - low) / 2;
-            const int there = sign(x, middle);
-            if (there == 0) return {x, middle};
-            (there == low_sign ? low : high) = middle;
-        }
-        return {x, low + (high - low) / 2};
+    /// Where on the line through x the offset vanishes, to rounding.
+    DiagramPoint zero_at(double x, const Rectangle& within, const Interval<double>& at_low,
+                         const Interval<double>& at_high) const {
+        const auto value = [&](double height) {
+            const Interval<double> y = diagram_.at(x, height);
+            return y.may_vanish() ? 0.0 : y.middle();
+        };
+        const revchain::detail::SignChange<double> ends{{within.height_low, at_low.middle()},
+                                                        {within.height_high, at_high.middle()}};
+        return {x, zero_between(ends, value)};
     }
 
     /// Across the direction in which y_x varies the more; false where that would show no more.
-    bool split(const Rectangle& part, const Taylor<double, 2>& y) {
+    template <class Wait>
+    bool split(const Rectangle& part, const Taylor<double, 2>& y, const Wait& wait) {
         const bool from_zero = goes_to_vertical(part), at_zero = part.low == 0;
         const double width = part.high - part.low, height = part.height_high - part.height_low;
         double by_x = y.bend[0].size() * width, by_height = y.bend[1].size() * height;
@@ -199,14 +196,13 @@ class DiagramProver {
             first.high = second.low = cutting_.between(part.low, part.high);
         else
             first.height_high = second.height_low = part.height_low + cutting_.share() * height;
-        stack_.push_back(first);
-        stack_.push_back(second);
+        wait(first);
+        wait(second);
         return true;
     }
 
     EnclosedDiagram diagram_;
     long budget_;
-    std::vector<Rectangle> stack_;
     detail::Cutting<double> cutting_;
 };
 

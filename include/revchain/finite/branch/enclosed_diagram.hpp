@@ -52,11 +52,11 @@ class EnclosedDiagram {
             slackest[m].pull.low = std::min(slackest[m].pull.low, links_[m].pull.low);
         return height * farthest_tangent(slackest, lambda, false, held_at(lambda));
     }
-    /// The sign of the function; 0 where rounding leaves it open.
-    int sign(double x, double height) const {
+    /// The function at a point.
+    Interval<double> at(double x, double height) const {
         const Interval<double> lambda(height);
-        if (kept_.spin.empty()) return signed_offset(links_, x, lambda);
-        return signed_offset(links_at(lambda), x, lambda);
+        if (kept_.spin.empty()) return offset(links_, x, lambda);
+        return offset(links_at(lambda), x, lambda);
     }
     /// The state of a shape at a point.
     BranchState state_at(const DiagramPoint& at) const {
@@ -98,8 +98,8 @@ class EnclosedDiagram {
                 stiffness,      carriage_,
                 is_symmetric(), firm_};
     }
-    int signed_offset(const EnclosedLinks<double>& links, double x, const Interval<double>& lambda) const {
-        return detail::support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda)).sign();
+    Interval<double> offset(const EnclosedLinks<double>& links, double x, const Interval<double>& lambda) const {
+        return detail::support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
     }
     template <class T>
     [[gnu::always_inline]] static Interval<T> spread(const Interval<double>& x) {

@@ -27,43 +27,21 @@ using HeldBranch = HeldBranchOf<HeldShape>;
 
 namespace finite {
 
-/// Newton's method on the force along and the height, that across and the span kept.
+/// Where the height turns between two states of a branch.
 template <class System>
-std::optional<HeldState> at_across(System& held, double across, HeldState state) {
-    state.forces.across = across;
-    for (int round = 0; round < 20; ++round) {
-        const HeldEnd<double> end = held(state.forces, true);
-        if (!end.known) return {};
-        const auto &y = end.offset_change, &z = end.rise_change;
-        const double gap = end.rise - state.span, determinant = y[1] * z[2] - y[2] * z[1];
-        const double along = (z[2] * end.offset - y[2] * gap) / determinant,
-                     height = (y[1] * gap - z[1] * end.offset) / determinant;
-        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) + std::abs(across);
-        if (!(size < whole)) return {};
-        state.forces.along -= along, state.forces.height -= height;
-        if (size < 1e-14 * whole) return state;
-    }
-    return state;
-}
-
-/// Where the height turns between two states of a branch, by halving the force across.
-template <class System>
-std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& middle,
-                                      const HeldState& to) {
+std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& to) {
     const auto turning = [&](const HeldState& x) {
         const HeldEnd<double> end = held(x.forces, true);
         return end.offset_change[0] * end.rise_change[1] - end.offset_change[1] * end.rise_change[0];
     };
-    double low = from.forces.across, high = to.forces.across;
-    const double start = turning(from);
-    if (!(start * turning(to) < 0) || !((middle.forces.across - low) * (high - middle.forces.across) > 0)) return {};
-    HeldState best = middle;
-    for (int round = 0; round < 60 && std::abs(high - low) > 1e-15 * std::abs(high); ++round) {
-        const auto here = at_across(held, low + (high - low) / 2, best);
-        if (!here) return {};
-        (turning(*here) * start > 0 ? low : high) = here->forces.across;
-        best = *here;
-    }
+    const double at_low = turning(from), at_high = turning(to);
+    if (!(at_low * at_high < 0)) return {};
+    std::optional<HeldState> best;
+    const auto at = [&](double share) {
+        best = held.curve().across_chord(from, to, share);
+        return best ? turning(*best) : std::numeric_limits<double>::quiet_NaN();
+    };
+    zero_between(revchain::detail::SignChange<double>{{0, at_low}, {1, at_high}}, at, {.width = 2e-16});
     return best;
 }
 
@@ -105,7 +83,7 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
         if (i == 0 || i + 1 >= states.size()) continue;
         const auto height_of = [&](std::size_t k) { return states[k].forces.height; };
         if (!((height_of(i) - height_of(i - 1)) * (height_of(i + 1) - height_of(i)) < 0)) continue;
-        if (const auto fold = fold_between(held, states[i - 1], states[i], states[i + 1])) {
+        if (const auto fold = fold_between(held, states[i - 1], states[i + 1])) {
             branch.folds.push_back(static_cast<Index>(branch.shapes.size()) - 1);
             branch.shapes.back() = describe(*fold, true);
         }

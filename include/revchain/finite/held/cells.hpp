@@ -369,25 +369,12 @@ class HeldCells : public HeldBounds {
                                   V.middle() / std::hypot(R.middle(), V.middle())};
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
             if (!(detail::settle(near, R.middle(), V.middle(), way) > 0)) return result;
-            const Span size = sqrt(square(Span(way.sine)) + square(Span(way.cosine)));
-            const Span s = Span(way.sine) / size, c = Span(way.cosine) / size;
-            const Span left = V * s + turning * s * c - R * c;
-            Span growth = V * c + turning * (square(c) - square(s)) + R * s, sine, cosine;
+            Direction<Span> all;
+            const Span growth = detail::settle_near(link, R, V, way, all);
             if (!growth.positive()) return result;
-            double reach = 1.1 * left.size() / growth.low + 1e-15;
-            bool met = false;
-            for (int round = 0; round < 6 && !met; ++round, reach *= 1.5) {
-                if (!(reach < 0.5)) return result;
-                const Span within(-reach, reach);
-                sine = s + within, cosine = c + within;
-                growth = V * cosine + turning * (square(cosine) - square(sine)) + R * sine;
-                met = growth.positive() && (left / growth).size() < reach;
-            }
-            if (!met) return result;
-            cosine = common(cosine, Span(-1.0, 1.0));
-            result.cosine = cosine, result.growth = growth;
-            result.pull = sqrt(square(V + turning * cosine) + square(R));
-            result.growth = common(growth, result.pull - turning * square(sine));
+            result.cosine = common(all.cosine, Span(-1.0, 1.0));
+            result.pull = sqrt(square(V + turning * result.cosine) + square(R));
+            result.growth = common(growth, result.pull - turning * square(all.sine));
             if (!result.pull.positive() || !result.growth.positive()) return result;
         }
         result.sine = r / result.pull;

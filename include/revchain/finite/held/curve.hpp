@@ -5,6 +5,7 @@
 
 #include "revchain/finite/held/sweep.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -34,23 +35,10 @@ class HeldCurve {
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
         revchain::detail::look();
-        double last = std::numeric_limits<double>::infinity();
-        for (int round = 0; round < 25; ++round) {
-            const HeldEnd<double> end = (*shooter_)(state.forces, false);
-            if (!end.known) return {};
-            const auto [across, along] = end.forces_to_move(-end.offset, state.span - end.rise);
-            const double whole = std::abs(state.forces.along) + std::abs(state.forces.across);
-            const double size =
-                std::abs(across) / (has_image(state) ? std::abs(state.forces.across) : whole) + std::abs(along) / whole;
-            if (!(size < 1)) return {};
-            state.forces.across += across, state.forces.along += along;
-            if (size < 1e-13 || (size < 1e-7 && size > 0.25 * last)) {
-                (*shooter_)(state.forces, true);
-                return state;
-            }
-            last = size;
-        }
-        return {};
+        const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
+        if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
+        (*shooter_)(state.forces, true);
+        return state;
     }
 
     /// The state at a span and a height: from the nearly straight system without gravity the ends are drawn together,
@@ -106,6 +94,21 @@ class HeldCurve {
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
         step_along<Third::height>(from, true, visit, max_step);
     }
+    /// The state in the plane across the chord of two of them, at a share of it.
+    std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to, double share) {
+        constexpr Third height = Third::height;
+        const Triple scale = scales<height>(from);
+        const HeldForces<double>&a = from.forces, &b = to.forces;
+        const Triple chord{b.across - a.across, b.along - a.along, b.height - a.height};
+        const Triple scaled = chord.cwiseQuotient(scale);
+        const double step = share * scaled.norm();
+        HeldState at;
+        HeldEnd<double> end;
+        int rounds = 0;
+        if (!correct<height>(from, scale, unit(scaled), step, at, end, rounds)) return {};
+        (*shooter_)(at.forces, true);
+        return at;
+    }
     /// The first of them at which `off`, a number of a state, is 0.
     template <class Off>
     std::optional<HeldState> first_where(const HeldState& from, const Off& off) {
@@ -116,14 +119,11 @@ class HeldCurve {
             const auto there = shooter_->kept();
             const double here = off(state);
             if (here * was < 0) {
-                HeldState low = before, high = state;
-                for (int round = 0; round < 60; ++round) {
-                    HeldState guess = mixed(low, high, 0.5);
-                    guess.forces.height = low.forces.height + (high.forces.height - low.forces.height) / 2;
-                    met = corrected(guess);
-                    if (!met) break;
-                    (off(*met) * was > 0 ? low : high) = *met;
-                }
+                const auto at = [&](double share) {
+                    met = across_chord(before, state, share);
+                    return met ? off(*met) : std::numeric_limits<double>::quiet_NaN();
+                };
+                zero_between(revchain::detail::SignChange<double>{{0, was}, {1, here}}, at, {.width = 2e-16});
                 if (met) return false;
                 shooter_->keep(there);
             }
@@ -155,18 +155,17 @@ class HeldCurve {
         if (!state) return {};
         return tense(*state, wanted);
     }
-    /// The state between two at which the top tension is as wanted, by secants that keep a bracket.
+    /// The state between two at which the top tension is as wanted.
     template <class Visit>
-    void between(Tense a, Tense b, double wanted, Visit&& visit) {
+    void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         std::optional<Tense> best;
-        for (int round = 0; round < 80; ++round) {
-            best = at_share(a, b, round % 3 == 2 ? 0.5 : a.off / (a.off - b.off), wanted);
-            if (!best) return;
-            if (std::abs(best->off) <= 1e-16 * wanted || std::abs(b.state.span - a.state.span) <= 1e-16 * length_)
-                break;
-            (best->off * a.off < 0 ? b : a) = *best;
-        }
-        visit(best->state);
+        const auto at = [&](double share) {
+            best = at_share(a, b, share, wanted);
+            return best ? best->off : std::numeric_limits<double>::quiet_NaN();
+        };
+        zero_between(revchain::detail::SignChange<double>{{0, a.off}, {1, b.off}}, at,
+                     {.width = 2e-16, .value = 1e-16 * wanted});
+        if (best) visit(best->state);
     }
     /// A state between two on the other side of the tension wanted, where it is nearest to it.
     std::optional<Tense> crossed(Tense a, Tense b, double wanted) {

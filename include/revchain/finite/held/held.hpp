@@ -101,19 +101,8 @@ class HeldChain {
             forces.across = -forces.across;
             for (Direction<S>& d : direction) d.sine = -d.sine;
         }
-        double last = std::numeric_limits<double>::infinity();
-        for (int round = 0; round < 30; ++round) {
-            const HeldEnd<S> end = held_sweep(wide_.links, held, forces, direction);
-            if (!end.known) return {};
-            const auto [across, along] = end.forces_to_move(-end.offset, span - end.rise);
-            forces.across = forces.across + across, forces.along = forces.along + along;
-            const double size =
-                (std::abs(static_cast<double>(across)) + std::abs(static_cast<double>(along))) / pull_of(forces);
-            if (!(size < 1)) return {};
-            if (size < 1e-29 || (size < 1e-18 && size > 0.25 * last)) break;
-            if (round == 29) return {};
-            last = size;
-        }
+        const auto sweep = [&](const HeldForces<S>& at) { return held_sweep(wide_.links, held, at, direction); };
+        if (!meet(forces, span, mirrored(), 1e-29, 1e-18, sweep)) return {};
         HeldShape shape = described(wide_, held, forces, span, direction);
         if (prove) {
             std::vector<Direction<Far>> found;
@@ -146,32 +135,22 @@ class HeldChain {
         if (held_sweep<2>(links_, ends(forces.height), forces, settle).known) kept_ = drawn;
     }
 
-    /// Newton's method on the two forces: a state whose tension at the upper end, times the height, is `wanted`.
+    /// A state near the forces given whose tension at the upper end, times the height, is `wanted`.
     std::optional<HeldState> under(HeldForces<double> forces, double wanted) {
-        for (int round = 0; round < 20; ++round) {
-            const HeldEnd<double> end = (*this)(forces, true);
-            const double along = forces.along + forces.height * static_cast<double>(weight_),
-                         force = std::hypot(end.across, along), y = end.offset, over = force - wanted;
-            if (!end.known) return {};
-            const double a = end.offset_change[0], b = end.offset_change[1],
-                         c = end.across_change[0] * end.across / force,
-                         d = (end.across_change[1] * end.across + along) / force, determinant = a * d - b * c;
-            const double across = (d * y - b * over) / determinant, down = (a * over - c * y) / determinant;
-            if (!(std::abs(across) + std::abs(down) < 0.5 * pull_of(forces))) return {};
-            forces.across -= across, forces.along -= down;
-            if (std::abs(across) + std::abs(down) < 1e-15 * force) return HeldState{forces, end.rise};
-        }
+        const auto sweep = [&](const HeldForces<double>& at) {
+            HeldEnd<double> end = (*this)(at, true);
+            const double along = at.along + at.height * static_cast<double>(weight_);
+            end.rise = std::hypot(end.across, along);  // the tension in place of the rise
+            end.rise_change[0] = end.across_change[0] * end.across / end.rise;
+            end.rise_change[1] = (end.across_change[1] * end.across + along) / end.rise;
+            return end;
+        };
+        if (!meet(forces, wanted, mirrored(), 1e-15, 1e-12, sweep)) return {};
         return HeldState{forces, (*this)(forces, true).rise};
     }
 
    private:
     void straighten() { kept_.assign(links_.size(), {0.0, 1.0}); }
-    /// What steps of Newton's method are compared with. Mirror images are apart by the force across.
-    template <class T>
-    double pull_of(const HeldForces<T>& forces) const {
-        const double across = std::abs(static_cast<double>(forces.across));
-        return mirrored() ? across : across + std::abs(static_cast<double>(forces.along));
-    }
 
     Links<S> wide_;
     std::vector<Link<double>> links_;

@@ -15,27 +15,14 @@ inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.
 /// inclination, which is not positive where the link may be slack or settle elsewhere.
 inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
-    const Span unknown(Far(0));
     if (is_zero(link.cross)) {
         const Span sum = square(R) + square(V);
-        if (!sum.positive()) return unknown;
+        if (!sum.positive()) return Span(Far(0));
         const Span pull = sqrt(sum);
         way = {R / pull, V / pull};
         return pull;
     }
-    // Newton's method in intervals, the inclination within `reach` of that found
-    const Span size = sqrt(square(Span(found.sine)) + square(Span(found.cosine)));
-    const Span s = Span(found.sine) / size, c = Span(found.cosine) / size, turn = link.length * link.cross;
-    const Span left = V * s + turn * s * c - R * c;
-    double reach = 1e-28;
-    for (int round = 0; round < 60; ++round, reach *= 8) {
-        const Span within(Far(-reach), Far(reach));
-        way = {s + within, c + within};
-        const Span growth = V * way.cosine + turn * (square(way.cosine) - square(way.sine)) + R * way.sine;
-        if (!growth.positive()) return unknown;
-        if (largest(left / growth) < reach) return growth;
-    }
-    return unknown;
+    return settle_near(link, R, V, found, way);
 }
 
 /// Encloses the upper end for forces at the lower end up to `radius` from those of a state, `found` the directions
@@ -49,23 +36,23 @@ inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& li
         return Span(revchain::detail::down(Far(forces[i] - off)), revchain::detail::up(Far(forces[i] + off)));
     };
     double turned = 0;
-    const auto settle_near = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
+    const auto settle_link = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
         const Span growth = settle(links[m], R, V, found[m], way);
         const double turn = largest(way.sine * Span(found[m].cosine) - way.cosine * Span(found[m].sine));
         if (!(turn < 1)) return Span(Far(0));
         turned = std::max(turned, turn);
         return growth;
     };
-    const auto end = held_sweep<2>(links, ends, {about(0), about(1), height, Span(Far(1))}, settle_near);
+    const auto end = held_sweep<2>(links, ends, {about(0), about(1), height, Span(Far(1))}, settle_link);
     return {end, turned};
 }
 
 }  // namespace detail
 
 /// The largest turn of a link, rad, that separates directions found from those of a steady shape with its ends held as
-/// given, `span` apart, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
-/// (doi:10.1007/ BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for
-/// each half wave.
+/// given, `span` apart, there being one and one alone so near: Krawczyk's test on the two forces at
+/// the lower end (doi:10.1007/BF02234767). Infinite where it decides nothing: intervals grow along
+/// the chain by e^pi, about, for each half wave.
 inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interval<Far>>& ends,
                          const Interval<Far>& height, const Interval<Far>& span, const std::array<Far, 2>& forces,
                          const std::vector<Direction<Far>>& found) {

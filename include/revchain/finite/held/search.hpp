@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <deque>
 #include <optional>
 
 #include "revchain/finite/held/cells.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/finite/shapes/isolation.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -33,17 +31,12 @@ class HeldSearch {
     HeldRoots operator()() {
         const Span pulls = chain_.pulls();
         scale_ = pulls.high;
-        std::deque<HeldCell> open;  // large cells first, so that what is left undecided is small
-        for (const bool up : {false, true}) open.push_back({{pulls, Span(chain_.mirrored() ? 0.0 : -1.0, 1.0)}, up});
-        while (!open.empty()) {
-            const HeldCell cell = open.front();
-            open.pop_front();
-            if (budget_ <= 0) {
-                found_.undecided.push_back(cell);
-                continue;
-            }
-            look(cell, open);
-        }
+        const Span tangents(chain_.mirrored() ? 0.0 : -1.0, 1.0);
+        const std::deque<HeldCell> whole{{{pulls, tangents}, false}, {{pulls, tangents}, true}};
+        detail::each_cell<1, true>(
+            whole, [&] { return budget_ <= 0; },
+            [&](const std::vector<HeldCell>& one, const auto& wait) { visit(one[0], wait); },
+            [&](const HeldCell& cell) { found_.undecided.push_back(cell); });
         return found_;
     }
 
@@ -80,8 +73,8 @@ class HeldSearch {
         return result;
     }
 
-    void look(const HeldCell& cell, std::deque<HeldCell>& open) {
-        revchain::detail::look();
+    template <class Wait>
+    void visit(const HeldCell& cell, const Wait& wait) {
         const HeldReach reach = sweep(cell);
         if (reach.none) return;
         std::size_t widest = relative(cell, 0) > relative(cell, 1) ? 0 : 1;
@@ -100,7 +93,7 @@ class HeldSearch {
                 if (next->regular && isolated(HeldCell{next->at, cell.up})) return;
                 const HeldCell less{next->at, cell.up};
                 if (less.at[0].width() < 0.5 * cell.at[0].width() || less.at[1].width() < 0.5 * cell.at[1].width()) {
-                    open.push_back(less);
+                    wait(less);
                     return;
                 }
             }
@@ -112,7 +105,7 @@ class HeldSearch {
         HeldCell low = cell, high = cell;
         const double middle = cell.at[widest].middle();
         low.at[widest].high = high.at[widest].low = middle;
-        open.push_back(low), open.push_back(high);
+        wait(low), wait(high);
     }
 
     /// Whether a shape is found in a cell somewhat larger, alone there.

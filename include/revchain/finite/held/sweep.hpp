@@ -98,6 +98,28 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
     return S(0);
 }
 
+/// Encloses the direction of a link, no plummet, under the loads (R, V), within a little turn of
+/// one found for one of them: Newton's method in intervals. Returns the derivative as `settle`
+/// does. It is not positive where the link may be slack or settle elsewhere.
+template <Real T, class Span = Interval<T>>
+Span settle_near(const Link<Span>& link, const Span& R, const Span& V, const Direction<T>& found,
+                 Direction<Span>& direction) {
+    const Span turn = link.length * link.cross, sine(found.sine), cosine(found.cosine);
+    const Span size = sqrt(square(sine) + square(cosine)), s = sine / size, c = cosine / size;
+    const Span left = V * s + turn * s * c - R * c;
+    const auto growth_at = [&](const Direction<Span>& way) {
+        return V * way.cosine + turn * (square(way.cosine) - square(way.sine)) + R * way.sine;
+    };
+    Span growth = growth_at({s, c});
+    T reach = T(1.1) * left.size() / growth.low + T(4) * epsilon<T>();
+    for (; growth.positive() && reach < T(0.5); reach = T(1.5) * reach) {
+        direction = {s + Span(-reach, reach), c + Span(-reach, reach)};
+        growth = growth_at(direction);
+        if (growth.positive() && (left / growth).size() < reach) return growth;
+    }
+    return Span(T(0));
+}
+
 struct SeesNothing {
     template <class... Any>
     void operator()(std::size_t, const Any&...) const {}
@@ -175,6 +197,31 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends
         return growth;
     };
     return held_sweep<3>(links, ends, forces, settle, each);
+}
+
+/// Newton's method on the forces at the lower end, their height kept, until the upper end has the
+/// rise wanted; returns whether it got there. `sweep(forces)` returns the upper end. Steps are
+/// compared with the forces before or after, the larger; those of the force across with it alone if
+/// shapes have mirror images, which its sign tells apart. A step below `enough` is the last, and so
+/// is one below `rounding` that has not shrunk to a quarter of the one before.
+template <class S, class Sweep>
+bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, double rounding, const Sweep& sweep) {
+    const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
+    double last = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 30; ++round) {
+        const HeldEnd<S> end = sweep(forces);
+        if (!end.known) return false;
+        const auto [across, along] = end.forces_to_move(-end.offset, rise - end.rise);
+        const HeldForces<S> before = forces;
+        forces.across = forces.across + across, forces.along = forces.along + along;
+        const double own = std::max(size_of(before.across), size_of(forces.across)),
+                     whole = own + std::max(size_of(before.along), size_of(forces.along));
+        const double size = size_of(across) / (mirrored ? own : whole) + size_of(along) / whole;
+        if (!(size < 1)) return false;
+        if (size < enough || (size < rounding && size > 0.25 * last)) return true;
+        last = size;
+    }
+    return false;
 }
 
 /// The lowest link of a chain held at both ends, in intervals: lambda times the pull along it, and the tangent of half

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <deque>
 #include <optional>
 #include <random>
 
@@ -75,6 +77,27 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
+/// Looks at cells and at the parts they are split into until none waits, up to `batch` at once:
+/// those that came last first, so that few wait; or, with `large_first`, those that have waited
+/// longest, so that those left over are small. `visit(cells, wait)` settles each, leaves it open,
+/// or gives its parts to `wait`. Once `spent()` is true all that still wait go to `leave_open`.
+template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
+void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
+    std::vector<Cell> cells;
+    while (!waiting.empty()) {
+        revchain::detail::look();
+        cells.clear();
+        while (cells.size() < batch && !waiting.empty()) {
+            cells.push_back(large_first ? waiting.front() : waiting.back());
+            large_first ? waiting.pop_front() : waiting.pop_back();
+        }
+        if (spent())
+            std::for_each(cells.begin(), cells.end(), leave_open);
+        else
+            visit(cells, [&](const Cell& part) { waiting.push_back(part); });
+    }
+}
+
 /// State of a range of tangents: all its shapes are known; splitting it may decide more; rounding prevents more.
 enum class Seen { settled, open, ruled_by_rounding };
 
@@ -84,28 +107,20 @@ enum class Seen { settled, open, ruled_by_rounding };
 template <class T, class Classify, class LeaveOpen>
 long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
            const LeaveOpen& leave_open) {
-    std::vector<Bracket<T>> stack{whole};
     Cutting<T> cutting;
     long cells = 0;
-    while (!stack.empty()) {
-        revchain::detail::look();
-        const Bracket<T> part = stack.back();
-        stack.pop_back();
-        if (cells >= budget) {
-            leave_open(part);
-            continue;
-        }
+    const auto visit = [&](const std::vector<Bracket<T>>& one, const auto& wait) {
+        const Bracket<T>& part = one.front();
         ++cells;
         const Seen seen = classify(part, cells);
-        if (seen == Seen::settled) continue;
+        if (seen == Seen::settled) return;
         const auto cut = cutting.between(part.low, part.high, narrowest, last);
-        if (!cut || seen == Seen::ruled_by_rounding) {
-            leave_open(part);
-            continue;
-        }
-        stack.push_back({*cut, part.high});
-        stack.push_back({part.low, *cut});
-    }
+        if (!cut || seen == Seen::ruled_by_rounding) return leave_open(part);
+        wait({*cut, part.high});
+        wait({part.low, *cut});
+    };
+    each_cell(
+        std::deque{whole}, [&] { return cells >= budget; }, visit, leave_open);
     return cells;
 }
 

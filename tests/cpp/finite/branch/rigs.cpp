@@ -130,7 +130,7 @@ TEST_CASE("rigs: the function of the diagram's proof and its derivatives stay wi
             CHECK(holds(y.bend[0], (right - 2 * here + left) / (dx * dx), dx * dx));
             CHECK(holds(y.bend[2], (above - 2 * here + below) / (dh * dh), dh * dh));
             CHECK(holds(y.bend[1], (f(1, 1) - f(1, -1) - f(-1, 1) + f(-1, -1)) / (4 * dx * dh), dx * dh));
-            const int sign = diagram.sign(static_cast<double>(x), static_cast<double>(h));
+            const int sign = diagram.at(static_cast<double>(x), static_cast<double>(h)).sign();
             const Quad there =
                 miss(system, diagram.is_symmetric() ? 1 : side, static_cast<double>(x), static_cast<double>(h));
             CHECK((sign == 0 || (sign > 0) == (there > 0)));
