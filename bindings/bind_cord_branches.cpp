@@ -21,7 +21,7 @@ py::array array_of(const std::vector<From>& values) {
 std::vector<revchain::CordShape> on_branch(const Cord& cord, Index mode, const std::string& name, double value,
                                            double gravity, std::optional<double> lowest, bool all) {
     const py::gil_scoped_release release;
-    revchain::SteadyShapeOptions options{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
+    revchain::OnBranchOptions options{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
     if (name == "conical_height") options.conical_height = value;
     if (name == "angular_speed") options.angular_speed = value;
     if (name == "tip_inclination") options.tip_inclination = value;

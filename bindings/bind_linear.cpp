@@ -164,8 +164,14 @@ FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> c
                       std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
                       std::optional<double> rtol, revchain::Progress* progress, double gravity) {
     const Asked asked{first, count, conical_height, angular_speed, rtol, false, revchain::ModesMethod::automatic};
-    auto options = asked.options<double>(progress);
-    options.gravity = gravity;
+    const auto as_hung = asked.options<double>(progress);
+    const revchain::StraightModesOptions options{.first = first,
+                                                 .count = as_hung.count,
+                                                 .conical_height = as_hung.conical_height,
+                                                 .angular_speed = as_hung.angular_speed,
+                                                 .rtol = rtol,
+                                                 .gravity = gravity,
+                                                 .progress = progress};
     return {without_lock([&] { return revchain::modes(held, options); }), false};
 }
 

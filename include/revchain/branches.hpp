@@ -106,7 +106,6 @@ struct BranchOptions {
     std::size_t max_points = 10'000;
     double max_step = 0.1;  ///< along the arc
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed by its arc through every fold until it
@@ -123,6 +122,17 @@ struct BranchOptions {
 /// is given, positive and finite, and for a height that is not below that of the mode.
 Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
+/// The same of a rig.
+struct RigBranchOptions {
+    Index mode = 1;  ///< among those in the direction of rotation
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s
+    std::size_t max_points = 10'000;
+    double max_step = 0.1;
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+};
+
 /// The branch of a mode of a rig, or, where its support is off the axis, the branch from rest.
 ///
 /// With the support on the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no shape
@@ -134,10 +144,10 @@ Branch branch(const Chain<double>& chain, const BranchOptions& options);
 /// link.
 /// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
 /// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
-Branch branch(const Rig& rig, const BranchOptions& options);
+Branch branch(const Rig& rig, const RigBranchOptions& options);
 
 /// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
-struct BranchesOptions {
+struct DiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
     std::size_t max_points = 10'000;            ///< of each branch
@@ -146,7 +156,6 @@ struct BranchesOptions {
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
     long proof_budget = 1'000'000;  ///< of the proof that no branch is missing: link evaluations, 0.1 to 1 us each
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// All branches found above one conical height.
@@ -178,7 +187,20 @@ struct Branches {
 /// with SSE2 up to twice as long).
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and for `lists` below
 /// 1.
-Branches branches(const Chain<double>& chain, const BranchesOptions& options);
+Branches branches(const Chain<double>& chain, const DiagramOptions& options);
+
+/// The same of a rig.
+struct RigDiagramOptions {
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s
+    std::size_t max_points = 10'000;
+    double max_step = 0.1;
+    int lists = 16;
+    long budget = 3'000'000;
+    long proof_budget = 1'000'000;
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+};
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or where its support is off the axis the
 /// one from rest, and those born in folds. Method and proof are those of chains.
@@ -189,10 +211,10 @@ Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 /// frame is convex. A spring cannot hold the rig where its stiffness times the conical height is less than the weight
 /// that moves: at such heights the diagram is not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
-Branches branches(const Rig& rig, const BranchesOptions& options);
+Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
 /// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
-struct SteadyShapeOptions {
+struct OnBranchOptions {
     Index mode = 1;  ///< at which the branch leaves the vertical
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};    ///< rad/s, with `gravity`
@@ -200,11 +222,25 @@ struct SteadyShapeOptions {
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< size of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
     /// Lowest conical height searched. Absent: 1e-6 of the mode's height, or half of the given height (or g/n^2).
     std::optional<double> min_conical_height{};
-    std::size_t max_shapes = std::numeric_limits<std::size_t>::max();  ///< of `shapes_on_branch`
 };
+
+/// The same of a rig.
+struct RigOnBranchOptions {
+    Index mode = 1;  ///< among those in the direction of rotation
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};  ///< rad/s, positive in both directions
+    std::optional<double> tip_inclination{};
+    std::optional<double> tip_radius{};
+    std::optional<double> top_tension{};
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+    std::optional<double> min_conical_height{};
+};
+
+/// As a number of shapes: all there are.
+inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
 /// States of one branch, in the order of its arc.
 struct ShapesOnBranch {
@@ -227,7 +263,7 @@ struct ShapesOnBranch {
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one number is given, for
 /// one out of its range (`tip_radius` below the length, `top_tension` above the weight), for a `min_conical_height` not
 /// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
-SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
+SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
 /// The first shape along a branch of a rig at which one number is as given. With the support on the axis, `mode` is a
 /// mode of the rig. Off the axis it must be 1: the branch from rest, followed from a ten-thousandth of the first
@@ -236,12 +272,13 @@ SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& o
 /// `tip_inclination` is the size of the lowest link's inclination, off the axis the inclination outwards; it is between
 /// pi/2 and pi if that link stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`.
 /// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
-SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options);
+SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
 /// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
-ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
-ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& options);
+ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
+                                std::size_t max_shapes = all_shapes);
+ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options, std::size_t max_shapes = all_shapes);
 
 }  // namespace revchain
 

@@ -5,7 +5,6 @@
 #include <variant>
 #include <vector>
 
-#include "revchain/explain.hpp"
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/cord/diagram.hpp"
 #include "revchain/finite/cord/shape_on_branch.hpp"
@@ -13,7 +12,6 @@
 #include "revchain/modes.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/system/cord.hpp"
-#include "revchain/tune.hpp"
 
 /// A perfectly flexible cord hung from one end: the continuous limit of a chain. It needs GSL.
 ///
@@ -77,10 +75,9 @@ struct CordModes {
 /// number, with series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for
-/// modes above number 1e5 with series, and for a density too rough or a tip too heavy for the series. `method` and
-/// `other` of the options have no effect.
-CordModes modes(const Cord& cord, const ModesOptions<double>& options = {});
+/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for modes above number
+/// 1e5 with series, and for a density too rough or a tip too heavy for the series.
+CordModes modes(const Cord& cord, const StraightModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on
 /// either side. Cost: that of some 40 modes, with series one path.
@@ -96,7 +93,7 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options);
 /// Offsets are within 1e-15 times the mode number of the largest one. Cost: as of a cord with a tip weight.
 /// Throws InvalidArgument for a span, for a tension that does not exceed the weight (the cord would not be straight),
 /// and as for a cord that hangs.
-CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
+CordModes modes(const Held<Cord>& held, const StraightModesOptions& options = {});
 Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// d(conical height)/d(datum) of each mode, (k,), with all other data constant. For speeds dn = -n/(2 lambda) d lambda.
@@ -129,6 +126,16 @@ CordSensitivity sensitivity(const CordModes& modes);
 /// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
 CordBranch branch(const Cord& cord, const BranchOptions& options);
 
+/// How far to follow all branches of a cord. Give either `min_conical_height` or `max_angular_speed`.
+struct CordDiagramOptions {
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
+    std::size_t max_points = 10'000;            ///< of each branch
+    double max_step = 0.1;                      ///< along the arc
+    int lists = 16;  ///< number of heights, evenly spaced in the logarithm, with a list of shapes
+    double gravity = conical_pendulum::standard_gravity;
+};
+
 /// The whole diagram of branches down to the conical height or speed given: those of the modes, and isolated ones.
 ///
 /// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes (`steady_shapes`) at `lists`
@@ -136,7 +143,7 @@ CordBranch branch(const Cord& cord, const BranchOptions& options);
 /// both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
 /// uniform cord, a power s^p without a tip or with p below 0, and one mode.
 /// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
-CordBranches branches(const Cord& cord, const BranchesOptions& options);
+CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
 /// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
 /// tip radius or top tension.
@@ -145,11 +152,12 @@ CordBranches branches(const Cord& cord, const BranchesOptions& options);
 /// the given one, or within 1e-14 of the one at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of
 /// the branch up to there.
 /// Throws InvalidArgument as `steady_shape` of a chain does.
-CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
+CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, at most `max_shapes` of them. It returns none, and does
 /// not throw, where the number is not met. Otherwise as `steady_shape`.
-CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options);
+CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
+                                    std::size_t max_shapes = all_shapes);
 
 /// The stability of a steady shape of a cord that hangs.
 ///
@@ -208,11 +216,6 @@ struct CordSwing {
 /// Throws InvalidArgument for starts that are not finite, continuous, of the length of `arc_length`, or 0 at the
 /// support, for places out of order, a count below 1 or above 1e4, gravity not positive and times not finite.
 CordSwing swing(const Cord& cord, const CordSwingOptions& options);
-
-/// Throw InvalidArgument: the C++ library does not answer these questions about a cord yet. The message says what to
-/// call instead. The Python function `tune` tunes a cord.
-Tuned tune(const Cord& cord, const TuneOptions& options);
-Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 
 }  // namespace revchain
 

@@ -46,12 +46,22 @@ struct ModesOptions {
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
     std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
     bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
-    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed, and for all speeds of rigs
-    bool other = true;                                  ///< rigs: also find `RigModes::other`
+    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed
     Index threads = 1;                                  ///< for heights and shapes; 0: all processors
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
+};
+
+/// Which modes of a cord, or of a chain held straight at both ends: as in `ModesOptions`. There is one method.
+struct StraightModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and for what is held weightless
+    Progress* progress = nullptr;
 };
 
 /// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them. For mode k,

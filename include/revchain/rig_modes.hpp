@@ -20,6 +20,21 @@
 ///     m.forward.shape(0);              // offsets of the pins, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to each direction of
+/// rotation, a window of speeds to |n|; mode numbers beyond those available give no modes.
+struct RigModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
+    bool certify = false;                                 ///< also return `WhirlModes::certificate`
+    double gravity = conical_pendulum::standard_gravity;  ///< for all speeds
+    bool other = true;                                    ///< also find `RigModes::other`
+    Index threads = 1;                                    ///< for heights and shapes; 0: all processors
+    Progress* progress = nullptr;                         ///< read and cancelled from another thread
+};
+
 /// Whirl modes of a rig in one direction of rotation, slowest first. Mode k of `available` is at index k - first.
 struct WhirlModes {
     Index first = 1;
@@ -73,9 +88,7 @@ struct RigModes {
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
 /// flywheels. The radius of a support that is carried round has no effect.
 ///
-/// Options mean what they do for a chain. With momentum `first`, `count` and windows apply to each direction, a window
-/// of speeds to |n|; mode numbers beyond those available give no modes. Speeds are found to full accuracy,
-/// whatever `rtol`; `method` is ignored.
+/// Speeds are found to full accuracy, whatever `rtol`.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
 /// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
@@ -91,7 +104,7 @@ struct RigModes {
 /// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers
 /// together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
 /// status `tolerance_not_met`.
-RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
+RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
 class RigRoots;

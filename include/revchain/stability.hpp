@@ -89,7 +89,7 @@ Stability stability(const Chain<double>& chain, const HeldShape& shape, Stabilit
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {
     StabilityFrame frame = StabilityFrame::free;
-    int direction = 1;                                    ///< of rotation, 1 or -1: it matters to flywheels
+    Rotation direction = Rotation::forward;               ///< it matters to flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels
 };
 

@@ -17,11 +17,11 @@ inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, Tapered
                             Interpolated, Condensed, Bisection>
     for_modes{};
 
-/// The question that these options ask about a range of modes. Without a tolerance bounds have to be proved.
-template <class Options>
-Question question_of(const ModeRange& range, const Options& options) {
-    const double rtol = options.rtol.value_or(0.0);
-    return {range.first, range.count, rtol, 0, options.progress, !(rtol > 0)};
+/// The question about a range of modes. Without a tolerance bounds have to be proved.
+inline Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
+                            Progress* progress = nullptr) {
+    const double rtol = tolerance.value_or(0.0);
+    return {range.first, range.count, rtol, 0, progress, !(rtol > 0)};
 }
 
 }  // namespace revchain::models

@@ -21,7 +21,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// The mode numbers asked for, of those available; fewer, or none, where there are not as many.
-inline ModeRange numbered(const ModesOptions<double>& options, Index available) {
+inline ModeRange numbered(const RigModesOptions& options, Index available) {
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
     const Index left = std::max<Index>(0, available - options.first + 1);
@@ -29,7 +29,7 @@ inline ModeRange numbered(const ModesOptions<double>& options, Index available) 
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const ModesOptions<double>& options, const RigRoots& roots, bool forward, Index available) {
+inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
     if (options.conical_height || options.angular_speed)
         return chosen(
             available, options,
@@ -73,7 +73,7 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pen
 
 /// Finds the modes of one sense; reports progress from one share to another.
 inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
-                           const ModesOptions<double>& options, double from, double to) {
+                           const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
     const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
@@ -116,12 +116,19 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
 }
 
 /// As the chain's own modes, which they are.
-inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options) {
+inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
     result.complete = true, result.method = "modes";
-    ModesOptions<double> of_chain = options;
-    of_chain.method = ModesMethod::automatic;
+    ModesOptions<double> of_chain{.first = options.first,
+                                  .count = options.count,
+                                  .conical_height = options.conical_height,
+                                  .angular_speed = options.angular_speed,
+                                  .rtol = options.rtol,
+                                  .certify = options.certify,
+                                  .gravity = options.gravity,
+                                  .threads = options.threads,
+                                  .progress = options.progress};
     if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
         const ModeRange range = numbered(options, available);
         if (range.count == 0) {
@@ -178,7 +185,7 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
 }
 
 /// By counts.
-inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
+inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = "counts";
@@ -203,7 +210,7 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const Modes
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
@@ -288,7 +295,7 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 }  // namespace detail
 
-REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& options) {
+REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
     detail::require_positive("modes", "gravity", options.gravity);
     detail::check(options);
     const detail::Threads used("modes", options.threads);
