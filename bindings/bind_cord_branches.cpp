@@ -78,7 +78,7 @@ void bind_cord_branches(py::module_& module) {
         "cord_shape_near",
         [](const Cord& cord, double height, int half_waves, double tip_offset, bool at_fold) {
             const py::gil_scoped_release release;
-            return revchain::shape_near(cord, height, half_waves, tip_offset, at_fold);
+            return revchain::finite::shape_near(cord, height, half_waves, tip_offset, at_fold);
         },
         "cord"_a, "height"_a, "half_waves"_a, "tip_offset"_a, "at_fold"_a);
 }

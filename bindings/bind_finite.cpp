@@ -9,6 +9,7 @@
 namespace {
 
 using Chain = revchain::Chain<double>;
+using revchain::Index;
 using revchain::SteadyShape;
 using revchain::SteadyShapes;
 

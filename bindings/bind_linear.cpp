@@ -136,7 +136,7 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
                 certified};
         return {without_lock([&] { return solve(chain, asked.options<double>(progress)); }), certified};
     } else {
-        return {without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); }),
+        return {without_lock([&] { return solve(revchain::detail::converted<T>(chain), asked.options<T>(progress)); }),
                 certified};
     }
 }

@@ -112,11 +112,11 @@ class Chain {
     /// word (measured: 0.27), and of one operation where one weight serves all links. Cost: O(1) where m is a multiple
     /// of `segment_size`, else O(segment_size) (70 ns in double).
     Wide<T> weight_below(Index m) const {
-        const Index whole = m / segment_size, rest = m % segment_size;
-        if (weight_.is_scalar()) return times(weight_[0], m);
+        const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
+        if (weight_.is_scalar()) return detail::times(weight_[0], m);
         if (m == size_) return partial_weights().back();
         const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
-        return rest == 0 ? below : below + summary(weight_.data() + whole * segment_size, rest).sum;
+        return rest == 0 ? below : below + detail::summary(weight_.data() + whole * detail::segment_size, rest).sum;
     }
     /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
     /// serves all links.
@@ -163,7 +163,7 @@ class Chain {
 
     void check();
     void check_each_link() const;
-    void check_that_links_hang(const Summary<T>& centroids) const;
+    void check_that_links_hang(const detail::Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
     /// The number of links that a check has to read: one where one number of each kind serves all.
     Index distinct_links() const {
@@ -243,11 +243,11 @@ void Chain<T>::check() {
     check_stored(centroid_, "centroid"), check_stored(gyration_ratio_, "gyration_ratio");
 
     std::vector<Wide<T>> partial;
-    const Summary<T> weights = summary(weight_, size_, &partial);
+    const detail::Summary<T> weights = detail::summary(weight_, size_, &partial);
     if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
-    const Summary<T> lengths = summary(length_, size_);
+    const detail::Summary<T> lengths = detail::summary(length_, size_);
     const bool same = !centroid_.is_scalar() && centroid_.data() == length_.data();  // plummets: one column for both
-    const Summary<T> centroids = same ? lengths : summary(centroid_, size_);
+    const detail::Summary<T> centroids = same ? lengths : detail::summary(centroid_, size_);
     centroids_below_ = centroids.least >= T(0);
     bool radii = true, all_turn = true;
     T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
@@ -314,13 +314,13 @@ void Chain<T>::check_each_link() const {
 }
 
 template <Real T>
-void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
+void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const {
     using std::frexp;
     using std::ldexp;
     if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
     Wide<T> below(T(0));
     for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
-        if (m % segment_size == 0) below = weight_below(m);
+        if (m % detail::segment_size == 0) below = weight_below(m);
         if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
             int exponent = 0;
             frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);

@@ -75,8 +75,8 @@ struct CordModes {
 /// number, with series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for modes above number
-/// 1e5 with series, and for a density too rough or a tip too heavy for the series.
+/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for modes above
+/// number 1e5 with series, and for a density too rough or a tip too heavy for the series.
 CordModes modes(const Cord& cord, const StraightModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on

@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 
 using namespace revchain;
+using namespace revchain::models;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "revchain/pencil/signed.hpp"
-#include "revchain/rig.hpp"
+#include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -13,8 +13,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 using RigElement = pencil::SignedElement<Wide<double>>;
 
 /// One link: stiffness and spin negative where it stands.
-inline RigElement rig_element(const RigLink& link, bool stands) {
-    constexpr double part = RigLink::error_part;
+inline RigElement rig_element(const detail::RigLink& link, bool stands) {
+    constexpr double part = detail::RigLink::error_part;
     RigElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross};
     if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
     e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,

@@ -27,13 +27,11 @@ inline Question question_of(const ModeRange& range, const std::optional<double>&
 }  // namespace revchain::models
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain::inline REVCHAIN_BUILD::detail {
-#define REVCHAIN_ANSWER_BY(model) \
-    template Answer answer_by(const models::model&, const Chain<double>&, const ChainKind&, const Question&)
-extern REVCHAIN_ANSWER_BY(CoarseChain);
-extern REVCHAIN_ANSWER_BY(Aberth);
-extern REVCHAIN_ANSWER_BY(Interpolated);
-extern REVCHAIN_ANSWER_BY(Condensed);
-extern REVCHAIN_ANSWER_BY(Bisection);
-}  // namespace revchain::detail
+namespace revchain::inline REVCHAIN_BUILD::models::detail {
+extern template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Bisection&, const Chain<double>&, const ChainKind&, const Question&);
+}  // namespace revchain::models::detail
 #endif

@@ -68,7 +68,7 @@ void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const Answer& answer) {
+inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
@@ -84,14 +84,14 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
 /// a template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
-Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
-    const Question question = models::question_of(range, options.rtol, options.progress);
+models::Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
+    const models::Question question = models::question_of(range, options.rtol, options.progress);
     if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
-    const ChainKind kind(chain);
+    const models::ChainKind kind(chain);
     const auto by = [&](const auto& model) {
-        return Solution{answer_by(model, chain, kind, question), model.name, Status::success};
+        return models::Solution{models::detail::answer_by(model, chain, kind, question), model.name, Status::success};
     };
-    Solution found{Answer::none(), {}, Status::success};
+    models::Solution found{models::Answer::none(), {}, Status::success};
     if (options.method == ModesMethod::aberth) found = by(models::Aberth{});
     if (options.method == ModesMethod::interpolated) found = by(models::Interpolated{});
     if (options.method == ModesMethod::condensed) found = by(models::Condensed{});
@@ -109,7 +109,7 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
         result.lazy_shapes = LazyModeShapes<T>(room_for_shapes(chain, 0));
         return result;
     }
-    Solution found = solved(chain, range, options);
+    models::Solution found = solved(chain, range, options);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);

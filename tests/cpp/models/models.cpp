@@ -9,6 +9,7 @@
 #include "support/chains.hpp"
 
 using namespace revchain;
+using namespace revchain::models;
 using support::Random;
 
 namespace {

@@ -84,7 +84,7 @@ struct BranchSystem {
     BranchSystem(const Rig& of, double g, Rotation sense)
         : rig(of), units(of.chain().units()), gravity(g), direction(sense) {
         using std::sqrt;
-        for (const RigLink& link : rig_links(of)) {
+        for (const revchain::detail::RigLink& link : revchain::detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
             links.links.push_back(
                 {link.length, stands ? -link.tension : link.tension, link.cross, link.moment, link.rest});
