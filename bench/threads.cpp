@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     const auto modes_of_many = [&](Index t) { return revchain::modes(many, {.count = 100, .threads = t}); };
     const revchain::Modes<double> found[]{modes_of_many(1), modes_of_many(threads)};
     report("shapes of 100 modes of 3000 plummets", threads, repetitions,
-           [&](Index t) { found[t == 1 ? 0 : 1].lazy_shapes.some(0, 100, false, nullptr); });
+           [&](Index t) { revchain::detail::ShapesBehind::of(found[t == 1 ? 0 : 1]).some(0, 100, false, nullptr); });
     const auto weights = numbers(1'000'000), lengths = numbers(1'000'000);
     const revchain::ChainBatch<double> batch{
         .chains = 100'000, .size = 10, .weight = {weights.data(), 10, 1}, .length = {lengths.data(), 10, 1}};

@@ -110,7 +110,7 @@ py::array shape(const FoundModes& found) {
     return found.read([](const auto& m) -> py::array {
         const auto* table = without_lock([&] { return &m.shapes(); });
         if constexpr (std::is_same_v<decltype(table), const revchain::Table<double>*>)
-            return in_place(*table, m.lazy_shapes.owner());
+            return in_place(*table, revchain::detail::ShapesBehind::of(m).owner());
         else
             return leading(*table);
     });

@@ -3,7 +3,6 @@
 
 #include <concepts>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +27,6 @@
 /// speed several times. An isolated branch is born in a fold and never reaches the vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
-namespace finite {
-struct BranchSystem;
-struct BranchOnset;
-}  // namespace finite
-
 template <class System>
 class Held;
 class Cord;
@@ -48,7 +42,7 @@ enum class BranchEnd {
     slack,     ///< where flywheels make the effective tension of a link 0: it reaches the horizontal
     loose,     ///< where the spring at the support can no longer hold the rig: it is stretched to a thousand lengths
 };
-inline std::string_view to_string(BranchEnd end) {
+[[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
     constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
     return names[static_cast<std::size_t>(end)];
 }
@@ -59,7 +53,7 @@ enum class BranchBirth {
     rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
     fold,      ///< isolated: it begins at a fold, where two shapes appear together, or it is closed
 };
-inline std::string_view to_string(BranchBirth birth) {
+[[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
     return names[static_cast<std::size_t>(birth)];
 }
@@ -79,23 +73,22 @@ struct Branch {
     std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme (folds)
     BranchEnd end = BranchEnd::budget;
 
-    std::size_t size() const { return arc.size(); }
+    std::size_t size() const noexcept { return arc.size(); }
     double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point, balanced in double-double. Its bound is proved, except at a fold, where it is an estimate.
     /// Throws InvalidArgument for a point that is the straight chain (point 0 on the branch of a mode), past the end,
     /// and for a shape that does not balance in double-double.
-    SteadyShape shape(std::size_t point) const;
+    [[nodiscard]] SteadyShape shape(std::size_t point) const;
     /// The shapes of the branch, as far as it was followed, at a conical height, in the order of the arc.
     /// Accuracy: as of `steady_shape`. Cost: a test of every point, and O(N) for each shape.
     /// Throws InvalidArgument for a height that is not positive and finite.
-    std::vector<SteadyShape> shapes_at(double conical_height) const;
+    [[nodiscard]] std::vector<SteadyShape> shapes_at(double conical_height) const;
 
-    // Data of `shape` and `shapes_at`.
-    std::shared_ptr<const finite::BranchSystem> system;
-    std::vector<finite::BranchPoint> points;
-    std::shared_ptr<const finite::BranchOnset> onset;  ///< of the mode; null for other branches
+   private:
+    friend finite::TraceBehind;
+    finite::BranchTrace trace_;
 };
 
 /// Which branch, and how far to follow it. Give either `min_conical_height` or `max_angular_speed`.
@@ -120,7 +113,7 @@ struct BranchOptions {
 /// Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one of height and speed
 /// is given, positive and finite, and for a height that is not below that of the mode.
-Branch branch(const Chain<double>& chain, const BranchOptions& options);
+[[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
 /// The same of a rig.
 struct RigBranchOptions {
@@ -144,7 +137,7 @@ struct RigBranchOptions {
 /// link.
 /// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
 /// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
-Branch branch(const Rig& rig, const RigBranchOptions& options);
+[[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
 /// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
 struct DiagramOptions {
@@ -187,7 +180,7 @@ struct Branches {
 /// with SSE2 up to twice as long).
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and for `lists` below
 /// 1.
-Branches branches(const Chain<double>& chain, const DiagramOptions& options);
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 
 /// The same of a rig.
 struct RigDiagramOptions {
@@ -211,7 +204,7 @@ struct RigDiagramOptions {
 /// frame is convex. A spring cannot hold the rig where its stiffness times the conical height is less than the weight
 /// that moves: at such heights the diagram is not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
-Branches branches(const Rig& rig, const RigDiagramOptions& options);
+[[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
 /// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
 struct OnBranchOptions {
@@ -263,7 +256,7 @@ struct ShapesOnBranch {
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one number is given, for
 /// one out of its range (`tip_radius` below the length, `top_tension` above the weight), for a `min_conical_height` not
 /// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
-SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
+[[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
 /// The first shape along a branch of a rig at which one number is as given. With the support on the axis, `mode` is a
 /// mode of the rig. Off the axis it must be 1: the branch from rest, followed from a ten-thousandth of the first
@@ -272,13 +265,15 @@ SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& opti
 /// `tip_inclination` is the size of the lowest link's inclination, off the axis the inclination outwards; it is between
 /// pi/2 and pi if that link stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`.
 /// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
-SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
+[[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
 /// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
-ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
-                                std::size_t max_shapes = all_shapes);
-ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options, std::size_t max_shapes = all_shapes);
+[[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
+                                              const OnBranchOptions& options,
+                                              std::size_t max_shapes = all_shapes);
+[[nodiscard]] ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
+                                              std::size_t max_shapes = all_shapes);
 
 }  // namespace revchain
 

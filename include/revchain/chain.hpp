@@ -57,12 +57,12 @@ class Chain {
     }
 
     /// `count` equal plummets: `length` and `weight` are those of the whole chain.
-    static Chain uniform_plummets(Index count, T length = T(1), T weight = T(1)) {
+    [[nodiscard]] static Chain uniform_plummets(Index count, T length = T(1), T weight = T(1)) {
         return repeated("Chain::uniform_plummets", count, length, weight, &plummet<T>);
     }
 
     /// `count` equal uniform rods: `length` and `weight` are those of the whole chain.
-    static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
+    [[nodiscard]] static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
 
@@ -71,7 +71,7 @@ class Chain {
     /// the free end. Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
     /// Also throws InvalidArgument for an exponent not above -1 or above 1000, and if the weight of the lowest link is
     /// too small for T. Accuracy and cost: system/tapered_links.hpp.
-    static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
+    [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
         if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
         Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
@@ -91,27 +91,27 @@ class Chain {
     /// Returns this chain with `taper` set to the exponent from which `tapered` made its links. Links that were read
     /// from a file have lost it. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp.
     /// Cost: that of `tapered`.
-    Chain as_tapered(double exponent) const;
+    [[nodiscard]] Chain as_tapered(double exponent) const;
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
     /// The exponent of the line density of a chain that `tapered` or `as_tapered` made; no value for other chains.
-    std::optional<double> taper() const { return taper_; }
+    std::optional<double> taper() const noexcept { return taper_; }
 
-    Index size() const { return size_; }
+    Index size() const noexcept { return size_; }
     Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
-    const Column<T>& weight() const { return weight_; }
-    const Column<T>& length() const { return length_; }
-    const Column<T>& centroid() const { return centroid_; }
-    const Column<Wide<T>>& gyration_ratio() const { return gyration_ratio_; }
+    const Column<T>& weight() const noexcept { return weight_; }
+    const Column<T>& length() const noexcept { return length_; }
+    const Column<T>& centroid() const noexcept { return centroid_; }
+    const Column<Wide<T>>& gyration_ratio() const noexcept { return gyration_ratio_; }
 
     /// The number of finite conical heights: N, less one for each coordinate that carries no inertia.
-    Index mode_count() const { return mode_count_; }
+    Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
     /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14 operations of a double
     /// word (measured: 0.27), and of one operation where one weight serves all links. Cost: O(1) where m is a multiple
     /// of `segment_size`, else O(segment_size) (70 ns in double).
-    Wide<T> weight_below(Index m) const {
+    [[nodiscard]] Wide<T> weight_below(Index m) const {
         const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
         if (weight_.is_scalar()) return detail::times(weight_[0], m);
         if (m == size_) return partial_weights().back();
@@ -125,9 +125,9 @@ class Chain {
         return partial_weights_ ? *partial_weights_ : none;
     }
     /// Whether no centroid lies above its link's upper pin.
-    bool centroids_below() const { return centroids_below_; }
+    bool centroids_below() const noexcept { return centroids_below_; }
     /// Whether the weights are close enough together for one unit (ratios up to 1e123 in double).
-    bool has_one_weight_unit() const { return one_weight_unit_; }
+    bool has_one_weight_unit() const noexcept { return one_weight_unit_; }
     /// Straight length from the support to the free end.
     T total_length() const { return total_length_; }
     ChainUnits units() const {

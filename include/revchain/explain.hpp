@@ -29,7 +29,7 @@ struct Explanation {
     bool meets_tolerance = false;   ///< false: no method keeps the tolerance, and `chosen` is the most accurate
 
     /// A table for people, with a mark at the method chosen. Each line ends with a newline.
-    std::string text() const;
+    [[nodiscard]] std::string text() const;
 };
 
 /// The modes that `modes` would be asked for, and how accurately.
@@ -39,11 +39,11 @@ struct ExplainOptions {
     std::optional<double> rtol{};  ///< relative tolerance of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed. Where that method cannot
-/// prove its bound for the links of this chain, `modes` takes the next one; `Modes::method` names the method that was
-/// used. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured times
-/// (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does.
-Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
+/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed. Where that method
+/// cannot prove its bound for the links of this chain, `modes` takes the next one; `Modes::method` names the method
+/// that was used. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured
+/// times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does.
+[[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
 /// Deleted, because there is no choice: the result of `modes` names its one method. Modes of a held chain are found by
 /// bisection; rigs and cords have one method for each kind.

@@ -38,10 +38,10 @@ struct HeldBy {
     Support lower{};          ///< of a chain: support of its lower end; a negative radius is on the other side
     Support upper{};          ///< of a chain: support of its upper end
 
-    bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
+    bool on_axis() const noexcept { return lower.radius == 0 && upper.radius == 0; }
     /// Whether every steady shape lies in a plane: no torque about the axis acts at an end whose radius is 0.
-    bool planar() const { return lower.radius == 0 || upper.radius == 0; }
-    bool firm() const { return lower.is_firm() && upper.is_firm(); }
+    bool planar() const noexcept { return lower.radius == 0 || upper.radius == 0; }
+    bool firm() const noexcept { return lower.is_firm() && upper.is_firm(); }
 };
 
 /// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis by
@@ -79,8 +79,8 @@ class Held {
                                       "into links, as Chain::tapered does");
     }
 
-    const System& system() const { return system_; }
-    const HeldBy& by() const { return by_; }
+    const System& system() const noexcept { return system_; }
+    const HeldBy& by() const noexcept { return by_; }
     double length() const {
         if constexpr (std::is_same_v<System, Cord>)
             return system_.length();
@@ -163,8 +163,10 @@ struct HeldCordShapesOptions {
 /// whole branch, some thousand sweeps. The proof of completeness takes 10 to 500 ms; `budget` 0 leaves it out.
 /// Throws InvalidArgument where the speed is not given as above or is not positive and finite, where g/n^2 leaves the
 /// range of double, for `max_half_waves` below 1, and for weights more than 1e123 apart.
-HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options = {});
-HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options = {});
+[[nodiscard]] HeldShapes steady_shapes(const Held<Chain<double>>& held,
+                                       const HeldShapesOptions& options = {});
+[[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
+                                           const HeldCordShapesOptions& options = {});
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
 /// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
@@ -180,12 +182,14 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions
 /// does not exceed the weight (the chain would not be straight), and for wrong numbers and windows as `modes` of a
 /// chain does. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
 /// moves without mass.
-Modes<double> modes(const Held<Chain<double>>& held, const StraightModesOptions& options = {});
+[[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
+                                  const StraightModesOptions& options = {});
 
 /// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
 /// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
-Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
+[[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
+                                const CountOptions<double>& options);
 
 /// How far branches go: give one of the first two.
 struct HeldDiagramOptions {
@@ -214,8 +218,10 @@ struct HeldDiagramOptions {
 /// A cord folds as it approaches the slowest speed, at which one of its two straight parts, hung from its end, begins
 /// to whirl. Its offsets vanish there faster than any power of the difference of speeds, so the last speed found is
 /// some percent higher.
-std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options);
-std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options);
+[[nodiscard]] std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
+                                               const HeldDiagramOptions& options);
+[[nodiscard]] std::vector<HeldCordBranch> branches(const Held<Cord>& held,
+                                                   const HeldDiagramOptions& options);
 
 /// Which shape of a branch. Give one of `conical_height`, `angular_speed` and `top_tension`.
 struct HeldOnBranchOptions {
@@ -231,8 +237,10 @@ struct HeldOnBranchOptions {
 /// `angular_speed()`). Accuracy: inclinations as of `steady_shapes`; the height for a tension to 1e-14. Throws
 /// InvalidArgument as `branches` does, for a mode below 1, a tension between springs, and where the branch does not
 /// reach what is given.
-HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options);
-HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options);
+[[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
+                                     const HeldOnBranchOptions& options);
+[[nodiscard]] HeldCordShape steady_shape(const Held<Cord>& held,
+                                         const HeldOnBranchOptions& options);
 
 }  // namespace revchain
 

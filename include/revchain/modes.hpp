@@ -85,25 +85,24 @@ struct Modes {
     Certificate<T> certificate{};  ///< empty unless asked for
     std::string method{};          ///< that found the heights
     Status status = Status::success;
-    detail::LazyModeShapes<T> lazy_shapes{};  ///< behind the next four
 
-    Index size() const { return conical_height.size(); }
+    Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); the largest in size of each mode is 1, the free
     /// end positive. Computed when first asked for and kept, as the next two are. Threads may share the result.
-    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
+    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
     /// (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
-    const Vector<T>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
+    const Vector<T>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
     /// k lists: distances from the free end where the mode crosses the axis
-    const std::vector<Vector<T>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
+    const std::vector<Vector<T>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
-    Vector<T> shape(Index j) const { return lazy_shapes.one(size(), j); }
+    [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
     }
     /// Seconds for one revolution.
-    Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
+    [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::period<T>);
     }
     Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
@@ -111,11 +110,14 @@ struct Modes {
     }
 
    private:
+    friend detail::ShapesBehind;
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
         return result;
     }
+
+    detail::LazyModeShapes<T> lazy_shapes_{};
 };
 
 /// The modes chosen by `options`; their shapes are computed when they are asked for.
@@ -140,7 +142,7 @@ struct Modes {
 /// together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.
 template <Real T>
-Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
+[[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 }  // namespace revchain
 

@@ -34,7 +34,7 @@ struct Support {
     double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
     double radius = 0;           ///< distance of the support's place of rest from the axis; 0 on the axis
 
-    bool is_firm() const { return std::isinf(stiffness.high); }
+    bool is_firm() const noexcept { return std::isinf(stiffness.high); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
@@ -49,7 +49,8 @@ inline void require_yielding(std::string_view place, const std::string& name, co
 /// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small amplitudes it acts as a
 /// thread of length W/E, where W is the weight of the chain. Throws InvalidArgument unless stiffness > 0 and carriage
 /// weight >= 0, both finite.
-inline Support horizontal_spring(const Wide<double>& stiffness, double carriage_weight = 0) {
+[[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
+                                               double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
     detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
     return {stiffness, carriage_weight, 0};
@@ -57,7 +58,7 @@ inline Support horizontal_spring(const Wide<double>& stiffness, double carriage_
 
 /// A pin carried round the axis: a chair on the arm of a carousel, a hand, Greenhill (1908) §1 (9).
 /// Throws InvalidArgument unless radius >= 0 and finite.
-inline Support carried_round(double radius) {
+[[nodiscard]] inline Support carried_round(double radius) {
     detail::require_not_negative("carried_round", "radius", radius);
     return {.radius = radius};
 }
@@ -93,15 +94,15 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
 
 /// A wheel on free bearings: it keeps its spin, `spin` rad/s about the link's axis as seen from outside.
 /// Throws InvalidArgument for negative weight or radius of gyration, gravity not positive, numbers not finite.
-inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
-                              double gravity = conical_pendulum::standard_gravity) {
+[[nodiscard]] inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                                            double gravity = conical_pendulum::standard_gravity) {
     return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
 }
 
 /// A wheel that a motor turns with `spin` rad/s relative to its link. The link itself turns about its axis with the
 /// whole chain. Throws as free_flywheel does.
-inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
-                                double gravity = conical_pendulum::standard_gravity) {
+[[nodiscard]] inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                              double gravity = conical_pendulum::standard_gravity) {
     return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
 }
 
@@ -119,7 +120,8 @@ struct Displaced {
 };
 
 /// The fluid that a body of one density displaces: it has the centre and the radius of gyration of the body.
-inline Displaced displaced_by(const Link<double>& link, double weight, double added_weight = 0) {
+[[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
+                                            double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
 }
 
@@ -144,11 +146,11 @@ class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
 
-    const Chain<double>& chain() const { return chain_; }
-    const Support& support() const { return with_.support; }
-    const Rigging& rigging() const { return with_; }
-    Index size() const { return chain_.size(); }
-    Fluid fluid() const { return with_.fluid; }
+    const Chain<double>& chain() const noexcept { return chain_; }
+    const Support& support() const noexcept { return with_.support; }
+    const Rigging& rigging() const noexcept { return with_; }
+    Index size() const noexcept { return chain_.size(); }
+    Fluid fluid() const noexcept { return with_.fluid; }
 
     bool stands(Index m) const {
         return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;

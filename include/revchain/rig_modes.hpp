@@ -44,15 +44,18 @@ struct WhirlModes {
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
     Certificate<double> certificate{};   ///< of the conical heights, with counts in this direction; if asked for
-    detail::LazyModeShapes<double> lazy_shapes{};  ///< behind the next four
 
-    Index size() const { return conical_height.size(); }
+    Index size() const noexcept { return conical_height.size(); }
     /// As those of `Modes`; the support's offset is not 0 where it yields.
-    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
-    const Vector<double>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
-    const std::vector<Vector<double>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
+    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    const Vector<double>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
+    const std::vector<Vector<double>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
-    Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
+    [[nodiscard]] Vector<double> shape(Index j) const { return lazy_shapes_.one(size(), j); }
+
+   private:
+    friend detail::ShapesBehind;
+    detail::LazyModeShapes<double> lazy_shapes_{};
 };
 
 /// A solution that is not a steady motion: its conical height is negative or complex, or its speed is complex. If no
@@ -104,7 +107,7 @@ struct RigModes {
 /// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers
 /// together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
 /// status `tolerance_not_met`.
-RigModes modes(const Rig& rig, const RigModesOptions& options = {});
+[[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
 class RigRoots;
@@ -121,12 +124,12 @@ class RigModeCounter {
 
     /// How many conical heights exceed `height`, in both directions together where there is momentum. Throws
     /// InvalidArgument unless it is positive and finite, and where rounding leaves the number in doubt.
-    Index above_height(double height) const;
+    [[nodiscard]] Index above_height(double height) const;
 
     /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. With momentum its sign is the direction of
     /// rotation; without, both directions are alike. Throws InvalidArgument unless it is finite and not 0, and where
     /// rounding leaves the number in doubt.
-    Index below_speed(double angular_speed) const;
+    [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:
     double gravity_;

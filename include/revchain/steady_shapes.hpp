@@ -36,7 +36,7 @@ struct SteadyShape {
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
 
-    double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
+    [[nodiscard]] double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
     double angular_momentum(double gravity = conical_pendulum::standard_gravity) const {
@@ -108,7 +108,8 @@ struct SteadyShapes {
 /// E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G D^-1/2 w| < |w|: only w = 0 is possible.
 /// An angular speed n gives the height g/n^2, formed in double-double.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
-SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options);
+[[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
+                                         const SteadyShapesOptions& options);
 
 /// All steady shapes of a rig that whirls at a given speed, in its posture or in any posture: as of a chain, with a
 /// support that yields or is carried round, flywheels, links in a fluid.
@@ -129,7 +130,7 @@ SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions
 /// Throws InvalidArgument unless exactly one of height and speed is given, for a height or gravity not positive and
 /// finite, an effective tension that vanishes, and a lowest link whose moving weights balance
 /// about its pin.
-SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
+[[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 
 }  // namespace revchain
 

@@ -44,7 +44,7 @@ enum class TuneStatus {
     undecided,  ///< no value was found, but it is not proved that there is none
 };
 
-inline std::string_view to_string(TuneStatus status) {
+[[nodiscard]] inline std::string_view to_string(TuneStatus status) noexcept {
     return status == TuneStatus::found ? "found" : status == TuneStatus::no_value ? "no_value" : "undecided";
 }
 
@@ -76,7 +76,7 @@ struct Tuned {
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
 /// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
 /// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
-Tuned tune(const Chain<double>& chain, const TuneOptions& options);
+[[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. In place of these, tune
 /// the chain of a rig, or use `momentum_for_speed` for a flywheel. Heights of a cord are proportional to its length:

@@ -47,7 +47,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
         if (options.certify) certify(result, j, pencils, chain.mode_count());
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    result.lazy_shapes = LazyModeShapes<T>(std::move(shapes));
+    ShapesBehind::of(result) = LazyModeShapes<T>(std::move(shapes));
     return result;
 }
 

@@ -210,7 +210,7 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Strai
         detail::set_height(result, j, taut.height(range.first - 1 + j), estimate, 0, options.rtol);
         detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    result.lazy_shapes =
+    detail::ShapesBehind::of(result) =
         detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
                                            Index first, Index count, bool, Progress* progress) {
             detail::ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};

@@ -106,7 +106,7 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
     Modes<T> result = room_for_modes<T>(range, options.certify);
     result.method = "bisection";
     if (range.count == 0) {
-        result.lazy_shapes = LazyModeShapes<T>(room_for_shapes(chain, 0));
+        ShapesBehind::of(result) = LazyModeShapes<T>(room_for_shapes(chain, 0));
         return result;
     }
     models::Solution found = solved(chain, range, options);
@@ -114,7 +114,7 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
                            condense = options.method != ModesMethod::bisection,
                            threads = options.threads](Index from, Index count, bool details, Progress* progress) {
@@ -155,9 +155,9 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     }
     if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
     const Vector<float> heights = result.conical_height;
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
-            const ModeShapes<double> found = fine.lazy_shapes.some(first, count, details, progress);
+            const ModeShapes<double> found = ShapesBehind::of(fine).some(first, count, details, progress);
             ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
             if (count == 0 || !details) return shapes;
             const Pencils<double> own(wide);
@@ -187,7 +187,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
         set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options.rtol);
     }
     if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
                            threads = options.threads](Index from, Index count, bool details, Progress* progress) {
             const Threads used("modes", threads);

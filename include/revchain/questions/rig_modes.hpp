@@ -94,7 +94,7 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
         found.push_back(root.x);
     };
     const auto keep_shapes = [&](std::shared_ptr<const pencil::ElementPencil<RigWord>> elements) {
-        modes.lazy_shapes = LazyModeShapes<double>(
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
             RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
@@ -138,15 +138,13 @@ inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
         of_chain.count = range.count;
     }
     const Modes<double> plain = modes(rig.chain(), of_chain);
-    result.forward = {plain.first,
-                      available,
-                      plain.conical_height,
-                      plain.error_bound,
-                      plain.angular_speed(options.gravity),
-                      plain.error_bound,
-                      plain.certificate,
-                      plain.lazy_shapes};
-    for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
+    WhirlModes& found = result.forward;
+    found.first = plain.first, found.available = available;
+    found.conical_height = plain.conical_height, found.error_bound = plain.error_bound;
+    found.angular_speed = plain.angular_speed(options.gravity), found.speed_error_bound = plain.error_bound;
+    found.certificate = plain.certificate;
+    ShapesBehind::of(found) = ShapesBehind::of(plain);
+    for (double& bound : found.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
     result.status = plain.status;
     return result;
 }
@@ -248,7 +246,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.x);
         }
-        modes.lazy_shapes = LazyModeShapes<double>(
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
             RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
@@ -307,7 +305,7 @@ REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
         result.complete = true, result.method = "counts";
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
             detail::make_room(*sense, detail::chosen(options, roots, true, 0), 0);
-            sense->lazy_shapes = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
+            detail::ShapesBehind::of(*sense) = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
         }
     } else {
         result =

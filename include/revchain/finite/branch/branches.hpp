@@ -13,9 +13,10 @@ namespace revchain::inline REVCHAIN_BUILD {
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size())
         detail::throw_invalid("Branch::shape", "there are so many points: " + std::to_string(size()), point);
-    if (onset && finite::largest_rise(points[point].state) == 0)
+    const finite::BranchPoint& at = trace_.points[point];
+    if (trace_.onset && finite::largest_rise(at.state) == 0)
         detail::throw_invalid("Branch::shape", "this point is the straight chain", point);
-    const auto found = finite::shape_at(*system, points[point].state, finite::GivenPlace<Wide<double>>(points[point]));
+    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace<Wide<double>>(at));
     if (!found)
         detail::throw_invalid("Branch::shape", "the shape at this point did not balance in double-double", point);
     return *found;
@@ -24,7 +25,7 @@ REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
 REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const {
     detail::require_positive("Branch::shapes_at", "conical height", height);
     if (size() == 0) return {};
-    finite::Corrector corrector(finite::rounded(system->links));
+    finite::Corrector corrector(finite::rounded(trace_.system->links));
     return finite::states_at(*this, corrector, height);
 }
 
@@ -34,7 +35,7 @@ namespace finite {
 inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points, double max_step) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
-    result.system = root.system;
+    trace_of(result).system = root.system;
     const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
     const auto start = root.at_rest(std::log(100 * std::max(conical_height, root.height) * unit));
     if (!start) return result;
@@ -50,11 +51,11 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
                             double max_step) {
     Branch result;
     result.mode = mode;
-    result.system = root.system;
-    const double unit = std::ldexp(1.0, -result.system->units.length_exponent);
+    trace_of(result).system = root.system;
+    const double unit = std::ldexp(1.0, -trace_of(result).system->units.length_exponent);
     const double log_end = std::log(conical_height * unit);
-    result.onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
-    const BranchOnset& onset = *result.onset;
+    trace_of(result).onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
+    const BranchOnset& onset = *trace_of(result).onset;
     BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
     vertical.half_waves = onset.half_waves;
     // the direction there: along the mode
@@ -66,7 +67,7 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
     if (result.size() >= max_points) return result;
     const double steepness = onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
     if (steepness < 1e-3) {
-        const auto only = near_vertical(*result.system, onset, Wide<double>(conical_height * unit));
+        const auto only = near_vertical(*trace_of(result).system, onset, Wide<double>(conical_height * unit));
         result.end = only ? BranchEnd::height : BranchEnd::stuck;
         if (only) append(result, *only), result.conical_height.back() = conical_height;
         return result;

@@ -17,8 +17,8 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
                           int half_waves, double log_end, double log_top, std::size_t max_points, double max_step) {
     Branch result;
-    result.system = std::move(system), result.birth = BranchBirth::fold;
-    Corrector corrector(rounded(result.system->links));
+    trace_of(result).system = std::move(system), result.birth = BranchBirth::fold;
+    Corrector corrector(rounded(trace_of(result).system->links));
     auto start = corrector.corrected(at, across, 0.1);
     if (!start) {
         result.end = BranchEnd::stuck;

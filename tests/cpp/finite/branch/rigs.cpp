@@ -154,7 +154,7 @@ TEST_CASE("rigs: points of branches balance, and cuts of diagrams are the proved
         for (const Branch& branch : diagram.branches) {
             rest += branch.birth == BranchBirth::rest, born += branch.birth == BranchBirth::fold;
             CHECK((branch.birth == BranchBirth::rest) == (rig.support().radius > 0 && branch.mode == 1));
-            for (std::size_t at = branch.onset ? 1 : 0; at < branch.size(); at += 1 + branch.size() / 7) {
+            for (std::size_t at = branch.birth == BranchBirth::vertical ? 1 : 0; at < branch.size(); at += 1 + branch.size() / 7) {
                 const auto shape = branch.shape(at);
                 const auto truth = support::rig_shapes::truth_of(rig, shape.conical_height);
                 // offsets are doubles: a spring drawn far out rounds by so much more of the weight
