@@ -159,7 +159,7 @@ void bind_rig_modes(py::module_& module) {
                                                                [](const Slack& x) { return x.angular_speed; });
                                })
         .def_property_readonly("complete", [](const Found& f) { return f.modes.complete; })
-        .def_property_readonly("method", [](const Found& f) { return f.modes.method; })
+        .def_property_readonly("method", [](const Found& f) { return std::string(to_string(f.modes.method)); })
         .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });
     using Window = std::optional<std::pair<double, double>>;
     module.def(

@@ -4,7 +4,7 @@
 #include <complex>
 #include <limits>
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "revchain/modes.hpp"
@@ -74,17 +74,28 @@ struct SlackLink {
     double angular_speed = 0;  ///< n, negative if opposite to the rotation of a wheel with positive momentum
 };
 
+/// How modes of a rig were found.
+enum class RigMethod {
+    modes,   ///< the rig is a plain chain: by `modes` of that chain
+    counts,  ///< one after the other, by counts
+    discs,   ///< all at once, each proved in a disc of its own
+};
+[[nodiscard]] inline std::string_view to_string(RigMethod method) noexcept {
+    constexpr std::string_view names[]{"modes", "counts", "discs"};
+    return names[static_cast<std::size_t>(method)];
+}
+
 /// Whirl modes of a rig.
 struct RigModes {
     bool has_momentum = false;     ///< whether a flywheel has momentum of its own
     WhirlModes forward;            ///< n > 0; without such momentum both directions are alike, and all modes are here
     WhirlModes backward;           ///< n < 0; empty without such momentum
     Index other_available = 0;     ///< number of solutions that are not steady motions, listed or not
-    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and method is not "discs"
+    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and `method` is not `discs`
     std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
     /// Whether `forward.available`, `backward.available` and `other_available` are proved to be all there are.
     bool complete = false;
-    std::string method;               ///< "modes": as a plain chain; "counts"; "discs": all roots at once
+    RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
 };
 

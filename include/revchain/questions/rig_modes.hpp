@@ -119,7 +119,7 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
 inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
-    result.complete = true, result.method = "modes";
+    result.complete = true, result.method = RigMethod::modes;
     ModesOptions<double> of_chain{.first = options.first,
                                   .count = options.count,
                                   .conical_height = options.conical_height,
@@ -186,7 +186,7 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
 inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
-    result.has_momentum = roots.has_momentum(), result.method = "counts";
+    result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
     result.complete = pencil.stiffness_positive || pencil.stiffness_certain;
     bool proved = true;
     const std::size_t senses = roots.senses().size();
@@ -212,7 +212,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
-    result.has_momentum = roots.has_momentum(), result.method = "discs";
+    result.has_momentum = roots.has_momentum(), result.method = RigMethod::discs;
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
@@ -302,7 +302,7 @@ REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
                                  [&](double share) { detail::advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
-        result.complete = true, result.method = "counts";
+        result.complete = true, result.method = RigMethod::counts;
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
             detail::make_room(*sense, detail::chosen(options, roots, true, 0), 0);
             detail::ShapesBehind::of(*sense) = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
