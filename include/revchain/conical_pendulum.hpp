@@ -25,8 +25,8 @@
 /// InvalidArgument unless every argument is positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation about the axis: that of positive or that of negative angular speeds. Chains and cords whirl
-/// alike in both directions, rigs with flywheels do not.
+/// Direction of rotation about the axis: that of positive or that of negative angular speeds.
+/// Chains and cords whirl alike in both directions, rigs with flywheels do not.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).

@@ -75,8 +75,9 @@ struct CordModes {
 /// number, with series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for modes above
-/// number 1e5 with series, and for a density too rough or a tip too heavy for the series.
+/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many),
+/// for modes above number 1e5 with series, and for a density too rough or a tip too heavy for the
+/// series.
 [[nodiscard]] CordModes modes(const Cord& cord, const StraightModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on
@@ -126,7 +127,8 @@ struct CordSensitivity {
 /// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// How far to follow all branches of a cord. Give either `min_conical_height` or `max_angular_speed`.
+/// How far to follow all branches of a cord. Give either `min_conical_height` or
+/// `max_angular_speed`.
 struct CordDiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`

@@ -39,14 +39,15 @@ struct ExplainOptions {
     std::optional<double> rtol{};  ///< relative tolerance of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed. Where that method
-/// cannot prove its bound for the links of this chain, `modes` takes the next one; `Modes::method` names the method
-/// that was used. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured
-/// times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does.
+/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed.
+/// Where that method cannot prove its bound for the links of this chain, `modes` takes the next
+/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error
+/// bound; predicted times were within a factor of 3 of measured times (bench/models.cpp). Cost:
+/// some microseconds. Throws InvalidArgument as `modes` does.
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted, because there is no choice: the result of `modes` names its one method. Modes of a held chain are found by
-/// bisection; rigs and cords have one method for each kind.
+/// Deleted, because there is no choice: the result of `modes` names its one method. Modes of a held
+/// chain are found by bisection; rigs and cords have one method for each kind.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

@@ -179,9 +179,9 @@ struct HeldCordShapesOptions {
 /// not bounded. Shapes 1e-13 over the relative gap to the next height. Cost: 60 sweeps for each height, one for each
 /// shape. 
 /// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
-/// does not exceed the weight (the chain would not be straight), and for wrong numbers and windows as `modes` of a
-/// chain does. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
-/// moves without mass.
+/// does not exceed the weight (the chain would not be straight), and for wrong numbers and windows
+/// as `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less
+/// one for each pin that moves without mass.
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const StraightModesOptions& options = {});
 

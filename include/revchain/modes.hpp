@@ -53,7 +53,8 @@ struct ModesOptions {
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Which modes of a cord, or of a chain held straight at both ends: as in `ModesOptions`. There is one method.
+/// Which modes of a cord, or of a chain held straight at both ends: as in `ModesOptions`. There is
+/// one method.
 struct StraightModesOptions {
     Index first = 1;
     std::optional<Index> count{};

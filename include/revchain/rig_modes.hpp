@@ -20,8 +20,9 @@
 ///     m.forward.shape(0);              // offsets of the pins, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to each direction of
-/// rotation, a window of speeds to |n|; mode numbers beyond those available give no modes.
+/// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to
+/// each direction of rotation, a window of speeds to |n|; mode numbers beyond those available give
+/// no modes.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};

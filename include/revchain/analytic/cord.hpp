@@ -179,7 +179,8 @@ REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const StraightModesOp
     return detail::modes_of(cord, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held, const StraightModesOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held,
+                                         const StraightModesOptions& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }
@@ -267,7 +268,8 @@ REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord,
+                                               const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
@@ -279,8 +281,9 @@ REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const CordDiagr
     return finite::CordDiagram(cord, critical.head(count).eval(), height, options).run();
 }
 
-REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
-                                                              std::size_t max_shapes) {
+REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord,
+                                                             const OnBranchOptions& options,
+                                                             std::size_t max_shapes) {
     const double critical = detail::critical_height("steady_shape", cord, options.mode);
     return finite::search_branch(cord, critical, options, max_shapes);
 }

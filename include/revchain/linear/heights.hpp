@@ -51,9 +51,10 @@ void restore_order(Heights<T>& heights) {
         }
 }
 
-/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved by two counts.
-/// Nothing where there is no such pencil or rounding leaves one in doubt: about where `goal` is below 8 ulp for each
-/// link. Cost for each link: 5 ns, 7 ns for each three bits and 8 modes, and 24 ns a mode for the proof.
+/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved
+/// by two counts. Nothing where there is no such pencil or rounding leaves one in doubt: about
+/// where `goal` is below 8 ulp for each link. Cost for each link: 5 ns, 7 ns for each three bits
+/// and 8 modes, and 24 ns a mode for the proof.
 inline std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
                                              const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);

@@ -117,7 +117,8 @@ REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const 
     return finite::held_shapes_under_tension(held.system(), supports, tension, height, wanted);
 }
 
-REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options) {
+REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held,
+                                             const HeldCordShapesOptions& options) {
     detail::require_half_waves(options.max_half_waves);
     const Wide<double> height = detail::height_asked(held.by(), options);
     const int most = options.max_half_waves;
@@ -126,7 +127,8 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldC
     return finite::held_cord_shapes_under_tension(held.system(), tension.high, height.high, most);
 }
 
-REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
+                                                 const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -150,7 +152,8 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     return result;
 }
 
-REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
+                                                     const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -164,7 +167,8 @@ REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, con
     return result;
 }
 
-REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
+REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held,
+                                       const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
@@ -185,7 +189,8 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     });
 }
 
-REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options) {
+REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held,
+                                           const HeldOnBranchOptions& options) {
     const auto at_height = [&](double span, const Wide<double>& height) {
         return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
     };
@@ -194,7 +199,8 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnB
     });
 }
 
-REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const StraightModesOptions& options) {
+REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
+                                    const StraightModesOptions& options) {
     detail::check(options);
     const finite::TautChain taut = detail::taut_chain("modes", held, options.gravity);
     const auto within = [&](const HeightWindow<double>& window) {

@@ -39,9 +39,11 @@ ModeRange numbered_range(Index all, const Options& options) {
     return {options.first, count};
 }
 
-/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
+/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those
+/// in a window.
 template <class Options, class InHeights, class InSpeeds>
-ModeRange chosen(Index all, const Options& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
+ModeRange chosen(Index all, const Options& options, const InHeights& in_heights,
+                 const InSpeeds& in_speeds) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
         throw_invalid("modes",

@@ -37,7 +37,8 @@ Modes<T> room_for_modes(const ModeRange& range, bool certified = false) {
 /// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
 /// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
 template <Real T>
-void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const std::optional<T>& rtol) {
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent,
+                const std::optional<T>& rtol) {
     using std::abs;
     using std::ldexp;
     const T stored = ldexp(height, exponent);
@@ -68,7 +69,8 @@ void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
+inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
+                                                    const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
@@ -84,7 +86,8 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
 /// a template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
-models::Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
+models::Solution solved(const Chain<T>& chain, const ModeRange& range,
+                        const ModesOptions<T>& options) {
     const models::Question question = models::question_of(range, options.rtol, options.progress);
     if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
     const models::ChainKind kind(chain);

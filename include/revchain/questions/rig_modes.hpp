@@ -29,7 +29,8 @@ inline ModeRange numbered(const RigModesOptions& options, Index available) {
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
+inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
+                        Index available) {
     if (options.conical_height || options.angular_speed)
         return chosen(
             available, options,
@@ -183,7 +184,8 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
 }
 
 /// By counts.
-inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+inline RigModes counted_modes(const Rig& rig, const RigRoots& roots,
+                              const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
@@ -208,7 +210,8 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigMo
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots,
+                               const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;

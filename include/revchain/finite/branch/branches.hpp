@@ -32,7 +32,8 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 namespace finite {
 
 /// The branch from rest: from a tenth of the slower of the first critical speed and the speed given.
-inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points, double max_step) {
+inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points,
+                        double max_step) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
     trace_of(result).system = root.system;
@@ -47,8 +48,8 @@ inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_
 }
 
 /// The branch of a mode.
-inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, std::size_t max_points,
-                            double max_step) {
+inline Branch from_vertical(BranchRoot root, Index mode, double conical_height,
+                            std::size_t max_points, double max_step) {
     Branch result;
     result.mode = mode;
     trace_of(result).system = root.system;
@@ -136,7 +137,8 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
+REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
+                                                const OnBranchOptions& options,
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
@@ -144,7 +146,8 @@ REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranc
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options) {
+REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain,
+                                         const OnBranchOptions& options) {
     return finite::first_on_branch(chain, options);
 }
 REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {

@@ -78,8 +78,8 @@ class WantedOnLine {
 };
 
 /// All shapes on the branch of a mode at which a number is as given; `critical` is the height of the mode.
-inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
-                                        std::size_t max_shapes) {
+inline CordShapesOnBranch search_branch(const Cord& cord, double critical,
+                                        const OnBranchOptions& given, std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));
     const WantedOnLine wanted(*line, critical, given);
