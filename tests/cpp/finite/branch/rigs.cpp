@@ -99,7 +99,8 @@ TEST_CASE("rigs: the function of the diagram's proof and its derivatives stay wi
     int narrow = 0;
     for (int i = 0; i < 160; ++i) {
         const Rig rig = random_rig(random, 1 + i % 4, i % 8);
-        const revchain::finite::BranchSystem system(rig, support::rig_shapes::gravity, 1);
+        const revchain::finite::BranchSystem system(rig, support::rig_shapes::gravity,
+                                                    revchain::Rotation::forward);
         const int side = i % 3 == 0 ? -1 : 1;
         const revchain::finite::EnclosedDiagram diagram(system, side);
         const double unit = std::ldexp(1.0, -system.units.length_exponent), length = rig.chain().total_length() * unit;
