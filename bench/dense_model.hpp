@@ -48,10 +48,6 @@ struct Dense {
     }
 };
 
+inline constexpr auto height_models_with_dense = std::tuple_cat(height_models, std::tuple<Dense>{});
+
 }  // namespace revchain::models
-
-namespace revchain::inline REVCHAIN_BUILD {
-
-inline constexpr auto height_models_with_dense = std::tuple_cat(height_models, std::tuple<models::Dense>{});
-
-}  // namespace revchain

@@ -20,6 +20,7 @@
 namespace {
 
 using namespace revchain;
+using namespace revchain::models;
 using support::Random;
 
 double sink = 0;

@@ -181,10 +181,11 @@ void check_counts(Random& random, const Kind& kind, Tally& tally) {
 void check_shapes(Random& random, const Kind& kind, Tally& tally) {
     const Rig rig = random_rig(random, kind);
     const double height = rig.chain().total_length() * random.log_between(0.03, 1.0);
-    const int direction = random() < 0.5 ? 1 : -1;
+    const bool forward = random() < 0.5;
+    const auto direction = forward ? revchain::Rotation::forward : revchain::Rotation::backward;
     const auto found = revchain::steady_shapes(
         rig, {.conical_height = height, .budget = 300'000, .hanging_only = false, .direction = direction});
-    const Quad speed = direction * sqrtq(Quad(9.80665) / Quad(height));
+    const Quad speed = (forward ? 1 : -1) * sqrtq(Quad(9.80665) / Quad(height));
     const support::ShapeEquations<Quad> truth(rig, height, speed);
     const support::ShapeEquations<double> rough(rig, height, static_cast<double>(speed));
     const auto size = static_cast<std::size_t>(rig.size());

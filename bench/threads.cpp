@@ -57,25 +57,25 @@ int main(int argc, char** argv) {
 
     const auto many = plummets(3000);
     report("all heights of 3000 plummets", threads, repetitions,
-           [&](Index t) { revchain::modes(many, {.count = revchain::all_modes, .threads = t}); });
+           [&](Index t) { (void)revchain::modes(many, {.count = revchain::all_modes, .threads = t}); });
     report("100 heights of 3000 plummets by bisection", threads, repetitions, [&](Index t) {
-        revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection});
+        (void)revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection});
     });
     const auto modes_of_many = [&](Index t) { return revchain::modes(many, {.count = 100, .threads = t}); };
     const revchain::Modes<double> found[]{modes_of_many(1), modes_of_many(threads)};
     report("shapes of 100 modes of 3000 plummets", threads, repetitions,
-           [&](Index t) { found[t == 1 ? 0 : 1].lazy_shapes.some(0, 100, false, nullptr); });
+           [&](Index t) { revchain::detail::ShapesBehind::of(found[t == 1 ? 0 : 1]).some(0, 100, false, nullptr); });
     const auto weights = numbers(1'000'000), lengths = numbers(1'000'000);
     const revchain::ChainBatch<double> batch{
         .chains = 100'000, .size = 10, .weight = {weights.data(), 10, 1}, .length = {lengths.data(), 10, 1}};
     report("all heights of 100000 chains of 10 plummets", threads, repetitions,
-           [&](Index t) { revchain::conical_heights(batch, {.threads = t}); });
+           [&](Index t) { (void)revchain::conical_heights(batch, {.threads = t}); });
     const auto hundred = plummets(100);
     std::vector<double> heights(10'000);
     for (double& x : heights) x = random.log_between(0.1, 100);
     report("response of 100 plummets at 10000 speeds", threads, repetitions,
-           [&](Index t) { revchain::response(hundred, {.conical_height = heights, .threads = t}); });
+           [&](Index t) { (void)revchain::response(hundred, {.conical_height = heights, .threads = t}); });
     const auto ten = Chain<double>::uniform_plummets(10, 10.0);
     report("steady shapes of 10 plummets at a/lambda = 50", threads, repetitions,
-           [&](Index t) { revchain::steady_shapes(ten, {.conical_height = 0.02, .threads = t}); });
+           [&](Index t) { (void)revchain::steady_shapes(ten, {.conical_height = 0.02, .threads = t}); });
 }

@@ -30,6 +30,7 @@
 namespace {
 
 using namespace revchain;
+using namespace revchain::models;
 using support::Quad;
 
 constexpr double patience = 0.5, slow = 0.01;  // seconds

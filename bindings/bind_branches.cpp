@@ -23,10 +23,21 @@ py::array whole_numbers(const std::vector<Whole>& values) {
     return frozen(std::move(result));
 }
 
-revchain::SteadyShapeOptions given(Index mode, const std::string& name, double value, double gravity, int direction,
-                                   std::optional<double> lowest) {
-    revchain::SteadyShapeOptions result{
-        .mode = mode, .gravity = gravity, .direction = direction, .min_conical_height = lowest};
+/// The options of a question about a chain, or of the same about a rig, which has a direction of rotation.
+template <class System, class OfChain, class OfRig>
+using For = std::conditional_t<std::is_same_v<System, Chain>, OfChain, OfRig>;
+
+template <class Options>
+Options turning(Options options, int direction) {
+    if constexpr (requires { options.direction; }) options.direction = rotation(direction);
+    return options;
+}
+
+template <class System>
+auto given(Index mode, const std::string& name, double value, double gravity, int direction,
+           std::optional<double> lowest) {
+    using Options = For<System, revchain::OnBranchOptions, revchain::RigOnBranchOptions>;
+    Options result = turning(Options{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, direction);
     if (name == "conical_height") result.conical_height = value;
     if (name == "angular_speed") result.angular_speed = value;
     if (name == "tip_inclination") result.tip_inclination = value;
@@ -46,12 +57,13 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, double height, std::size_t max_points, double max_step, double gravity,
            int direction) {
             const py::gil_scoped_release release;
-            return revchain::branch(system, {.mode = mode,
-                                             .min_conical_height = height,
-                                             .max_points = max_points,
-                                             .max_step = max_step,
-                                             .gravity = gravity,
-                                             .direction = direction});
+            using Options = For<System, revchain::BranchOptions, revchain::RigBranchOptions>;
+            const Options options{.mode = mode,
+                                  .min_conical_height = height,
+                                  .max_points = max_points,
+                                  .max_step = max_step,
+                                  .gravity = gravity};
+            return revchain::branch(system, turning(options, direction));
         },
         "system"_a, "mode"_a, "height"_a, "max_points"_a, "max_step"_a, "gravity"_a, "direction"_a);
     module.def(
@@ -59,12 +71,13 @@ void def_branches(py::module_& module) {
         [](const System& system, double height, int lists, long budget, long proof_budget, double gravity,
            int direction) {
             const py::gil_scoped_release release;
-            return revchain::branches(system, {.min_conical_height = height,
-                                               .lists = lists,
-                                               .budget = budget,
-                                               .proof_budget = proof_budget,
-                                               .gravity = gravity,
-                                               .direction = direction});
+            using Options = For<System, revchain::DiagramOptions, revchain::RigDiagramOptions>;
+            const Options options{.min_conical_height = height,
+                                  .lists = lists,
+                                  .budget = budget,
+                                  .proof_budget = proof_budget,
+                                  .gravity = gravity};
+            return revchain::branches(system, turning(options, direction));
         },
         "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
     module.def(
@@ -72,7 +85,7 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
            std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            const auto options = given(mode, name, value, gravity, direction, min_conical_height);
+            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
             return revchain::shapes_on_branch(system, options).shapes;
         },
         "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
@@ -81,7 +94,8 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
            std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            return revchain::steady_shape(system, given(mode, name, value, gravity, direction, min_conical_height));
+            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
+            return revchain::steady_shape(system, options);
         },
         "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
     module.def(

@@ -21,7 +21,7 @@ py::array array_of(const std::vector<From>& values) {
 std::vector<revchain::CordShape> on_branch(const Cord& cord, Index mode, const std::string& name, double value,
                                            double gravity, std::optional<double> lowest, bool all) {
     const py::gil_scoped_release release;
-    revchain::SteadyShapeOptions options{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
+    revchain::OnBranchOptions options{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
     if (name == "conical_height") options.conical_height = value;
     if (name == "angular_speed") options.angular_speed = value;
     if (name == "tip_inclination") options.tip_inclination = value;
@@ -78,7 +78,7 @@ void bind_cord_branches(py::module_& module) {
         "cord_shape_near",
         [](const Cord& cord, double height, int half_waves, double tip_offset, bool at_fold) {
             const py::gil_scoped_release release;
-            return revchain::shape_near(cord, height, half_waves, tip_offset, at_fold);
+            return revchain::finite::shape_near(cord, height, half_waves, tip_offset, at_fold);
         },
         "cord"_a, "height"_a, "half_waves"_a, "tip_offset"_a, "at_fold"_a);
 }

@@ -9,6 +9,7 @@
 namespace {
 
 using Chain = revchain::Chain<double>;
+using revchain::Index;
 using revchain::SteadyShape;
 using revchain::SteadyShapes;
 
@@ -110,7 +111,7 @@ void bind_finite(py::module_& module) {
         "stability_of_rig",
         [](const Rig& rig, const SteadyShape& shape, bool driven, int sense, double gravity) {
             const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            const revchain::RigStabilityOptions options{.frame = frame, .direction = sense, .gravity = gravity};
+            const revchain::RigStabilityOptions options{.frame = frame, .direction = rotation(sense), .gravity = gravity};
             return aside(rig.chain(), nullptr, [=](const Chain&) { return revchain::stability(rig, shape, options); });
         },
         "rig"_a, "shape"_a, "driven"_a, "sense"_a, "gravity"_a);
@@ -121,7 +122,7 @@ void bind_finite(py::module_& module) {
             return revchain::steady_shapes(rig, {.conical_height = height,
                                                  .budget = budget,
                                                  .hanging_only = hanging_only,
-                                                 .direction = sense,
+                                                 .direction = rotation(sense),
                                                  .gravity = gravity,
                                                  .threads = threads});
         },

@@ -17,20 +17,27 @@ using revchain::HeldShape;
 
 /// Shapes of a chain or a cord; without holding the GIL.
 template <class System>
-auto shapes(const System& system, std::optional<double> span, const Tension& pull, bool weightless, const End& lower, const End& upper, std::optional<double> conical_height,
-            std::optional<double> angular_speed, double gravity, int max_half_waves, bool prove, long budget) {
+auto shapes(const System& system, std::optional<double> span, const Tension& pull, bool weightless, const End& lower,
+            const End& upper, std::optional<double> conical_height, std::optional<double> angular_speed, double gravity,
+            int max_half_waves, bool prove, long budget) {
     const py::gil_scoped_release release;
-    return revchain::steady_shapes(Held(system, {.span = span,
-                                                 .tension = tension(pull),
-                                                 .weightless = weightless,
-                                                 .lower = support(lower),
-                                                 .upper = support(upper)}),
-                                   {.conical_height = conical_height,
-                                    .angular_speed = angular_speed,
-                                    .gravity = gravity,
-                                    .max_half_waves = max_half_waves,
-                                    .prove = prove,
-                                    .budget = budget});
+    const Held held(system, {.span = span,
+                             .tension = tension(pull),
+                             .weightless = weightless,
+                             .lower = support(lower),
+                             .upper = support(upper)});
+    if constexpr (std::is_same_v<System, revchain::Cord>)
+        return revchain::steady_shapes(held, {.conical_height = conical_height,
+                                              .angular_speed = angular_speed,
+                                              .gravity = gravity,
+                                              .max_half_waves = max_half_waves});
+    else
+        return revchain::steady_shapes(held, {.conical_height = conical_height,
+                                              .angular_speed = angular_speed,
+                                              .gravity = gravity,
+                                              .max_half_waves = max_half_waves,
+                                              .prove = prove,
+                                              .budget = budget});
 }
 
 template <class System>
@@ -96,7 +103,7 @@ void def_on_branches(py::module_& module) {
         [](const System& system, double span, const End& lower, const End& upper, int mode, const std::string& name,
            double value, double gravity) {
             const py::gil_scoped_release release;
-            revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
+            revchain::HeldOnBranchOptions options{.mode = mode, .gravity = gravity};
             (name == "conical_height"  ? options.conical_height
              : name == "angular_speed" ? options.angular_speed
                                        : options.top_tension) = value;

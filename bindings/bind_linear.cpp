@@ -110,7 +110,7 @@ py::array shape(const FoundModes& found) {
     return found.read([](const auto& m) -> py::array {
         const auto* table = without_lock([&] { return &m.shapes(); });
         if constexpr (std::is_same_v<decltype(table), const revchain::Table<double>*>)
-            return in_place(*table, m.lazy_shapes.owner());
+            return in_place(*table, revchain::detail::ShapesBehind::of(m).owner());
         else
             return leading(*table);
     });
@@ -136,7 +136,7 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
                 certified};
         return {without_lock([&] { return solve(chain, asked.options<double>(progress)); }), certified};
     } else {
-        return {without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); }),
+        return {without_lock([&] { return solve(revchain::detail::converted<T>(chain), asked.options<T>(progress)); }),
                 certified};
     }
 }
@@ -164,8 +164,14 @@ FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> c
                       std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
                       std::optional<double> rtol, revchain::Progress* progress, double gravity) {
     const Asked asked{first, count, conical_height, angular_speed, rtol, false, revchain::ModesMethod::automatic};
-    auto options = asked.options<double>(progress);
-    options.gravity = gravity;
+    const auto as_hung = asked.options<double>(progress);
+    const revchain::StraightModesOptions options{.first = first,
+                                                 .count = as_hung.count,
+                                                 .conical_height = as_hung.conical_height,
+                                                 .angular_speed = as_hung.angular_speed,
+                                                 .rtol = rtol,
+                                                 .gravity = gravity,
+                                                 .progress = progress};
     return {without_lock([&] { return revchain::modes(held, options); }), false};
 }
 

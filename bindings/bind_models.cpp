@@ -14,7 +14,7 @@ using revchain::Index;
 py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
                    std::optional<double> time_budget) {
     const auto choice =
-        revchain::select(revchain::height_models, chain, {first, count, rtol, inclination}, time_budget);
+        revchain::models::select(revchain::models::height_models, chain, {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -23,7 +23,7 @@ py::tuple selected(const Chain& chain, Index first, Index count, double rtol, do
     return py::make_tuple(rows, choice.model, choice.meets_tolerance);
 }
 
-py::tuple answered(const revchain::Solution& found) {
+py::tuple answered(const revchain::models::Solution& found) {
     const py::object low = found.answer.conical_height_low.size() > 0
                                ? py::object(to_numpy(found.answer.conical_height_low))
                                : py::object(py::none());
@@ -34,8 +34,8 @@ py::tuple answered(const revchain::Solution& found) {
 py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, double inclination,
                       std::optional<double> time_budget) {
     return answered(aside(chain, nullptr, [=](const Chain& own) {
-        const revchain::Question question{first, count, rtol, inclination};
-        return revchain::solve(revchain::height_models, own, question, time_budget);
+        const revchain::models::Question question{first, count, rtol, inclination};
+        return revchain::models::solve(revchain::models::height_models, own, question, time_budget);
     }));
 }
 
@@ -43,7 +43,7 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
 py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
                     const std::string& model) {
     return answered(aside(chain, nullptr, [=](const Chain& own) {
-        return revchain::solve_by(revchain::height_models, model, own, {first, count, rtol, inclination});
+        return revchain::models::solve_by(revchain::models::height_models, model, own, {first, count, rtol, inclination});
     }));
 }
 
@@ -52,7 +52,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
 void bind_models(py::module_& module) {
     py::list names;
     std::apply([&](const auto&... models) { (names.append(py::str(models.name.data(), models.name.size())), ...); },
-               revchain::height_models);
+               revchain::models::height_models);
     module.attr("MODELS") = py::tuple(names);
     module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
     module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);

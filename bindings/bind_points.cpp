@@ -255,14 +255,16 @@ py::tuple steady_shapes(const Points& points, Index most, const Array& given, bo
     for (auto& table : found) table = Filled<double>(points.size(), most, missing);
     const Numbers at("speed", given, points.size()), g("gravity", gravity, points.size());
     auto status = points.each(progress, [&](Index i) {
-        revchain::SteadyShapesOptions options{.hanging_only = hanging_only, .direction = direction, .gravity = g(i)};
         if (!(at(i) > 0)) revchain::detail::throw_invalid("steady_shapes", "the speed must be positive", at(i));
-        if (speeds)
-            options.angular_speed = points.rigged() ? direction * at(i) : at(i);
-        else
-            options.conical_height = at(i);
-        const auto shapes = points.rigged() ? revchain::steady_shapes(points.rig(i, g(i)), options)
-                                            : revchain::steady_shapes(points.chain(i), options);
+        const auto asked = [&](auto options, int sign) {
+            options.hanging_only = hanging_only, options.gravity = g(i);
+            (speeds ? options.angular_speed : options.conical_height) = speeds ? sign * at(i) : at(i);
+            return options;
+        };
+        const revchain::RigShapesOptions turning{.direction = rotation(direction)};
+        const auto shapes = points.rigged()
+                                ? revchain::steady_shapes(points.rig(i, g(i)), asked(turning, direction))
+                                : revchain::steady_shapes(points.chain(i), asked(revchain::SteadyShapesOptions{}, 1));
         count(i, 0) = static_cast<std::int64_t>(shapes.shapes.size()), complete(i, 0) = shapes.complete;
         for (Index k = 0; k < std::min<Index>(most, static_cast<Index>(shapes.shapes.size())); ++k) {
             const auto& shape = shapes.shapes[static_cast<std::size_t>(k)];

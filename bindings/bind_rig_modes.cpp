@@ -159,7 +159,7 @@ void bind_rig_modes(py::module_& module) {
                                                                [](const Slack& x) { return x.angular_speed; });
                                })
         .def_property_readonly("complete", [](const Found& f) { return f.modes.complete; })
-        .def_property_readonly("method", [](const Found& f) { return f.modes.method; })
+        .def_property_readonly("method", [](const Found& f) { return std::string(to_string(f.modes.method)); })
         .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });
     using Window = std::optional<std::pair<double, double>>;
     module.def(
@@ -167,13 +167,13 @@ void bind_rig_modes(py::module_& module) {
         [](const Rig& rig, Index first, std::optional<Index> count, const Window& heights, const Window& speeds,
            std::optional<double> rtol, bool certify, double gravity, revchain::Progress* progress, Index threads,
            std::optional<std::array<Index, 4>> kept) {
-            revchain::ModesOptions<double> options{.first = first,
-                                                   .rtol = rtol,
-                                                   .certify = certify,
-                                                   .gravity = gravity,
-                                                   .other = false,
-                                                   .threads = threads,
-                                                   .progress = progress};
+            revchain::RigModesOptions options{.first = first,
+                                              .rtol = rtol,
+                                              .certify = certify,
+                                              .gravity = gravity,
+                                              .other = false,
+                                              .threads = threads,
+                                              .progress = progress};
             if (heights) options.conical_height = {heights->first, heights->second};
             if (speeds) options.angular_speed = {speeds->first, speeds->second};
             if (!heights && !speeds) options.count = count.value_or(revchain::all_modes);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "revchain/conical_pendulum.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
@@ -20,6 +21,11 @@ using namespace pybind11::literals;
 
 /// Numbers in any order and of any type, as contiguous doubles.
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Python's direction of rotation: 1 or -1.
+inline revchain::Rotation rotation(int direction) {
+    return direction > 0 ? revchain::Rotation::forward : revchain::Rotation::backward;
+}
 
 /// numpy arrays that Python can read and not change.
 inline py::array frozen(py::array array) {

@@ -87,6 +87,26 @@ MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
 PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
 RIGGING = {"rig.hpp", "system/edit.hpp"}
+# Macros that outlive the header that defines them. C++ gives a macro no scope, so that one which several headers use
+# lives until the end of the file that includes them; its prefix keeps it apart from a user's. All others are undefined at
+# the end of their header.
+MACROS_THAT_STAY = {
+    "REVCHAIN_BUILD",  # every header opens its namespace with it; the next five are its parts
+    "REVCHAIN_BUILD_SET",
+    "REVCHAIN_BUILD_FMA",
+    "REVCHAIN_BUILD_KIND",
+    "REVCHAIN_JOIN",
+    "REVCHAIN_JOINED",
+    "REVCHAIN_INLINE",  # before definitions of public functions
+    "REVCHAIN_INLINE_ANALYTIC",
+    "REVCHAIN_INLINED",  # before bodies of lambdas in kernels
+    "REVCHAIN_SEVERAL_TARGETS",  # what kernels are compiled for
+    "REVCHAIN_NO_VECTOR_EXTENSIONS",
+    "REVCHAIN_MASK_INSTRUCTIONS",
+    "REVCHAIN_BITS_AS",
+}
+# What namespace revchain itself may declare in folders, which is the public headers' namespace: a name in each line.
+NAMES = ROOT / "tools" / "names_in_folders.txt"
 MAX_LINES = 400
 MAX_COLUMNS = 120
 
@@ -151,6 +171,11 @@ def check_header(path: Path) -> list[str]:
         complain(path, 1, f"unknown folder {here}; its place in the order goes into ALLOWED in tools/check_layers.py")
     if path.name.endswith("_impl.hpp") or path.name in {"fwd.hpp", "all.hpp"}:
         complain(path, 1, "no *_impl.hpp, fwd.hpp or all.hpp: these make the cycles in other libraries")
+    undefined = set(re.findall(r"^\s*#\s*undef\s+(\w+)", code, re.M))
+    for macro in re.finditer(r"^\s*#\s*define\s+(\w+)", code, re.M):
+        if macro[1] not in MACROS_THAT_STAY | undefined:
+            number = code.count("\n", 0, macro.start(1)) + 1
+            complain(path, number, f"{macro[1]} outlives its header: #undef it at the end, or see MACROS_THAT_STAY")
     if name not in UMBRELLAS | MACROS and not re.sub(r"^\s*#.*$", "", code, flags=re.M).strip():
         complain(path, 1, "includes and declares nothing of its own: no folder umbrellas")
 
@@ -183,6 +208,59 @@ def check_header(path: Path) -> list[str]:
         elif (path.parent / target).is_file():
             complain(path, number, f"write the path from include/: revchain/..., not {target}")
     return ours
+
+
+def named_by(head: str) -> str:
+    """The name that a declaration gives, from the text before its first `{` or its `;`; "" for none that counts."""
+    depth, outside = 0, ""
+    for before, mark in zip(" " + head, head):  # template parameters and arguments go
+        depth += (mark == "<") - (mark == ">" and before != "-" and depth > 0)
+        outside += mark if depth == 0 and mark != ">" else ""
+    text = " ".join(re.sub(r"\[\[.*?\]\]|\brequires\b.*?(?=\b(struct|class|inline|constexpr|auto)\b)", "", outside).split())
+    instance = re.match(r"\s*(extern\s+)?template\s*[^<\s]", head)
+    if instance or re.match(r"(template )?struct \w+ ?$", text) and "<" in head.partition("struct")[2]:  # specialised
+        return ""
+    kind = re.match(r"(?:template )*(?:struct|class|enum class|concept|using) (\w+)(?= ?(?:$|:[^:]|=|final))", text)
+    if not kind and re.match(r"using|static_assert|friend", text):
+        return ""
+    called = re.search(r"(operator ?[^\s\w(]+|[\w:]+) ?\(", text)
+    number = re.search(r"constexpr .*?(\w+) ?(?:=|$)", text)
+    found = kind or called or number
+    return "" if not found or "::" in found[1] else found[1]
+
+
+def declared(code: str) -> set[str]:
+    """Names that a header declares in namespace revchain itself, in no namespace within it."""
+    names: set[str] = set()
+    scopes: list[str] = []
+    head = ""
+    for mark in re.sub(r"^\s*#.*$", "", code, flags=re.M):
+        if mark in "{;" and scopes == ["revchain::inline REVCHAIN_BUILD"]:
+            names.add(named_by(head))
+        if mark == "{":
+            space = re.search(r"\bnamespace ([\w:\s]+?)\s*$", head)
+            scopes.append(space[1] if space else "")
+        elif mark == "}" and scopes:
+            scopes.pop()
+        head = "" if mark in "{};" else head + mark
+    return names - {"", "namespace"}
+
+
+def check_names(headers: list[Path]) -> None:
+    """Complains about a name of the machinery in the namespace of the public headers, and about a list that is too long."""
+    public: set[str] = set()
+    inner: dict[str, Path] = {}
+    for path in headers:
+        names = declared(without_comments(path.read_text(encoding="utf-8")))
+        if path.parent == INCLUDE:
+            public |= names
+        else:
+            inner |= dict.fromkeys(names, path)
+    known = {line for line in NAMES.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")}
+    for name in sorted(inner.keys() - public - known):
+        complain(inner[name], 1, f"declares {name} in namespace revchain, which is for the public headers: use one within it")
+    for name in sorted(known - (inner.keys() - public)):
+        problems.append(f"tools/names_in_folders.txt: {name} is no longer declared there: take it off")
 
 
 def check_test(path: Path) -> None:
@@ -282,6 +360,7 @@ def main() -> int:
         for name, following in graph.items()
     }
     check_cycles(one_way, "headers include each other")
+    check_names(headers)
     for name in sorted(PUBLIC.keys() - graph.keys()):
         problems.append(f"tools/check_layers.py: there is no public header {name}")
     check_cycles({name: sorted(allowed) for name, allowed in ALLOWED.items()}, "ALLOWED runs")

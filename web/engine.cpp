@@ -24,7 +24,7 @@ double gravity = revchain::conical_pendulum::standard_gravity;
 namespace {
 
 std::vector<revchain::SteadyShape> shapes;
-int direction = 1;
+revchain::Rotation direction = revchain::Rotation::forward;
 
 /// A force in newtons in the unit of the weights, in double words: bounds hold for the number given.
 revchain::Wide<double> over_gravity(double force) {
@@ -84,7 +84,7 @@ const char* what(const std::exception* thrown) { return thrown->what(); }
 int set_rig(int parts, double stiffness, double carriage, double radius, double g) {
     const std::vector<double> given = numbers;
     return answered([&] {
-        gravity = g, direction = 1, shapes.clear();
+        gravity = g, direction = revchain::Rotation::forward, shapes.clear();
         rig = rig_of(given, parts, {over_gravity(stiffness), carriage, radius});
         put(static_cast<double>(rig->size()));
     });
@@ -93,8 +93,8 @@ int set_rig(int parts, double stiffness, double carriage, double radius, double 
 /// Whether the list is complete, the number of shapes; each shape. Forces are over gravity.
 int find_shapes(double speed, double budget) {
     return answered([&] {
-        direction = speed < 0 ? -1 : 1;
-        const revchain::SteadyShapesOptions options{
+        direction = speed < 0 ? revchain::Rotation::backward : revchain::Rotation::forward;
+        const revchain::RigShapesOptions options{
             .angular_speed = speed, .budget = static_cast<long>(budget), .gravity = gravity};
         revchain::SteadyShapes found = revchain::steady_shapes(*rig, options);
         shapes = std::move(found.shapes);
@@ -121,7 +121,7 @@ int judge_shapes(int first, int last) {
 /// The branch that leaves the vertical at a mode (1: from rest, where the support is carried round), up to a speed.
 int find_branch(int mode, double speed) {
     return answered([&] {
-        const revchain::BranchOptions options{.mode = mode, .max_angular_speed = speed, .gravity = gravity};
+        const revchain::RigBranchOptions options{.mode = mode, .max_angular_speed = speed, .gravity = gravity};
         put_branch(revchain::branch(*rig, options));
     });
 }
@@ -129,11 +129,11 @@ int find_branch(int mode, double speed) {
 /// Whether the diagram is complete, the number of branches; each branch.
 int find_branches(double speed, int lists, double budget, double proof_budget) {
     return answered([&] {
-        const revchain::BranchesOptions options{.max_angular_speed = speed,
-                                                .lists = lists,
-                                                .budget = static_cast<long>(budget),
-                                                .proof_budget = static_cast<long>(proof_budget),
-                                                .gravity = gravity};
+        const revchain::RigDiagramOptions options{.max_angular_speed = speed,
+                                                  .lists = lists,
+                                                  .budget = static_cast<long>(budget),
+                                                  .proof_budget = static_cast<long>(proof_budget),
+                                                  .gravity = gravity};
         const revchain::Branches found = revchain::branches(*rig, options);
         put(found.complete), put(static_cast<double>(found.branches.size()));
         for (const auto& branch : found.branches) put_branch(branch);

@@ -28,7 +28,6 @@ ELSEWHERE: dict[str, dict[str, tuple[str, ...]]] = {
         "numeric/progress.hpp": ("Progress",),
     },
     "rig": {"system/link.hpp": ("Posture",)},
-    "branches": {"finite/branch/state.hpp": ("finite::BranchPoint",)},
     "cord": {
         "system/cord.hpp": ("CordDensity", "CordOptions", "Cord"),
         "finite/cord/continuous_shape.hpp": ("CordShape",),
@@ -142,7 +141,8 @@ def symbol(code: list[str]) -> str:
     """The name that a declaration introduces; empty for an explicit instantiation."""
     if code[0].startswith("extern template"):
         return ""
-    whole = re.sub(r"^template\s*<.*?>\s*(requires .*?\n)?(?=\w)", "", "\n".join(code), count=1, flags=re.DOTALL)
+    whole = "\n".join(code).replace("[[nodiscard]] ", "")
+    whole = re.sub(r"^template\s*<.*?>\s*(requires .*?\n)?(?=\w)", "", whole, count=1, flags=re.DOTALL)
     if kind := re.match(r"(?:struct|class|enum class|concept|using)\s+(\w+)", whole):
         return kind[1]
     head = re.split(r"\(|=|\{", whole, maxsplit=1)[0]

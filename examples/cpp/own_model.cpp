@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace revchain;
+using namespace revchain::models;
 
 /// A solid ball on a thread, which is tied to a hook at its centre.
 Link<double> ball(double weight, double thread, double radius) {

@@ -68,7 +68,8 @@ struct BatchOptions {
 /// beyond the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count.
 /// Throws it later only for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
-Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options = {});
+[[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
+                                       const BatchOptions& options = {});
 
 }  // namespace revchain
 

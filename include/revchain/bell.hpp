@@ -57,14 +57,14 @@ struct BellAndClapper {
 /// Accuracy: heights and ratios 2 ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp).
 /// Cost O(1). Throws InvalidArgument unless there are two links, both with weight.
 template <Real T>
-BellAndClapper<T> bell_and_clapper(const Chain<T>& chain);
+[[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain);
 
 /// For each datum the value nearest to the present one that gives the slower mode the ratio of inclinations `ratio`,
 /// with the other data held; NaN where there is none. A ratio of 1 makes bell and clapper one piece; a bell rings with
 /// a ratio far enough from 1. Each value is a root of a quadratic. Cost O(1). Throws InvalidArgument as
 /// `bell_and_clapper`, and for a ratio that is not positive.
 template <Real T>
-ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
+[[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
 
 }  // namespace revchain
 

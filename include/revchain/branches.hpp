@@ -3,7 +3,6 @@
 
 #include <concepts>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +27,6 @@
 /// speed several times. An isolated branch is born in a fold and never reaches the vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
-namespace finite {
-struct BranchSystem;
-struct BranchOnset;
-}  // namespace finite
-
 template <class System>
 class Held;
 class Cord;
@@ -48,7 +42,7 @@ enum class BranchEnd {
     slack,     ///< where flywheels make the effective tension of a link 0: it reaches the horizontal
     loose,     ///< where the spring at the support can no longer hold the rig: it is stretched to a thousand lengths
 };
-inline std::string_view to_string(BranchEnd end) {
+[[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
     constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
     return names[static_cast<std::size_t>(end)];
 }
@@ -59,7 +53,7 @@ enum class BranchBirth {
     rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
     fold,      ///< isolated: it begins at a fold, where two shapes appear together, or it is closed
 };
-inline std::string_view to_string(BranchBirth birth) {
+[[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
     return names[static_cast<std::size_t>(birth)];
 }
@@ -79,23 +73,22 @@ struct Branch {
     std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme (folds)
     BranchEnd end = BranchEnd::budget;
 
-    std::size_t size() const { return arc.size(); }
+    std::size_t size() const noexcept { return arc.size(); }
     double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point, balanced in double-double. Its bound is proved, except at a fold, where it is an estimate.
     /// Throws InvalidArgument for a point that is the straight chain (point 0 on the branch of a mode), past the end,
     /// and for a shape that does not balance in double-double.
-    SteadyShape shape(std::size_t point) const;
+    [[nodiscard]] SteadyShape shape(std::size_t point) const;
     /// The shapes of the branch, as far as it was followed, at a conical height, in the order of the arc.
     /// Accuracy: as of `steady_shape`. Cost: a test of every point, and O(N) for each shape.
     /// Throws InvalidArgument for a height that is not positive and finite.
-    std::vector<SteadyShape> shapes_at(double conical_height) const;
+    [[nodiscard]] std::vector<SteadyShape> shapes_at(double conical_height) const;
 
-    // Data of `shape` and `shapes_at`.
-    std::shared_ptr<const finite::BranchSystem> system;
-    std::vector<finite::BranchPoint> points;
-    std::shared_ptr<const finite::BranchOnset> onset;  ///< of the mode; null for other branches
+   private:
+    friend finite::TraceBehind;
+    finite::BranchTrace trace_;
 };
 
 /// Which branch, and how far to follow it. Give either `min_conical_height` or `max_angular_speed`.
@@ -106,7 +99,6 @@ struct BranchOptions {
     std::size_t max_points = 10'000;
     double max_step = 0.1;  ///< along the arc
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed by its arc through every fold until it
@@ -121,7 +113,18 @@ struct BranchOptions {
 /// Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one of height and speed
 /// is given, positive and finite, and for a height that is not below that of the mode.
-Branch branch(const Chain<double>& chain, const BranchOptions& options);
+[[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
+
+/// The same of a rig.
+struct RigBranchOptions {
+    Index mode = 1;  ///< among those in the direction of rotation
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s
+    std::size_t max_points = 10'000;
+    double max_step = 0.1;
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+};
 
 /// The branch of a mode of a rig, or, where its support is off the axis, the branch from rest.
 ///
@@ -134,10 +137,10 @@ Branch branch(const Chain<double>& chain, const BranchOptions& options);
 /// link.
 /// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
 /// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
-Branch branch(const Rig& rig, const BranchOptions& options);
+[[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
 /// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
-struct BranchesOptions {
+struct DiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
     std::size_t max_points = 10'000;            ///< of each branch
@@ -146,7 +149,6 @@ struct BranchesOptions {
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
     long proof_budget = 1'000'000;  ///< of the proof that no branch is missing: link evaluations, 0.1 to 1 us each
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// All branches found above one conical height.
@@ -178,7 +180,20 @@ struct Branches {
 /// with SSE2 up to twice as long).
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and for `lists` below
 /// 1.
-Branches branches(const Chain<double>& chain, const BranchesOptions& options);
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
+
+/// The same of a rig.
+struct RigDiagramOptions {
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s
+    std::size_t max_points = 10'000;
+    double max_step = 0.1;
+    int lists = 16;
+    long budget = 3'000'000;
+    long proof_budget = 1'000'000;
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+};
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or where its support is off the axis the
 /// one from rest, and those born in folds. Method and proof are those of chains.
@@ -189,10 +204,10 @@ Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 /// frame is convex. A spring cannot hold the rig where its stiffness times the conical height is less than the weight
 /// that moves: at such heights the diagram is not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
-Branches branches(const Rig& rig, const BranchesOptions& options);
+[[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
 /// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
-struct SteadyShapeOptions {
+struct OnBranchOptions {
     Index mode = 1;  ///< at which the branch leaves the vertical
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};    ///< rad/s, with `gravity`
@@ -200,11 +215,25 @@ struct SteadyShapeOptions {
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< size of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
     /// Lowest conical height searched. Absent: 1e-6 of the mode's height, or half of the given height (or g/n^2).
     std::optional<double> min_conical_height{};
-    std::size_t max_shapes = std::numeric_limits<std::size_t>::max();  ///< of `shapes_on_branch`
 };
+
+/// The same of a rig.
+struct RigOnBranchOptions {
+    Index mode = 1;  ///< among those in the direction of rotation
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};  ///< rad/s, positive in both directions
+    std::optional<double> tip_inclination{};
+    std::optional<double> tip_radius{};
+    std::optional<double> top_tension{};
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    Rotation direction = Rotation::forward;
+    std::optional<double> min_conical_height{};
+};
+
+/// As a number of shapes: all there are.
+inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
 /// States of one branch, in the order of its arc.
 struct ShapesOnBranch {
@@ -227,7 +256,7 @@ struct ShapesOnBranch {
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one number is given, for
 /// one out of its range (`tip_radius` below the length, `top_tension` above the weight), for a `min_conical_height` not
 /// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
-SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
+[[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
 /// The first shape along a branch of a rig at which one number is as given. With the support on the axis, `mode` is a
 /// mode of the rig. Off the axis it must be 1: the branch from rest, followed from a ten-thousandth of the first
@@ -236,12 +265,15 @@ SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& o
 /// `tip_inclination` is the size of the lowest link's inclination, off the axis the inclination outwards; it is between
 /// pi/2 and pi if that link stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`.
 /// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
-SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options);
+[[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
 /// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
-ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
-ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& options);
+[[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
+                                              const OnBranchOptions& options,
+                                              std::size_t max_shapes = all_shapes);
+[[nodiscard]] ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
+                                              std::size_t max_shapes = all_shapes);
 
 }  // namespace revchain
 

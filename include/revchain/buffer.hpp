@@ -48,9 +48,9 @@ class BufferImpact {
     /// blows or ten million steps to find them.
     explicit BufferImpact(const Carriages& given);
 
-    const std::vector<Blow>& blows() const { return blows_; }
+    const std::vector<Blow>& blows() const noexcept { return blows_; }
     /// The state at a time. Throws InvalidArgument for a time that is negative or not finite.
-    CarriageState operator()(double time) const;
+    [[nodiscard]] CarriageState operator()(double time) const;
 
    private:
     /// The front carriage is at c + v t + sum of (a cos w t + b sin w t), the rear one at c + v t + the same sum with

@@ -57,12 +57,12 @@ class Chain {
     }
 
     /// `count` equal plummets: `length` and `weight` are those of the whole chain.
-    static Chain uniform_plummets(Index count, T length = T(1), T weight = T(1)) {
+    [[nodiscard]] static Chain uniform_plummets(Index count, T length = T(1), T weight = T(1)) {
         return repeated("Chain::uniform_plummets", count, length, weight, &plummet<T>);
     }
 
     /// `count` equal uniform rods: `length` and `weight` are those of the whole chain.
-    static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
+    [[nodiscard]] static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
 
@@ -71,7 +71,7 @@ class Chain {
     /// the free end. Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
     /// Also throws InvalidArgument for an exponent not above -1 or above 1000, and if the weight of the lowest link is
     /// too small for T. Accuracy and cost: system/tapered_links.hpp.
-    static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
+    [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
         if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
         Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
@@ -91,32 +91,32 @@ class Chain {
     /// Returns this chain with `taper` set to the exponent from which `tapered` made its links. Links that were read
     /// from a file have lost it. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp.
     /// Cost: that of `tapered`.
-    Chain as_tapered(double exponent) const;
+    [[nodiscard]] Chain as_tapered(double exponent) const;
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
     /// The exponent of the line density of a chain that `tapered` or `as_tapered` made; no value for other chains.
-    std::optional<double> taper() const { return taper_; }
+    std::optional<double> taper() const noexcept { return taper_; }
 
-    Index size() const { return size_; }
+    Index size() const noexcept { return size_; }
     Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
-    const Column<T>& weight() const { return weight_; }
-    const Column<T>& length() const { return length_; }
-    const Column<T>& centroid() const { return centroid_; }
-    const Column<Wide<T>>& gyration_ratio() const { return gyration_ratio_; }
+    const Column<T>& weight() const noexcept { return weight_; }
+    const Column<T>& length() const noexcept { return length_; }
+    const Column<T>& centroid() const noexcept { return centroid_; }
+    const Column<Wide<T>>& gyration_ratio() const noexcept { return gyration_ratio_; }
 
     /// The number of finite conical heights: N, less one for each coordinate that carries no inertia.
-    Index mode_count() const { return mode_count_; }
+    Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
     /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14 operations of a double
     /// word (measured: 0.27), and of one operation where one weight serves all links. Cost: O(1) where m is a multiple
     /// of `segment_size`, else O(segment_size) (70 ns in double).
-    Wide<T> weight_below(Index m) const {
-        const Index whole = m / segment_size, rest = m % segment_size;
-        if (weight_.is_scalar()) return times(weight_[0], m);
+    [[nodiscard]] Wide<T> weight_below(Index m) const {
+        const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
+        if (weight_.is_scalar()) return detail::times(weight_[0], m);
         if (m == size_) return partial_weights().back();
         const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
-        return rest == 0 ? below : below + summary(weight_.data() + whole * segment_size, rest).sum;
+        return rest == 0 ? below : below + detail::summary(weight_.data() + whole * detail::segment_size, rest).sum;
     }
     /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
     /// serves all links.
@@ -125,9 +125,9 @@ class Chain {
         return partial_weights_ ? *partial_weights_ : none;
     }
     /// Whether no centroid lies above its link's upper pin.
-    bool centroids_below() const { return centroids_below_; }
+    bool centroids_below() const noexcept { return centroids_below_; }
     /// Whether the weights are close enough together for one unit (ratios up to 1e123 in double).
-    bool has_one_weight_unit() const { return one_weight_unit_; }
+    bool has_one_weight_unit() const noexcept { return one_weight_unit_; }
     /// Straight length from the support to the free end.
     T total_length() const { return total_length_; }
     ChainUnits units() const {
@@ -163,7 +163,7 @@ class Chain {
 
     void check();
     void check_each_link() const;
-    void check_that_links_hang(const Summary<T>& centroids) const;
+    void check_that_links_hang(const detail::Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
     /// The number of links that a check has to read: one where one number of each kind serves all.
     Index distinct_links() const {
@@ -243,11 +243,11 @@ void Chain<T>::check() {
     check_stored(centroid_, "centroid"), check_stored(gyration_ratio_, "gyration_ratio");
 
     std::vector<Wide<T>> partial;
-    const Summary<T> weights = summary(weight_, size_, &partial);
+    const detail::Summary<T> weights = detail::summary(weight_, size_, &partial);
     if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
-    const Summary<T> lengths = summary(length_, size_);
+    const detail::Summary<T> lengths = detail::summary(length_, size_);
     const bool same = !centroid_.is_scalar() && centroid_.data() == length_.data();  // plummets: one column for both
-    const Summary<T> centroids = same ? lengths : summary(centroid_, size_);
+    const detail::Summary<T> centroids = same ? lengths : detail::summary(centroid_, size_);
     centroids_below_ = centroids.least >= T(0);
     bool radii = true, all_turn = true;
     T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
@@ -314,13 +314,13 @@ void Chain<T>::check_each_link() const {
 }
 
 template <Real T>
-void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
+void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const {
     using std::frexp;
     using std::ldexp;
     if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
     Wide<T> below(T(0));
     for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
-        if (m % segment_size == 0) below = weight_below(m);
+        if (m % detail::segment_size == 0) below = weight_below(m);
         if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
             int exponent = 0;
             frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);

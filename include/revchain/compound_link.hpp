@@ -19,6 +19,18 @@
 /// positive, a radius of gyration that is negative, and numbers that are not finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
+template <Real T>
+struct CompoundLink;
+
+namespace detail {
+/// k^2/h in two words, as a product that does not overflow.
+template <Real T>
+Product<Wide<T>> squares_over_centroid(const CompoundLink<T>& link) {
+    const Wide<T> k(link.radius_of_gyration);
+    return Product<Wide<T>>{}.times(k).times(k).over(link.centroid);
+}
+}  // namespace detail
+
 /// A rigid link.
 template <Real T>
 struct CompoundLink {
@@ -27,22 +39,17 @@ struct CompoundLink {
 
     /// l = h + k^2/h, the length of the equivalent simple pendulum; also the distance of the centre of oscillation from
     /// the pin. Accuracy: 1.5 ulp.
-    T pendulum_length() const {
+    [[nodiscard]] T pendulum_length() const {
         using std::isfinite;
-        const T length = static_cast<T>(Wide<T>(centroid) + squares_over_centroid().value());
+        const T length = static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
     }
     /// k^2/h, the distance from the centre of gravity to the centre of oscillation. A link hung by its centre of
     /// oscillation has h and k^2/h exchanged, §6.
-    T square_over_centroid() const { return static_cast<T>(squares_over_centroid().value()); }
-    /// k^2/h in two words, as a product that does not overflow.
-    detail::Product<Wide<T>> squares_over_centroid() const {
-        const Wide<T> k(radius_of_gyration);
-        return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
-    }
+    T square_over_centroid() const { return static_cast<T>(detail::squares_over_centroid(*this).value()); }
     /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the
     /// rest is at the pin. §6. Accuracy: 2 ulp.
-    T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
+    [[nodiscard]] T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 
 namespace detail {
@@ -108,13 +115,14 @@ struct SwungLink {
 /// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination.
 /// Also throws InvalidArgument for a height that is not positive and finite. O(1).
 template <Real T>
-SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
+[[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     using std::abs, std::asin, std::atan, std::hypot, std::sqrt;
     detail::check("swung_link", link);
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
+    const auto squares = detail::squares_over_centroid(link);
     const T longer = height <= h
-                         ? static_cast<T>(link.squares_over_centroid().plus(h - height).over(length).root().value())
+                         ? static_cast<T>(squares.plus(h - height).over(length).root().value())
                          : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));

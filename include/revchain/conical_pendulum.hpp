@@ -25,6 +25,10 @@
 /// InvalidArgument unless every argument is positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// Direction of rotation about the axis: that of positive or that of negative angular speeds.
+/// Chains and cords whirl alike in both directions, rigs with flywheels do not.
+enum class Rotation { forward, backward };
+
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
 /// Accuracy: 2.1 ulp, measured against 34 digits in tests/cpp/conical_pendulum.cpp.
 namespace conical_pendulum {
@@ -33,7 +37,7 @@ inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact by conven
 
 /// n = sqrt(g / lambda), rad/s. §1 (1)
 template <Real T>
-T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
     detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity", gravity);
     return sqrt(gravity) / sqrt(height);  // not sqrt(g / lambda): the quotient may leave the range
@@ -41,14 +45,14 @@ T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
 
 /// lambda = g / n^2. §1 (1)
 template <Real T>
-T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity", gravity);
     return gravity / angular_speed / angular_speed;
 }
 
 /// T = 2 pi sqrt(lambda / g), seconds for one revolution. §1 (2)
 template <Real T>
-T period(const T& height, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T period(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
     detail::require_positive("conical_pendulum::period", "height", height, "gravity", gravity);
     return T(2) * detail::pi<T> * (sqrt(height) / sqrt(gravity));
@@ -56,7 +60,7 @@ T period(const T& height, const T& gravity = T(standard_gravity)) {
 
 /// lambda = g T^2 / (4 pi^2). §1 (1)
 template <Real T>
-T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity", gravity);
     const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
@@ -64,13 +68,14 @@ T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
 
 /// Revolutions per second, 1 / T.
 template <Real T>
-T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)) {
     return angular_speed(height, gravity) / (T(2) * detail::pi<T>);
 }
 
 /// lambda = g / (2 pi R)^2 from R revolutions per second.
 template <Real T>
-T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(standard_gravity)) {
+[[nodiscard]] T height_from_revolutions_per_second(const T& revolutions,
+                                                   const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
                              revolutions);
     return height(T(T(2) * detail::pi<T> * revolutions), gravity);
@@ -78,7 +83,7 @@ T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(
 
 /// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing to and fro. §1 (4)
 template <Real T>
-T gravity(const T& length, const T& period) {
+[[nodiscard]] T gravity(const T& length, const T& period) {
     detail::require_positive("conical_pendulum::gravity", "length", length, "period", period);
     const T radian = period / (T(2) * detail::pi<T>);
     return length / radian / radian;
@@ -87,14 +92,14 @@ T gravity(const T& length, const T& period) {
 /// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2). The 39.1396 inches of London in 1824 give
 /// 386.29 inches/s^2; §1 (6) prints 386.28. §1 (5)-(6)
 template <Real T>
-T gravity_from_seconds_pendulum(const T& length) {
+[[nodiscard]] T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
     return detail::pi<T> * detail::pi<T> * length;
 }
 
 /// lambda = L T^2 / 4 from the length L of the seconds pendulum; needs no g. §1 (7)
 template <Real T>
-T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
+[[nodiscard]] T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
     detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum", seconds_pendulum,
                              "period", period);
     const T half = period / T(2);
@@ -151,7 +156,7 @@ struct InclinedPendulum {
 /// It hangs straight down where height >= length. For a compound link, `length` is its pendulum length, and `tension`
 /// is not the force at its pin (`swung_link`). §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
-InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
+[[nodiscard]] InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin, std::sqrt;
     detail::require_positive("inclined_pendulum", "length", length, "height", height);
     if (!(height < length)) return {T(0), T(0), length, T(1)};
@@ -178,7 +183,8 @@ struct HeldPlummet {
 /// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
 /// Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
-HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance, const T& height) {
+[[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
+                                          const T& distance, const T& height) {
     using std::frexp, std::ldexp, std::sqrt;
     constexpr std::string_view place = "held_plummet";
     detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread, "distance", distance,
@@ -216,7 +222,7 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
 /// an arm of length `arm` and is adjusted until the arm is perpendicular to the vertical plane through the axis and the
 /// plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
-T air_resistance(const T& arm, const T& height) {
+[[nodiscard]] T air_resistance(const T& arm, const T& height) {
     detail::require_positive("air_resistance", "arm", arm, "height", height);
     return arm / height;
 }
@@ -224,7 +230,7 @@ T air_resistance(const T& arm, const T& height) {
 /// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 + radius^2).
 /// Accuracy: 2 ulp.
 template <Real T>
-T whirling_thread(const T& arm, const T& height, const T& radius) {
+[[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
     detail::require_positive("whirling_thread", "arm", arm, "height", height, "radius", radius);
     return hypot(hypot(arm, height), radius);
@@ -234,7 +240,7 @@ T whirling_thread(const T& arm, const T& height, const T& radius) {
 /// is nearly vertical: lambda / (lambda - l). Negative where lambda < l, infinite at resonance. §1 (9).
 /// Accuracy: 1.1 ulp for lambda and l as given.
 template <Real T>
-T carried_response(const T& length, const T& height) {
+[[nodiscard]] T carried_response(const T& length, const T& height) {
     detail::require_positive("carried_response", "length", length, "height", height);
     return height / (height - length);
 }
@@ -252,7 +258,8 @@ struct CarriedInclinations {
 /// Accuracy: 4 ulp, times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
 /// Cost: a microsecond. Also throws InvalidArgument where the tangent of an inclination overflows.
 template <Real T>
-CarriedInclinations<T> carried_inclinations(const T& length, const T& height, const T& radius) {
+[[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
+                                                          const T& radius) {
     using std::atan, std::cbrt, std::sqrt;
     constexpr std::string_view place = "carried_inclinations";
     detail::require_positive(place, "length", length, "height", height, "radius", radius);

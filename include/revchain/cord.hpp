@@ -5,7 +5,6 @@
 #include <variant>
 #include <vector>
 
-#include "revchain/explain.hpp"
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/cord/diagram.hpp"
 #include "revchain/finite/cord/shape_on_branch.hpp"
@@ -13,7 +12,6 @@
 #include "revchain/modes.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/system/cord.hpp"
-#include "revchain/tune.hpp"
 
 /// A perfectly flexible cord hung from one end: the continuous limit of a chain. It needs GSL.
 ///
@@ -45,25 +43,25 @@ struct CordModes {
     Status status = Status::success;  ///< whether `rtol` is met
     std::optional<HeldBy> held{};     ///< absent: the cord hangs
 
-    Index size() const { return conical_height.size(); }
+    Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord held at both ends it
     /// is divided by the largest offset, which is at the lowest vertical point. Throws InvalidArgument for s not in
     /// 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
-    double offset(Index j, double s) const;
-    Vector<double> offset(Index j, const Vector<double>& s) const;
+    [[nodiscard]] double offset(Index j, double s) const;
+    [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
-    double slope(Index j, double s) const;
-    Vector<double> slope(Index j, const Vector<double>& s) const;
+    [[nodiscard]] double slope(Index j, double s) const;
+    [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
     /// Arc lengths at which the mode at index j crosses the axis, ascending; held ends are left out.
-    Vector<double> nodes(Index j) const;
+    [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below has its centre of
     /// gravity on the axis. For a cord held at both ends there is one below each node, and one below the upper end.
-    Vector<double> vertical_points(Index j) const;
+    [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
     /// Seconds for one revolution.
-    Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
+    [[nodiscard]] Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
 };
 
 /// The modes chosen by `options`: by `first` and `count` (absent: ten) or by a window of heights or speeds that holds
@@ -77,16 +75,16 @@ struct CordModes {
 /// number, with series within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for
-/// modes above number 1e5 with series, and for a density too rough or a tip too heavy for the series. `method` and
-/// `other` of the options have no effect.
-CordModes modes(const Cord& cord, const ModesOptions<double>& options = {});
+/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many),
+/// for modes above number 1e5 with series, and for a density too rough or a tip too heavy for the
+/// series.
+[[nodiscard]] CordModes modes(const Cord& cord, const StraightModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on
 /// either side. Cost: that of some 40 modes, with series one path.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for more than 1e15
 /// modes, and with series for a length above 1e6 heights.
-Index count_modes(const Cord& cord, const CountOptions<double>& options);
+[[nodiscard]] Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
 /// Modes of a uniform cord that a tension holds straight between two points of the axis, and how many are slower than a
 /// speed. Without gravity a height is `gravity` over the square of the speed, with the gravity of the options: the
@@ -96,8 +94,8 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options);
 /// Offsets are within 1e-15 times the mode number of the largest one. Cost: as of a cord with a tip weight.
 /// Throws InvalidArgument for a span, for a tension that does not exceed the weight (the cord would not be straight),
 /// and as for a cord that hangs.
-CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
-Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
+[[nodiscard]] CordModes modes(const Held<Cord>& held, const StraightModesOptions& options = {});
+[[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// d(conical height)/d(datum) of each mode, (k,), with all other data constant. For speeds dn = -n/(2 lambda) d lambda.
 struct CordSensitivity {
@@ -115,7 +113,7 @@ struct CordSensitivity {
 /// Heights are proportional to the length; otherwise they depend only on ratios of weights (and tension).
 /// Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
 /// held at both ends two slopes, or 16 for each half wave.
-CordSensitivity sensitivity(const CordModes& modes);
+[[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed through every fold until it first comes to
 /// the conical height or speed given.
@@ -127,7 +125,18 @@ CordSensitivity sensitivity(const CordModes& modes);
 /// Cost: some 5 paths a point, three times that with a tip or a density; see `steady_shapes` for a path.
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and speed is given,
 /// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
-CordBranch branch(const Cord& cord, const BranchOptions& options);
+[[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
+
+/// How far to follow all branches of a cord. Give either `min_conical_height` or
+/// `max_angular_speed`.
+struct CordDiagramOptions {
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
+    std::size_t max_points = 10'000;            ///< of each branch
+    double max_step = 0.1;                      ///< along the arc
+    int lists = 16;  ///< number of heights, evenly spaced in the logarithm, with a list of shapes
+    double gravity = conical_pendulum::standard_gravity;
+};
 
 /// The whole diagram of branches down to the conical height or speed given: those of the modes, and isolated ones.
 ///
@@ -136,7 +145,7 @@ CordBranch branch(const Cord& cord, const BranchOptions& options);
 /// both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
 /// uniform cord, a power s^p without a tip or with p below 0, and one mode.
 /// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
-CordBranches branches(const Cord& cord, const BranchesOptions& options);
+[[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
 /// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
 /// tip radius or top tension.
@@ -145,11 +154,12 @@ CordBranches branches(const Cord& cord, const BranchesOptions& options);
 /// the given one, or within 1e-14 of the one at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of
 /// the branch up to there.
 /// Throws InvalidArgument as `steady_shape` of a chain does.
-CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
+[[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, at most `max_shapes` of them. It returns none, and does
 /// not throw, where the number is not met. Otherwise as `steady_shape`.
-CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options);
+[[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
+                                                  std::size_t max_shapes = all_shapes);
 
 /// The stability of a steady shape of a cord that hangs.
 ///
@@ -166,9 +176,11 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// Cost: that of a chain with 10 links for each panel, and two to four panels or more for each half wave: 15 ms without
 /// nodes, 0.3 s for three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.
-Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
+[[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
+                                  StabilityFrame frame = StabilityFrame::free);
 /// The same for a shape of a cord held at both ends. The ends stay in their places.
-Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame = StabilityFrame::free);
+[[nodiscard]] Stability stability(const Cord& cord, const HeldCordShape& shape,
+                                  StabilityFrame frame = StabilityFrame::free);
 
 /// The offsets or velocities of a cord at time 0: none (all 0); values at `CordSwingOptions::arc_length`, linear
 /// between them; or a continuous function of the arc length. The value at the support must be 0.
@@ -207,12 +219,7 @@ struct CordSwing {
 /// each.
 /// Throws InvalidArgument for starts that are not finite, continuous, of the length of `arc_length`, or 0 at the
 /// support, for places out of order, a count below 1 or above 1e4, gravity not positive and times not finite.
-CordSwing swing(const Cord& cord, const CordSwingOptions& options);
-
-/// Throw InvalidArgument: the C++ library does not answer these questions about a cord yet. The message says what to
-/// call instead. The Python function `tune` tunes a cord.
-Tuned tune(const Cord& cord, const TuneOptions& options);
-Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
+[[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 
 }  // namespace revchain
 

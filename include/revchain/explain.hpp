@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "revchain/models/select.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/rig.hpp"
 
 /// Which method `modes` tries first for a tolerance, and what the others would cost.
 ///
@@ -17,6 +17,11 @@
 ///     e.text();                    // a table: every method with its error bound and its time, or why it cannot serve
 namespace revchain::inline REVCHAIN_BUILD {
 
+class Rig;   // revchain/rig.hpp
+class Cord;  // revchain/cord.hpp
+template <class System>
+class Held;  // revchain/held.hpp
+
 /// The methods for some modes, each with what is known of it before it is used, and the one chosen.
 struct Explanation {
     std::vector<Estimate> methods;  ///< name, whether it applies, error bound (relative), cost (seconds)
@@ -24,18 +29,29 @@ struct Explanation {
     bool meets_tolerance = false;   ///< false: no method keeps the tolerance, and `chosen` is the most accurate
 
     /// A table for people, with a mark at the method chosen. Each line ends with a newline.
-    std::string text() const;
+    [[nodiscard]] std::string text() const;
 };
 
-/// Returns the method that `modes(chain, options)` tries first, from `first`, `count` and `rtol`; `method` is ignored.
-/// No mode is computed. Where that method cannot prove its bound for the links of this chain, `modes` takes the next
-/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error bound; predicted times
-/// were within a factor of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as
-/// `modes` does, and for windows.
-Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
+/// The modes that `modes` would be asked for, and how accurately.
+struct ExplainOptions {
+    Index first = 1;               ///< number of the first mode, from 1 for the slowest
+    std::optional<Index> count{};  ///< how many, or `all_modes`; absent: 10, or all if fewer
+    std::optional<double> rtol{};  ///< relative tolerance of the conical heights; absent: full accuracy
+};
 
-/// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.
-Explanation explain(const Rig& rig, const ModesOptions<double>& options = {});
+/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed.
+/// Where that method cannot prove its bound for the links of this chain, `modes` takes the next
+/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error
+/// bound; predicted times were within a factor of 3 of measured times (bench/models.cpp). Cost:
+/// some microseconds. Throws InvalidArgument as `modes` does.
+[[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
+
+/// Deleted, because there is no choice: the result of `modes` names its one method. Modes of a held
+/// chain are found by bisection; rigs and cords have one method for each kind.
+Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
+Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
+template <class System>
+Explanation explain(const Held<System>& held, const ExplainOptions& options = {}) = delete;
 
 }  // namespace revchain
 

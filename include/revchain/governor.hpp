@@ -35,7 +35,7 @@ enum class GovernorRegime {
     revolutions,  ///< round and round: tn
 };
 
-inline std::string_view to_string(GovernorRegime regime) {
+[[nodiscard]] inline std::string_view to_string(GovernorRegime regime) noexcept {
     constexpr std::string_view names[]{"rest", "aside", "asymptotic", "through", "revolutions"};
     return names[static_cast<std::size_t>(regime)];
 }
@@ -58,19 +58,19 @@ class GovernorMotion {
     /// outside 0 ... 1, and data so far apart that a modulus is lost.
     explicit GovernorMotion(const Governor& given);
 
-    GovernorRegime regime() const { return regime_; }
+    GovernorRegime regime() const noexcept { return regime_; }
     /// Period of the motion, or of one revolution; infinite if asymptotic, 0 at rest.
-    double period() const { return period_; }
+    double period() const noexcept { return period_; }
     /// The angles between which it moves, within (-pi, 2 pi); -infinity and infinity for revolutions.
-    double least_angle() const { return least_; }
-    double greatest_angle() const { return greatest_; }
+    double least_angle() const noexcept { return least_; }
+    double greatest_angle() const noexcept { return greatest_; }
     /// theta'^2 that the energy leaves at the bottom and at the top; negative where the motion cannot get there.
-    double energy_at_bottom() const { return bottom_; }
-    double energy_at_top() const { return top_; }
+    double energy_at_bottom() const noexcept { return bottom_; }
+    double energy_at_top() const noexcept { return top_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
     /// The state at a time of either sign. Throws InvalidArgument unless time and angle are finite.
-    GovernorState operator()(double time) const;
+    [[nodiscard]] GovernorState operator()(double time) const;
 
    private:
     enum class Form { constant, growing, cn, dn, tn };

@@ -87,7 +87,7 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 /// multiplied by the cancellation of T/a, n H/a^2 and (n^2/g) X (tests/cpp/gyrostatic_string.cpp).
 /// Also throws InvalidArgument for a speed that is not finite.
 template <Real T>
-LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
+[[nodiscard]] LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asinh, std::atan2;
     detail::check("link_phase", string);
     detail::require_finite("link_phase", "angular speed", angular_speed);
@@ -101,7 +101,7 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
 /// 4 ulp, and 1 ulp more for each bit that cancels in 1 - 4 X sin^2/W. Also throws InvalidArgument unless
 /// 0 < phase <= pi.
 template <Real T>
-std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
+[[nodiscard]] std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
     using std::abs, std::sin;
     detail::check("wave_speeds", string);
     if (!(phase > T(0)) || !(phase <= detail::pi<T>))
@@ -124,7 +124,7 @@ std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) 
 /// Accuracy: 8 ulp, also for a tiny momentum, divided by the cosine of half the larger phase where that is small. Also
 /// throws InvalidArgument for a speed that is not positive.
 template <Real T>
-T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
+[[nodiscard]] T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;
     detail::check("plane_rotation", string);
     detail::require_positive("plane_rotation", "angular speed", angular_speed);

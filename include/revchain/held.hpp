@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "revchain/count.hpp"
-#include "revchain/explain.hpp"
 #include "revchain/finite/held/branch.hpp"
 #include "revchain/finite/held/cord_branch.hpp"
 #include "revchain/finite/held/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/system/cord.hpp"
-#include "revchain/tune.hpp"
 
 /// A chain or a cord whose two ends are held on the axis: the blade of a wind turbine (troposkien), a skipping rope, a
 /// string of weights.
@@ -40,10 +38,10 @@ struct HeldBy {
     Support lower{};          ///< of a chain: support of its lower end; a negative radius is on the other side
     Support upper{};          ///< of a chain: support of its upper end
 
-    bool on_axis() const { return lower.radius == 0 && upper.radius == 0; }
+    bool on_axis() const noexcept { return lower.radius == 0 && upper.radius == 0; }
     /// Whether every steady shape lies in a plane: no torque about the axis acts at an end whose radius is 0.
-    bool planar() const { return lower.radius == 0 || upper.radius == 0; }
-    bool firm() const { return lower.is_firm() && upper.is_firm(); }
+    bool planar() const noexcept { return lower.radius == 0 || upper.radius == 0; }
+    bool firm() const noexcept { return lower.is_firm() && upper.is_firm(); }
 };
 
 /// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here. The ends are firm points on the axis by
@@ -81,8 +79,8 @@ class Held {
                                       "into links, as Chain::tapered does");
     }
 
-    const System& system() const { return system_; }
-    const HeldBy& by() const { return by_; }
+    const System& system() const noexcept { return system_; }
+    const HeldBy& by() const noexcept { return by_; }
     double length() const {
         if constexpr (std::is_same_v<System, Cord>)
             return system_.length();
@@ -118,8 +116,16 @@ struct HeldShapesOptions {
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
     int max_half_waves = 1;                               ///< largest number of half waves to look for
-    bool prove = true;      ///< of chains: whether error bounds and completeness are proved
+    bool prove = true;      ///< whether error bounds and completeness are proved
     long budget = 300'000;  ///< of the proof of completeness: links looked at, 1 to 2 microseconds each
+};
+
+/// The same of a cord, whose shapes are not proved.
+struct HeldCordShapesOptions {
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};  ///< rad/s
+    double gravity = conical_pendulum::standard_gravity;
+    int max_half_waves = 1;
 };
 
 /// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, sorted by half waves. Half waves
@@ -157,8 +163,10 @@ struct HeldShapesOptions {
 /// whole branch, some thousand sweeps. The proof of completeness takes 10 to 500 ms; `budget` 0 leaves it out.
 /// Throws InvalidArgument where the speed is not given as above or is not positive and finite, where g/n^2 leaves the
 /// range of double, for `max_half_waves` below 1, and for weights more than 1e123 apart.
-HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options = {});
-HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options = {});
+[[nodiscard]] HeldShapes steady_shapes(const Held<Chain<double>>& held,
+                                       const HeldShapesOptions& options = {});
+[[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
+                                           const HeldCordShapesOptions& options = {});
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
 /// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
@@ -169,20 +177,22 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
 /// doubles enclose the height. Accuracy: 1 ulp. `error_bound` is this number, an estimate: rounding in the counts is
 /// not bounded. Shapes 1e-13 over the relative gap to the next height. Cost: 60 sweeps for each height, one for each
-/// shape. `method` and `other` of the options have no effect.
+/// shape. 
 /// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
-/// does not exceed the weight (the chain would not be straight), for `certify`, and for wrong numbers and windows as
-/// `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less one for each pin that
-/// moves without mass.
-Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options = {});
+/// does not exceed the weight (the chain would not be straight), and for wrong numbers and windows
+/// as `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less
+/// one for each pin that moves without mass.
+[[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
+                                  const StraightModesOptions& options = {});
 
 /// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
 /// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
-Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
+[[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
+                                const CountOptions<double>& options);
 
 /// How far branches go: give one of the first two.
-struct HeldBranchesOptions {
+struct HeldDiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
     double gravity = conical_pendulum::standard_gravity;
@@ -208,11 +218,13 @@ struct HeldBranchesOptions {
 /// A cord folds as it approaches the slowest speed, at which one of its two straight parts, hung from its end, begins
 /// to whirl. Its offsets vanish there faster than any power of the difference of speeds, so the last speed found is
 /// some percent higher.
-std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options);
-std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options);
+[[nodiscard]] std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
+                                               const HeldDiagramOptions& options);
+[[nodiscard]] std::vector<HeldCordBranch> branches(const Held<Cord>& held,
+                                                   const HeldDiagramOptions& options);
 
 /// Which shape of a branch. Give one of `conical_height`, `angular_speed` and `top_tension`.
-struct HeldShapeOptions {
+struct HeldOnBranchOptions {
     int mode = 1;  ///< number of half waves at the start of the branch; off the axis see `branches`
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s
@@ -225,22 +237,10 @@ struct HeldShapeOptions {
 /// `angular_speed()`). Accuracy: inclinations as of `steady_shapes`; the height for a tension to 1e-14. Throws
 /// InvalidArgument as `branches` does, for a mode below 1, a tension between springs, and where the branch does not
 /// reach what is given.
-HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
-HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options);
-
-/// Throws InvalidArgument: the C++ library cannot tune a held chain or cord yet. The Python function `tune` can.
-template <class System>
-Tuned tune(const Held<System>&, const TuneOptions&) {
-    detail::throw_invalid("tune",
-                          "a Held cannot be tuned yet in C++ (Python's revchain.tune does it); change its system and "
-                          "call modes or steady_shapes again");
-}
-
-/// Throws InvalidArgument: each question about a held chain or cord has one method only.
-template <class System>
-Explanation explain(const Held<System>&, const ModesOptions<double>& = {}) {
-    detail::throw_invalid("explain", "modes of a Held have one method, bisection; there is no choice to explain");
-}
+[[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
+                                     const HeldOnBranchOptions& options);
+[[nodiscard]] HeldCordShape steady_shape(const Held<Cord>& held,
+                                         const HeldOnBranchOptions& options);
 
 }  // namespace revchain
 

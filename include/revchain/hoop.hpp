@@ -14,7 +14,7 @@ namespace revchain::inline REVCHAIN_BUILD::hoop {
 
 /// h = v^2 / g of a rim that runs with speed v; the same for every radius. §5 (6)
 template <Real T>
-T tension(const T& speed, const T& gravity = T(conical_pendulum::standard_gravity)) {
+[[nodiscard]] T tension(const T& speed, const T& gravity = T(conical_pendulum::standard_gravity)) {
     detail::require_positive("hoop::tension", "speed", speed, "gravity", gravity);
     return speed / gravity * speed;
 }
@@ -22,7 +22,7 @@ T tension(const T& speed, const T& gravity = T(conical_pendulum::standard_gravit
 /// v = sqrt(g h): the speed of a rim whose tension is h, and the speed of transverse waves relative to a string with
 /// that tension. For h = breaking length it is the speed at which the rim bursts. §5 (3), (6)
 template <Real T>
-T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
+[[nodiscard]] T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     using std::sqrt;
     detail::require_positive("hoop::speed", "tension", tension, "gravity", gravity);
     return sqrt(tension) * sqrt(gravity);
@@ -37,7 +37,7 @@ struct WaveSpeeds {
 
 /// Speeds of the waves on a rim that runs with `speed`. §5, after (6)
 template <Real T>
-WaveSpeeds<T> wave_speeds(const T& speed) {
+[[nodiscard]] WaveSpeeds<T> wave_speeds(const T& speed) {
     detail::require_positive("hoop::wave_speeds", "speed", speed);
     return {T(0), T(2) * speed};
 }
@@ -45,8 +45,8 @@ WaveSpeeds<T> wave_speeds(const T& speed) {
 /// Revolutions (or complete vibrations) per second of a nearly straight string in one half wave: sqrt(g h) / (2 span).
 /// With span 2a this is the paper's R = sqrt(g h / a^2) / 4. §5 (3)
 template <Real T>
-T string_revolutions_per_second(const T& span, const T& tension,
-                                const T& gravity = T(conical_pendulum::standard_gravity)) {
+[[nodiscard]] T string_revolutions_per_second(
+    const T& span, const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     detail::require_positive("hoop::string_revolutions_per_second", "span", span);
     return speed(tension, gravity) / span / T(2);
 }

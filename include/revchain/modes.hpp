@@ -46,12 +46,23 @@ struct ModesOptions {
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
     std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
     bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
-    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed, and for all speeds of rigs
-    bool other = true;                                  ///< rigs: also find `RigModes::other`
+    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed
     Index threads = 1;                                  ///< for heights and shapes; 0: all processors
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
+};
+
+/// Which modes of a cord, or of a chain held straight at both ends: as in `ModesOptions`. There is
+/// one method.
+struct StraightModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and for what is held weightless
+    Progress* progress = nullptr;
 };
 
 /// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them. For mode k,
@@ -75,25 +86,24 @@ struct Modes {
     Certificate<T> certificate{};  ///< empty unless asked for
     std::string method{};          ///< that found the heights
     Status status = Status::success;
-    detail::LazyModeShapes<T> lazy_shapes{};  ///< behind the next four
 
-    Index size() const { return conical_height.size(); }
+    Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); the largest in size of each mode is 1, the free
     /// end positive. Computed when first asked for and kept, as the next two are. Threads may share the result.
-    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
+    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
     /// (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
-    const Vector<T>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
+    const Vector<T>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
     /// k lists: distances from the free end where the mode crosses the axis
-    const std::vector<Vector<T>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
+    const std::vector<Vector<T>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
-    Vector<T> shape(Index j) const { return lazy_shapes.one(size(), j); }
+    [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
     }
     /// Seconds for one revolution.
-    Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
+    [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::period<T>);
     }
     Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
@@ -101,11 +111,14 @@ struct Modes {
     }
 
    private:
+    friend detail::ShapesBehind;
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
         return result;
     }
+
+    detail::LazyModeShapes<T> lazy_shapes_{};
 };
 
 /// The modes chosen by `options`; their shapes are computed when they are asked for.
@@ -130,7 +143,7 @@ struct Modes {
 /// together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.
 template <Real T>
-Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
+[[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 }  // namespace revchain
 

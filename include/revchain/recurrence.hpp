@@ -25,7 +25,7 @@ struct RecurrencePencil {
 /// y_0 stays an unknown in place of 1 + h_1/(lambda - l_1), which makes the relation linear in lambda.
 /// Accuracy: a few roundings in each entry. Cost and memory O(N^2).
 template <Real T>
-RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
+[[nodiscard]] RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();
     RecurrencePencil<T> pencil{Matrix<T>::Zero(n, n), Matrix<T>::Zero(n, n)};
     Vector<T> below(n);  // coefficient of y_r in every row above r + 1: W_r (1 - h_r/a_r) + W_{r+1} h_{r+1}/a_{r+1}

@@ -57,12 +57,12 @@ struct Response {
 /// and finite; for speeds that are 0, not finite, or negative without a flywheel; for heights (given or g/n^2) not
 /// between 2^-250 and 2^250 times the longest link's length (rounded up to a power of 2); and for pins the chain does
 /// not have.
-Response response(const Chain<double>& chain, const ResponseOptions& options);
+[[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
 /// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support. With a spring support
 /// the spring's place of rest is carried round. Lowest links that weigh nothing in a fluid that turns with them hang
 /// straight down from the lowest other pin.
-Response response(const Rig& rig, const ResponseOptions& options);
+[[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);
 
 }  // namespace revchain
 

@@ -10,7 +10,6 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
-#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
@@ -35,7 +34,7 @@ struct Support {
     double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
     double radius = 0;           ///< distance of the support's place of rest from the axis; 0 on the axis
 
-    bool is_firm() const { return std::isinf(stiffness.high); }
+    bool is_firm() const noexcept { return std::isinf(stiffness.high); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
@@ -50,7 +49,8 @@ inline void require_yielding(std::string_view place, const std::string& name, co
 /// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small amplitudes it acts as a
 /// thread of length W/E, where W is the weight of the chain. Throws InvalidArgument unless stiffness > 0 and carriage
 /// weight >= 0, both finite.
-inline Support horizontal_spring(const Wide<double>& stiffness, double carriage_weight = 0) {
+[[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
+                                               double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
     detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
     return {stiffness, carriage_weight, 0};
@@ -58,7 +58,7 @@ inline Support horizontal_spring(const Wide<double>& stiffness, double carriage_
 
 /// A pin carried round the axis: a chair on the arm of a carousel, a hand, Greenhill (1908) §1 (9).
 /// Throws InvalidArgument unless radius >= 0 and finite.
-inline Support carried_round(double radius) {
+[[nodiscard]] inline Support carried_round(double radius) {
     detail::require_not_negative("carried_round", "radius", radius);
     return {.radius = radius};
 }
@@ -94,15 +94,15 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
 
 /// A wheel on free bearings: it keeps its spin, `spin` rad/s about the link's axis as seen from outside.
 /// Throws InvalidArgument for negative weight or radius of gyration, gravity not positive, numbers not finite.
-inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
-                              double gravity = conical_pendulum::standard_gravity) {
+[[nodiscard]] inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                                            double gravity = conical_pendulum::standard_gravity) {
     return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
 }
 
 /// A wheel that a motor turns with `spin` rad/s relative to its link. The link itself turns about its axis with the
 /// whole chain. Throws as free_flywheel does.
-inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
-                                double gravity = conical_pendulum::standard_gravity) {
+[[nodiscard]] inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                              double gravity = conical_pendulum::standard_gravity) {
     return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
 }
 
@@ -120,7 +120,8 @@ struct Displaced {
 };
 
 /// The fluid that a body of one density displaces: it has the centre and the radius of gyration of the body.
-inline Displaced displaced_by(const Link<double>& link, double weight, double added_weight = 0) {
+[[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
+                                            double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
 }
 
@@ -145,11 +146,11 @@ class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
 
-    const Chain<double>& chain() const { return chain_; }
-    const Support& support() const { return with_.support; }
-    const Rigging& rigging() const { return with_; }
-    Index size() const { return chain_.size(); }
-    Fluid fluid() const { return with_.fluid; }
+    const Chain<double>& chain() const noexcept { return chain_; }
+    const Support& support() const noexcept { return with_.support; }
+    const Rigging& rigging() const noexcept { return with_; }
+    Index size() const noexcept { return chain_.size(); }
+    Fluid fluid() const noexcept { return with_.fluid; }
 
     bool stands(Index m) const {
         return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
@@ -220,92 +221,6 @@ inline void Rig::check() const {
         check_link(m, "Rig: links[" + std::to_string(m) + "]");
         throw;
     }
-}
-
-/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`.
-///
-/// Greenhill (1908) §8 with two weights for each body: the one that bears (less the buoyancy) and the one that moves
-/// (with the added weight of the fluid). At any inclination, with the offsets y, the tangent t and sine s of the
-/// inclination, the speed n, lambda = g/n^2, and R the moment about the upper pin, as if the link hung vertically,
-/// divided by the distance between the pins:
-///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
-///     y = y_below - length s,          H = R + rest y.
-/// For small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
-/// [lower cross; cross upper].
-struct RigLink {
-    using S = Wide<double>;
-    S length;   ///< a
-    S tension;  ///< (W h + a S)/a of the weights that bear; in a standing link a thrust
-    S spin;     ///< momentum over length
-    S moment;   ///< W h/a of the weights that move
-    S rest;     ///< W (a - h)/a of the weights that move
-    S cross;    ///< X
-    S lower, upper;
-    S hung;  ///< weight that bears on the upper pin, of this link and all below
-    /// For each number the sum of the sizes of its terms. Its error is at most `error_part` times that sum.
-    struct Sizes {
-        double tension, lower, upper, cross, hung;
-    } size;
-    static constexpr double error_part = 64 * operation_error<S>();
-};
-
-/// The numbers of a rig's links, lowest first, in `Wide<double>`. `RigLink::error_part` bounds their errors: three
-/// operations for the share of a body, a few for the sum of shares, a compensated sum for the weights hung below, and
-/// four operations in which a caller has found a momentum or an axial moment.
-/// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
-inline std::vector<RigLink> rig_links(const Rig& rig) {
-    using S = Wide<double>;
-    const Chain<double>& chain = rig.chain();
-    if (!chain.has_one_weight_unit())
-        detail::throw_invalid("rig_links", "weights must not be more than 1e123 apart", chain.total_weight());
-    const ChainUnits units = chain.units();
-    const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
-    const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
-    std::vector<RigLink> links;
-    links.reserve(static_cast<std::size_t>(rig.size()));
-    CompensatedSum<S> hung;
-    double hung_size = 0;
-    for (Index m = 0; m < rig.size(); ++m) {
-        const Link<double> link = chain.link(m);
-        const Displaced fluid = rig.displaced(m);
-        const Flywheel wheel = rig.flywheel(m);
-        const S a(in_lengths(link.length)), none(0.0), below = hung.value();
-        RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
-        /// Adds a body of the link: `bears` is its weight (negative for buoyancy), `moves` the weight that moves.
-        const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
-            const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
-            hung.add(bears);
-            result.tension = result.tension + bears * p;
-            result.moment = result.moment + moves * p, result.rest = result.rest + moves * q;
-            result.cross = result.cross + (p * q - gyration) * moves;
-            result.lower = result.lower + (p * p + gyration) * moves;
-            result.upper = result.upper + (q * q + gyration) * moves;
-            const double near = std::abs(p.high), far = std::abs(q.high), turn = gyration.high;
-            const double weight = std::abs(bears.high), moved = std::abs(moves.high);
-            result.size.tension += weight * near, result.size.hung += weight;
-            result.size.lower += moved * (near * near + turn), result.size.upper += moved * (far * far + turn);
-            result.size.cross += moved * (near * far + turn);
-        };
-        const S weight(in_weights(link.weight)), borne(in_weights(fluid.weight));
-        const S carried = rig.fluid() == Fluid::turning ? -borne : S(in_weights(fluid.added_weight));
-        if (rig.fills_its_link(m)) {  // one body of the net weight, which may be none at all
-            add(weight - borne, weight + carried, link.centroid, link.gyration_ratio);
-        } else {
-            add(weight, weight, link.centroid, link.gyration_ratio);
-            add(-borne, carried, fluid.centroid, fluid.gyration_ratio);
-        }
-        if (wheel.axial_moment.high != 0) {  // turning with the link, it reduces the link's inertia across the axis
-            const S turning =
-                ldexp(wheel.axial_moment, -units.weight_exponent - 2 * units.length_exponent) / (a * a);
-            result.cross = result.cross + turning;
-            result.lower = result.lower - turning, result.upper = result.upper - turning;
-            result.size.lower += turning.high, result.size.upper += turning.high, result.size.cross += turning.high;
-        }
-        result.spin = ldexp(wheel.momentum, -units.weight_exponent - units.length_exponent) / a;
-        result.hung = hung.value(), hung_size = result.size.hung;
-        links.push_back(result);
-    }
-    return links;
 }
 
 }  // namespace revchain

@@ -4,7 +4,7 @@
 #include <complex>
 #include <limits>
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "revchain/modes.hpp"
@@ -20,6 +20,22 @@
 ///     m.forward.shape(0);              // offsets of the pins, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to
+/// each direction of rotation, a window of speeds to |n|; mode numbers beyond those available give
+/// no modes.
+struct RigModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
+    bool certify = false;                                 ///< also return `WhirlModes::certificate`
+    double gravity = conical_pendulum::standard_gravity;  ///< for all speeds
+    bool other = true;                                    ///< also find `RigModes::other`
+    Index threads = 1;                                    ///< for heights and shapes; 0: all processors
+    Progress* progress = nullptr;                         ///< read and cancelled from another thread
+};
+
 /// Whirl modes of a rig in one direction of rotation, slowest first. Mode k of `available` is at index k - first.
 struct WhirlModes {
     Index first = 1;
@@ -29,15 +45,18 @@ struct WhirlModes {
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
     Certificate<double> certificate{};   ///< of the conical heights, with counts in this direction; if asked for
-    detail::LazyModeShapes<double> lazy_shapes{};  ///< behind the next four
 
-    Index size() const { return conical_height.size(); }
+    Index size() const noexcept { return conical_height.size(); }
     /// As those of `Modes`; the support's offset is not 0 where it yields.
-    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
-    const Vector<double>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
-    const std::vector<Vector<double>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
+    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    const Vector<double>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
+    const std::vector<Vector<double>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
-    Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
+    [[nodiscard]] Vector<double> shape(Index j) const { return lazy_shapes_.one(size(), j); }
+
+   private:
+    friend detail::ShapesBehind;
+    detail::LazyModeShapes<double> lazy_shapes_{};
 };
 
 /// A solution that is not a steady motion: its conical height is negative or complex, or its speed is complex. If no
@@ -56,26 +75,35 @@ struct SlackLink {
     double angular_speed = 0;  ///< n, negative if opposite to the rotation of a wheel with positive momentum
 };
 
+/// How modes of a rig were found.
+enum class RigMethod {
+    modes,   ///< the rig is a plain chain: by `modes` of that chain
+    counts,  ///< one after the other, by counts
+    discs,   ///< all at once, each proved in a disc of its own
+};
+[[nodiscard]] inline std::string_view to_string(RigMethod method) noexcept {
+    constexpr std::string_view names[]{"modes", "counts", "discs"};
+    return names[static_cast<std::size_t>(method)];
+}
+
 /// Whirl modes of a rig.
 struct RigModes {
     bool has_momentum = false;     ///< whether a flywheel has momentum of its own
     WhirlModes forward;            ///< n > 0; without such momentum both directions are alike, and all modes are here
     WhirlModes backward;           ///< n < 0; empty without such momentum
     Index other_available = 0;     ///< number of solutions that are not steady motions, listed or not
-    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and method is not "discs"
+    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and `method` is not `discs`
     std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
     /// Whether `forward.available`, `backward.available` and `other_available` are proved to be all there are.
     bool complete = false;
-    std::string method;               ///< "modes": as a plain chain; "counts"; "discs": all roots at once
+    RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
 };
 
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
 /// flywheels. The radius of a support that is carried round has no effect.
 ///
-/// Options mean what they do for a chain. With momentum `first`, `count` and windows apply to each direction, a window
-/// of speeds to |n|; mode numbers beyond those available give no modes. Speeds are found to full accuracy,
-/// whatever `rtol`; `method` is ignored.
+/// Speeds are found to full accuracy, whatever `rtol`.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
 /// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
@@ -91,7 +119,7 @@ struct RigModes {
 /// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers
 /// together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
 /// status `tolerance_not_met`.
-RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
+[[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
 class RigRoots;
@@ -108,12 +136,12 @@ class RigModeCounter {
 
     /// How many conical heights exceed `height`, in both directions together where there is momentum. Throws
     /// InvalidArgument unless it is positive and finite, and where rounding leaves the number in doubt.
-    Index above_height(double height) const;
+    [[nodiscard]] Index above_height(double height) const;
 
     /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. With momentum its sign is the direction of
     /// rotation; without, both directions are alike. Throws InvalidArgument unless it is finite and not 0, and where
     /// rounding leaves the number in doubt.
-    Index below_speed(double angular_speed) const;
+    [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:
     double gravity_;

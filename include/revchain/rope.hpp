@@ -48,34 +48,34 @@ class SkippingRope {
     /// bend.
     explicit SkippingRope(const RopeGiven& given);
 
-    Index half_waves() const { return half_waves_; }
+    Index half_waves() const noexcept { return half_waves_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
     // These return the given numbers unchanged where they were given.
-    double span() const { return span_; }
-    double slack() const { return slack_; }
-    double length() const { return length_; }
-    double sag() const { return sag_; }
+    double span() const noexcept { return span_; }
+    double slack() const noexcept { return slack_; }
+    double length() const noexcept { return length_; }
+    double sag() const noexcept { return sag_; }
     double slope_at_ends() const { return 2 * (kappa() / complement()) / complement(); }
     double tension_ratio_at_ends() const { return 1 + kappa() * slope_at_ends(); }
     double height_times_tension() const { return strength() * strength(); }  ///< lambda h
     /// Moment of inertia about the axis over the mass per length: a length cubed.
-    double moment_of_inertia() const;
+    [[nodiscard]] double moment_of_inertia() const;
 
     /// Whether angular speed or tension was given. If not, the next four functions throw InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
-    double conical_height() const;
+    [[nodiscard]] double conical_height() const;
     double angular_speed() const { return conical_pendulum::angular_speed(conical_height(), gravity_); }
     double tension_in_the_middle() const { return strength() / conical_height() * strength(); }
     double tension_at_ends() const { return tension_in_the_middle() * tension_ratio_at_ends(); }
 
     /// The point at the distance x from an end, 0 <= x <= span. Throws InvalidArgument outside.
-    RopePoint at(double x) const;
+    [[nodiscard]] RopePoint at(double x) const;
     /// The point at the length `arc` of rope from an end, 0 <= arc <= length. Throws InvalidArgument outside.
-    RopePoint at_arc(double arc) const;
+    [[nodiscard]] RopePoint at_arc(double arc) const;
 
     /// The rope after its ends were moved to another span, with the same length and angular momentum. The work done on
     /// it is the gain in moment_of_inertia() n^2 / 2.
-    SkippingRope drawn_to(double span) const;
+    [[nodiscard]] SkippingRope drawn_to(double span) const;
 
    private:
     double waves() const { return static_cast<double>(half_waves_); }
@@ -120,21 +120,21 @@ class TortuousRope {
     /// Throws InvalidArgument for data outside the ranges above, and where a result leaves the range of double.
     explicit TortuousRope(const TortuousGiven& given);
 
-    double least_radius() const { return first_; }
-    double greatest_radius() const { return second_; }
-    double conical_height() const { return height_; }
-    double height_times_tension() const { return strength2_; }
+    double least_radius() const noexcept { return first_; }
+    double greatest_radius() const noexcept { return second_; }
+    double conical_height() const noexcept { return height_; }
+    double height_times_tension() const noexcept { return strength2_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
     // A half wave runs from one place nearest to the axis to the next. Its length along the axis, slack (length of rope
     // minus length along the axis), length of rope, and angle round the axis (pi for a plane rope, which crosses it).
     double half_wave() const { return 2 * functions_.complete().K * scale_; }
-    double half_wave_slack() const;
-    double half_wave_length() const { return half_wave() + half_wave_slack(); }
-    double half_wave_angle() const;
+    [[nodiscard]] double half_wave_slack() const;
+    [[nodiscard]] double half_wave_length() const { return half_wave() + half_wave_slack(); }
+    [[nodiscard]] double half_wave_angle() const;
 
     /// The point at any x of either sign. Throws InvalidArgument unless x is finite and the results are.
-    TortuousPoint at(double x) const;
+    [[nodiscard]] TortuousPoint at(double x) const;
 
    private:
     /// Whether the radii are so far apart that the angle is that of a plane rope to the last digit.

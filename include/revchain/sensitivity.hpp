@@ -62,7 +62,7 @@ struct Sensitivity {
 /// Cost: 1.5 microseconds a link and mode; O(N k) memory.
 /// Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 template <Real T>
-Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
+[[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
 /// How uncertain one datum is: one standard deviation for all links, one for each (N), or a covariance (N, N).
 /// Deviations of different links are independent unless a covariance is given. Those of different data are always
@@ -94,9 +94,9 @@ struct Uncertainty {
 /// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
 /// not as many as the sensitivity's.
 template <Real T>
-Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
-                           const std::type_identity_t<Vector<T>>& conical_height,
-                           const Deviations<T>& deviations);
+[[nodiscard]] Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
+                                         const std::type_identity_t<Vector<T>>& conical_height,
+                                         const Deviations<T>& deviations);
 
 /// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have either sign. The first
 /// five are for the links' own data, as in `Datum`; flywheels keep their momentum, and the displaced fluid its data.
@@ -120,8 +120,9 @@ struct RigSensitivity {
 /// The error comes from the offsets: if these are within e of the largest offset, it is some 4 e (|K| + |n G| + n^2
 /// |M|/g) over the denominator.
 /// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, offsets not N + 1.
-RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
-                           double gravity = conical_pendulum::standard_gravity);
+[[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
+                                         const Vector<double>& offset,
+                                         double gravity = conical_pendulum::standard_gravity);
 
 /// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl speed of some mode,
 /// all else constant. It is unique: momentum adds to the tension, and at that speed the parts below and above the link
@@ -129,15 +130,16 @@ RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<do
 /// (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
 /// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of range, and
 /// where no finite momentum has that effect.
-double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
-                          double gravity = conical_pendulum::standard_gravity);
+[[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
+                                        double gravity = conical_pendulum::standard_gravity);
 
 /// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode, all else constant.
 /// At that speed the chain and the carriage act on the spring as one more spring. Formed in double-double, as
 /// `momentum_for_speed` is. Cost O(N).
 /// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, and where no positive finite
 /// stiffness has that effect.
-double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity = conical_pendulum::standard_gravity);
+[[nodiscard]] double stiffness_for_speed(const Rig& rig, double angular_speed,
+                                         double gravity = conical_pendulum::standard_gravity);
 
 }  // namespace revchain
 

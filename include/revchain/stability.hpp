@@ -34,7 +34,7 @@ enum class Verdict {
     unstable,           ///< it grows
     undecided,          ///< unknown, because of the errors of the exponents
 };
-inline std::string_view to_string(Verdict verdict) {
+[[nodiscard]] inline std::string_view to_string(Verdict verdict) noexcept {
     constexpr std::string_view names[]{"minimum", "spectrally stable", "unstable", "undecided"};
     return names[static_cast<std::size_t>(verdict)];
 }
@@ -76,7 +76,8 @@ struct Stability {
 /// a hundred times as much with twice the digits. N = 1: omega = n sqrt(1 + 3 cos^2 d) free,
 /// n sin d driven (section 7 (6)).
 /// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
-Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
+[[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
+                                  StabilityFrame frame = StabilityFrame::free);
 
 /// Returns the stability of a shape with both ends held. Firm ends stay where they are, those on springs move across
 /// the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity; each
@@ -84,12 +85,13 @@ Stability stability(const Chain<double>& chain, const SteadyShape& shape, Stabil
 /// there are 2 more exponents if free.
 /// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3/2.
 /// Throws InvalidArgument as above, and for a pin that moves and carries no mass, except at the upper end.
-Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);
+[[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
+                                  StabilityFrame frame = StabilityFrame::free);
 
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {
     StabilityFrame frame = StabilityFrame::free;
-    int direction = 1;                                    ///< of rotation, 1 or -1: it matters to flywheels
+    Rotation direction = Rotation::forward;               ///< it matters to flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels
 };
 
@@ -109,7 +111,8 @@ struct RigStabilityOptions {
 /// A minimum is stable in any fluid, viscous or not. Otherwise the verdict is undecided, and the growth rate NaN.
 /// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; for a flywheel that
 /// acts on a massless upper end.
-Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options = {});
+[[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
+                                  const RigStabilityOptions& options = {});
 
 }  // namespace revchain
 

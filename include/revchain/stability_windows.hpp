@@ -39,12 +39,12 @@ struct StabilityWindowsOptions {
 /// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
 /// some (4 N)^3 for every place.
 /// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples` below 1.
-std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
-                                               const StabilityWindowsOptions& options = {});
+[[nodiscard]] std::vector<StabilityWindow> stability_windows(
+    const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});
 
 /// Returns the stability windows of a branch of a rig, in the direction of rotation of the branch.
-std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
-                                               const StabilityWindowsOptions& options = {});
+[[nodiscard]] std::vector<StabilityWindow> stability_windows(
+    const Rig& rig, const Branch& branch, const StabilityWindowsOptions& options = {});
 
 }  // namespace revchain
 

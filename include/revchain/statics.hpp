@@ -42,13 +42,14 @@ struct ForceDiagram {
 /// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from inclinations, so that
 /// comparing them with the links checks the shape: they are parallel to 5 ulp of the sum of all loads' magnitudes
 /// (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument unless the shape has as many links as the chain.
-ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
+[[nodiscard]] ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
 /// The straight chain with the weights of the shape moved to the axis at their levels: its links are as long as those
 /// of the shape are high. Its mode at the shape's conical height has the offsets of the shape, at any inclination and
 /// for links of any kind. Its stiffness is also the shape's stiffness perpendicular to the turning plane.
 /// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
-Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape);
+[[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
+                                                const SteadyShape& shape);
 
 /// Weights on a thread between two supports, at rest in a vertical plane, from the first support to the last.
 template <Real T>
@@ -66,9 +67,11 @@ struct FunicularPolygon {
 /// Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
 /// weights are positive, places increase, and all numbers, also the results, are finite.
 template <Real T>
-FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
-                                      const std::type_identity_t<Vector<T>>& place, const T& horizontal_tension,
-                                      const T& first_height = T(0), const T& last_height = T(0));
+[[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
+                                                    const std::type_identity_t<Vector<T>>& place,
+                                                    const T& horizontal_tension,
+                                                    const T& first_height = T(0),
+                                                    const T& last_height = T(0));
 
 /// Small transverse oscillations of weights on a string, slowest first.
 template <Real T>
@@ -78,7 +81,7 @@ struct TransverseModes {
     Table<T> shape;            ///< (n, n + 2) offsets of supports and weights; largest 1, that of the first weight >= 0
 
     /// Seconds, 2 pi sqrt(conical_height / g).
-    Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
+    [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return conical_height.unaryExpr([&](const T& height) { return conical_pendulum::period(height, gravity); });
     }
 };
@@ -91,8 +94,9 @@ struct TransverseModes {
 /// `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless there are weights, all positive,
 /// places increase, and all numbers, also the heights, are finite.
 template <Real T>
-TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
-                                    const std::type_identity_t<Vector<T>>& place, const T& tension);
+[[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
+                                                  const std::type_identity_t<Vector<T>>& place,
+                                                  const T& tension);
 
 }  // namespace revchain
 

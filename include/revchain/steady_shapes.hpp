@@ -36,7 +36,7 @@ struct SteadyShape {
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
 
-    double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
+    [[nodiscard]] double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
     double angular_momentum(double gravity = conical_pendulum::standard_gravity) const {
@@ -52,14 +52,23 @@ struct InclinationRange {
 /// The speed, as one of two numbers, and which shapes are wanted.
 struct SteadyShapesOptions {
     std::optional<double> conical_height{};  ///< of the speed
-    std::optional<double> angular_speed{};   ///< rad/s; of a rig negative for the other direction
+    std::optional<double> angular_speed{};   ///< rad/s
     long budget = 3'000'000;   ///< limit of link evaluations, 0.5 microseconds each; 2 for links whose pendulum length
                                ///< is below their length; more in double-double
-    bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical; of a rig
-                               ///< with each link in the rig's posture
-    int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     Index threads = 1;                                    ///< 0: all processors
+};
+
+/// The same of a rig. Give `direction` with `conical_height`; an angular speed has its sign.
+struct RigShapesOptions {
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};  ///< rad/s, negative for the backward direction
+    long budget = 3'000'000;
+    bool hanging_only = true;  ///< only shapes with each link in the rig's posture
+    Rotation direction = Rotation::forward;
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
+    Index threads = 1;
 };
 
 /// The shapes found, and whether there are more.
@@ -99,7 +108,8 @@ struct SteadyShapes {
 /// E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G D^-1/2 w| < |w|: only w = 0 is possible.
 /// An angular speed n gives the height g/n^2, formed in double-double.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
-SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options);
+[[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
+                                         const SteadyShapesOptions& options);
 
 /// All steady shapes of a rig that whirls at a given speed, in its posture or in any posture: as of a chain, with a
 /// support that yields or is carried round, flywheels, links in a fluid.
@@ -118,9 +128,9 @@ SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions
 /// lambda E equals the total moving weight, to rounding. Pins may then be at any distance: the search covers only about
 /// a million times the chain's reach.
 /// Throws InvalidArgument unless exactly one of height and speed is given, for a height or gravity not positive and
-/// finite, a direction not 1 or -1, an effective tension that vanishes, and a lowest link whose moving weights balance
+/// finite, an effective tension that vanishes, and a lowest link whose moving weights balance
 /// about its pin.
-SteadyShapes steady_shapes(const Rig& rig, const SteadyShapesOptions& options);
+[[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 
 }  // namespace revchain
 

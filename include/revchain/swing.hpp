@@ -60,7 +60,7 @@ struct Swing {
 /// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
 /// Throws InvalidArgument for starts that are not finite or of another length, a support that would move, a count of
 /// more modes than there are, gravity not positive, times not finite, and weights more than 1e123 apart.
-Swing swing(const Chain<double>& chain, const SwingOptions& options);
+[[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
 /// Small oscillations in a plane of a rig after release. The rig may have a support that yields, with its carriage,
 /// still fluid with buoyancy and added mass, and standing links if it is stable at rest. Where the support yields, its
@@ -70,7 +70,7 @@ Swing swing(const Chain<double>& chain, const SwingOptions& options);
 /// Throws InvalidArgument as above; where a flywheel has momentum of its own, which turns the plane of the swing
 /// (`whirl_swing`); for a support that is carried round (`response`); for a fluid that turns; where the straight rig is
 /// unstable or in neutral balance (the message says how fast it falls); for lowest links without any inertia.
-Swing swing(const Rig& rig, const SwingOptions& options);
+[[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
 /// How a rig with flywheels starts. Offsets are x + i y, in the two level directions.
 struct WhirlSwingOptions {
@@ -107,7 +107,7 @@ struct WhirlSwing {
 /// Cost: 4 microseconds for each link and whirl, then 4 ns for each link, whirl and time.
 /// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says how fast it falls);
 /// for pins without inertia.
-WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
+[[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 
 }  // namespace revchain
 

@@ -8,7 +8,6 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
-#include "revchain/rig.hpp"
 #include "revchain/sensitivity.hpp"
 
 /// The value of one datum of a chain that gives one of its modes a wanted speed.
@@ -19,6 +18,11 @@
 ///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
 namespace revchain::inline REVCHAIN_BUILD {
+
+class Rig;   // revchain/rig.hpp
+class Cord;  // revchain/cord.hpp
+template <class System>
+class Held;  // revchain/held.hpp
 
 /// The mode, the height or speed that it is to have, the datum to change, and the range of its values.
 struct TuneOptions {
@@ -40,7 +44,7 @@ enum class TuneStatus {
     undecided,  ///< no value was found, but it is not proved that there is none
 };
 
-inline std::string_view to_string(TuneStatus status) {
+[[nodiscard]] inline std::string_view to_string(TuneStatus status) noexcept {
     return status == TuneStatus::found ? "found" : status == TuneStatus::no_value ? "no_value" : "undecided";
 }
 
@@ -72,10 +76,16 @@ struct Tuned {
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
 /// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
 /// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
-Tuned tune(const Chain<double>& chain, const TuneOptions& options);
+[[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
-/// Throws InvalidArgument: the C++ library cannot tune a rig yet. The Python function `tune` can.
-Tuned tune(const Rig& rig, const TuneOptions& options);
+/// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. In
+/// place of these, tune the chain of a rig, or use `momentum_for_speed` for a flywheel. Heights of
+/// a cord are proportional to its length: multiply that by the wanted height over that of `modes`.
+/// Change the system of a `Held` and call `modes` again.
+Tuned tune(const Rig& rig, const TuneOptions& options) = delete;
+Tuned tune(const Cord& cord, const TuneOptions& options) = delete;
+template <class System>
+Tuned tune(const Held<System>& held, const TuneOptions& options) = delete;
 
 }  // namespace revchain
 

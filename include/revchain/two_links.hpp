@@ -34,7 +34,8 @@ using HeightPair = std::array<T, 2>;
 /// Both heights of two plummets on threads: (lambda - l1)(lambda - l2) = W1 l1 l2 / (W1 + W2), §2 (5); 1 is the lower
 /// plummet. Accuracy: 3 ulp (tests/cpp/paper/section_2.cpp).
 template <Real T>
-HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
+[[nodiscard]] HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread,
+                                         const T& upper_weight, const T& upper_thread) {
     constexpr std::string_view place = "two_plummets";
     detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
                              upper_weight, "upper thread", upper_thread);
@@ -49,7 +50,8 @@ HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T
 /// are then real only where |x| >= a sqrt(-mu) (Stokes). Accuracy: 4 ulp.
 /// Throws InvalidArgument where the heights are complex, for |x| >= a, and for mu <= -1.
 template <Real T>
-HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, const T& weight_ratio) {
+[[nodiscard]] HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x,
+                                                         const T& weight_ratio) {
     using std::abs, std::sqrt;
     constexpr std::string_view place = "two_plummets_from_the_middle";
     detail::require_positive(place, "half length", half_length);
@@ -73,7 +75,7 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
 
 /// Both heights of a compound link hung by a thread: (lambda - l)(lambda - a) = a h, §6 (11). Accuracy: 4 ulp.
 template <Real T>
-HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
+[[nodiscard]] HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_thread", "thread", thread, link);
 }
 
@@ -81,14 +83,14 @@ HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
 /// deflection of the spring. The paper's lambda = l + c is exact for a plummet, and for a plummet only. Accuracy: 4
 /// ulp.
 template <Real T>
-HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
+[[nodiscard]] HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_spring", "deflection", deflection, link);
 }
 
 /// Deflection W/E of a spring with stiffness E under the weight W. A weight on the spring moves as on a thread of that
 /// length, §2 (7).
 template <Real T>
-T spring_deflection(const T& weight, const T& stiffness) {
+[[nodiscard]] T spring_deflection(const T& weight, const T& stiffness) {
     detail::require_positive("spring_deflection", "weight", weight, "stiffness", stiffness);
     return weight / stiffness;
 }
@@ -97,7 +99,7 @@ T spring_deflection(const T& weight, const T& stiffness) {
 /// 86400 (1 - sqrt(l / lambda)) for a clock that is right on a firm support. Accuracy: 8 ulp, also for tiny deflections
 /// and where deflection and pendulum length nearly agree.
 template <Real T>
-T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
+[[nodiscard]] T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max, std::sqrt;
     detail::require_positive("seconds_lost_per_day", "deflection", deflection);
     detail::check("seconds_lost_per_day", link);
@@ -116,20 +118,20 @@ T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
 /// lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. It is 0, and there is no such
 /// motion, where the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
 template <Real T>
-T standing_link(const T& thread, const CompoundLink<T>& link) {
+[[nodiscard]] T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
     detail::check("standing_link", link);
     return detail::standing_root(T((link.centroid - thread) + link.square_over_centroid()),
-                                 link.squares_over_centroid().times(thread));
+                                 detail::squares_over_centroid(link).times(thread));
 }
 
 /// Thread on which a link stands at a given height: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
 /// Accuracy: 3 ulp.
 template <Real T>
-T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
+[[nodiscard]] T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     detail::require_positive("thread_of_standing_link", "height", height);
     detail::check("thread_of_standing_link", link);
-    const Wide<T> rest = link.squares_over_centroid().value() + Wide<T>(height);
+    const Wide<T> rest = detail::squares_over_centroid(link).value() + Wide<T>(height);
     using P = detail::Product<Wide<T>>;
     return static_cast<T>(P::of(rest + Wide<T>(link.centroid)).over(rest).times(height).value());
 }
@@ -137,7 +139,8 @@ T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
 /// Height of a plummet that stands on a stiff massless rod above another plummet, which hangs by a thread:
 /// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). At small inclinations it always exists. Accuracy: 4 ulp.
 template <Real T>
-T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight, const T& thread) {
+[[nodiscard]] T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight,
+                                 const T& thread) {
     detail::require_positive("standing_plummet", "standing weight", standing_weight, "rod", rod, "hung weight",
                              hung_weight, "thread", thread);
     return detail::standing_root(T(rod - thread), detail::upper_share(standing_weight, rod, hung_weight, thread));
@@ -163,8 +166,11 @@ struct PairShape {
 /// height_k, and by the square root of the rounding where two shapes meet.
 /// Also throws InvalidArgument where a length is more than a third of the range above the height.
 template <Real T>
-std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
-                                              const T& upper_thread, const T& height) {
+[[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
+                                                            const T& lower_thread,
+                                                            const T& upper_weight,
+                                                            const T& upper_thread,
+                                                            const T& height) {
     constexpr std::string_view place = "two_plummets_shapes";
     detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
                              upper_weight, "upper thread", upper_thread, "height", height);
@@ -174,7 +180,9 @@ std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lo
 
 /// All shapes in which a compound link hangs on a thread, §6 (10); otherwise as `two_plummets_shapes`.
 template <Real T>
-std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundLink<T>& link, const T& height) {
+[[nodiscard]] std::vector<PairShape<T>> link_on_thread_shapes(const T& thread,
+                                                              const CompoundLink<T>& link,
+                                                              const T& height) {
     auto shapes = detail::hanging_shapes(detail::link_pair("link_on_thread_shapes", thread, link, height));
     for (PairShape<T>& shape : shapes) shape.tension[0] = shape.tension[1];
     return shapes;
@@ -184,8 +192,9 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
 /// to the upward vertical, tension[0] its thrust, negative. There is one where `height` is below `standing_plummet`,
 /// else none. Accuracy, cost and errors as `two_plummets_shapes`.
 template <Real T>
-std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
-                                                   const T& thread, const T& height) {
+[[nodiscard]] std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight,
+                                                                 const T& rod, const T& hung_weight,
+                                                                 const T& thread, const T& height) {
     constexpr std::string_view place = "standing_plummet_shape";
     detail::require_positive(place, "standing weight", standing_weight, "rod", rod, "hung weight", hung_weight,
                              "thread", thread, "height", height);
@@ -195,7 +204,9 @@ std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, con
 /// The shape in which a compound link stands on its lowest point, §6 (12) with the secants of (10). Both tensions are
 /// that of the thread, or of the hand that moves as the thread's end does. Otherwise as `standing_plummet_shape`.
 template <Real T>
-std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundLink<T>& link, const T& height) {
+[[nodiscard]] std::optional<PairShape<T>> standing_link_shape(const T& thread,
+                                                              const CompoundLink<T>& link,
+                                                              const T& height) {
     auto shape = detail::standing_shape(detail::link_pair("standing_link_shape", thread, link, height));
     if (shape) shape->tension[0] = shape->tension[1];
     return shape;
@@ -218,7 +229,7 @@ struct JointedLinks {
 /// Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws InvalidArgument for lengths or weights more than 1e77 apart
 /// (in double), and unless W2 h2 + W1 a2 is positive, that is, unless the upper link hangs.
 template <Real T>
-HeightPair<T> jointed_links(const JointedLinks<T>& links) {
+[[nodiscard]] HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);
     const Wide<T> product = n.l1 * n.p;
     const auto roots = detail::coupled_roots<Wide<T>>(n.l1, n.p, n.share * product, n.other * product);
@@ -232,7 +243,8 @@ HeightPair<T> jointed_links(const JointedLinks<T>& links) {
 /// Accuracy: inclinations 8 ulp where no shapes are about to meet (tests/cpp/two_links.cpp).
 /// Throws InvalidArgument as `jointed_links` and `two_plummets_shapes` do.
 template <Real T>
-std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, const T& height) {
+[[nodiscard]] std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links,
+                                                             const T& height) {
     using std::hypot, std::sin;
     using S = Wide<T>;
     constexpr std::string_view place = "jointed_links_shapes";
@@ -261,8 +273,8 @@ std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, con
 /// Also throws InvalidArgument unless the clapper has the shorter pendulum length: otherwise the bell rings with any
 /// pin.
 template <Real T>
-T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
-                        const CompoundLink<T>& clapper) {
+[[nodiscard]] T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell,
+                                      const T& clapper_weight, const CompoundLink<T>& clapper) {
     constexpr std::string_view place = "pin_of_silent_clapper";
     detail::require_positive(place, "bell weight", bell_weight);
     detail::check(place, bell);
@@ -282,7 +294,7 @@ T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const
 /// Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws InvalidArgument unless length/6 < pin < length/2: with C
 /// within the middle third D would lie beyond the rod.
 template <Real T>
-T joint_without_bending(const T& length, const T& pin) {
+[[nodiscard]] T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";
     detail::require_positive(place, "length", length);
     const T above = length / T(2) - pin;  // CA

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/models/for_modes.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD::detail {
-REVCHAIN_ANSWER_BY(CoarseChain);
-REVCHAIN_ANSWER_BY(Aberth);
-REVCHAIN_ANSWER_BY(Interpolated);
-REVCHAIN_ANSWER_BY(Condensed);
-REVCHAIN_ANSWER_BY(Bisection);
-}  // namespace revchain::detail
+namespace revchain::inline REVCHAIN_BUILD::models::detail {
+template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&, const Question&);
+template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&, const Question&);
+template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&, const Question&);
+template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
+template Answer answer_by(const Bisection&, const Chain<double>&, const ChainKind&, const Question&);
+}  // namespace revchain::models::detail

@@ -251,7 +251,7 @@ TEST_CASE("batch: wrong numbers are named with their chain and link, before anyt
         ChainBatch<double> batch = links.batch();
         batch.shape = std::move(shape);
         try {
-            revchain::conical_heights(batch, options);
+            (void)revchain::conical_heights(batch, options);
         } catch (const revchain::InvalidArgument& wrong) {
             return wrong.what();
         }
@@ -285,7 +285,7 @@ TEST_CASE("batch: wrong numbers are named with their chain and link, before anyt
 TEST_CASE("batch: can be stopped") {
     const Links<double> links = random_links<double>(Kind::plummets, 1000, 5, 10);
     revchain::Progress progress;
-    revchain::conical_heights(links.batch(), {.threads = 2, .progress = &progress});
+    (void)revchain::conical_heights(links.batch(), {.threads = 2, .progress = &progress});
     progress.cancel();
     CHECK_THROWS_AS(revchain::conical_heights(links.batch(), {.threads = 2, .progress = &progress}),
                     revchain::Cancelled);

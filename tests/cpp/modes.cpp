@@ -244,7 +244,7 @@ TEST_CASE("wrong calls", "[linear]") {
 TEST_CASE("a computation can be watched and stopped", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(100);
     revchain::Progress progress;
-    revchain::modes(chain, {.count = revchain::all_modes, .progress = &progress});
+    (void)revchain::modes(chain, {.count = revchain::all_modes, .progress = &progress});
     CHECK(progress.fraction() == 1.0);
     progress.cancel();
     CHECK_THROWS_AS(revchain::modes(chain, {.count = revchain::all_modes, .progress = &progress}), revchain::Cancelled);

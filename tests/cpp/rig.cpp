@@ -4,6 +4,7 @@
 // rise. No formula of the library is in them.
 #include "revchain/rig.hpp"
 
+#include "revchain/system/rig_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -22,7 +23,7 @@ using revchain::InvalidArgument;
 using revchain::plummet;
 using revchain::Posture;
 using revchain::Rig;
-using revchain::rig_links;
+using revchain::detail::rig_links;
 using revchain::Rigging;
 using revchain::uniform_rod;
 using support::Quad;
@@ -77,7 +78,7 @@ void check_numbers(const Rig& rig) {
             weight_of_link += body.bears, size_of_weight += fabsq(body.bears);
         }
         hung += weight_of_link, hung_size += size_of_weight;
-        constexpr double tolerance = revchain::RigLink::error_part;
+        constexpr double tolerance = revchain::detail::RigLink::error_part;
         CHECK(static_cast<double>(fabsq(length(link.length) - a) / a) == 0);
         CHECK(static_cast<double>(fabsq(weight(link.tension) - bearing / a) * a / bearing_size) < tolerance);
         CHECK(static_cast<double>(fabsq(weight(link.hung) - hung) / hung_size) < tolerance);

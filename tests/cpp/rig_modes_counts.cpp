@@ -63,8 +63,8 @@ TEST_CASE("count_modes of rigs: counts in quadruple precision, and next to every
             const RigTruth truth(rig);
             const auto m = modes(rig, {.count = all_modes});
             CAPTURE(static_cast<int>(kind), n, m.method);
-            discs += m.method == "discs" ? 1 : 0;
-            if (!by_discs(kind)) CHECK(m.method != "discs");
+            discs += m.method == revchain::RigMethod::discs ? 1 : 0;
+            if (!by_discs(kind)) CHECK(m.method != revchain::RigMethod::discs);
             REQUIRE(m.complete);
             const RigModeCounter counter(rig);
             CHECK(static_cast<Index>(m.other.size()) == m.other_available);
@@ -156,7 +156,7 @@ TEST_CASE("count_modes of rigs: ties, a chain without rigging, refusals", "[line
     // A wheel on a standing plummet, A n^2 + H n + W h = 0: n^2 - n + 2/9 = 0 has the roots 1/3 and 2/3, by discs.
     const Rig asleep(Chain<double>(std::vector{plummet(9.0, 2.0)}),
                      {.posture = {Posture::stands}, .flywheels = {{-81, 0}}});
-    CHECK(modes(asleep, {.gravity = 4.0 / 9}).method == "discs");
+    CHECK(modes(asleep, {.gravity = 4.0 / 9}).method == revchain::RigMethod::discs);
     for (const double n : {1 / 3.0, 2 / 3.0}) {
         CAPTURE(n);
         const Index slower = n > 0.5 ? 1 : 0;

@@ -37,7 +37,7 @@ TEST_CASE("a float in fluid that turns, and in fluid at rest", "[linear]") {
             }
             CHECK(m.status == Status::success);
         } else {  // the float alone is lighter than water: it stands up in its thread, K is indefinite, M is not
-            CHECK(m.method == "counts");
+            CHECK(m.method == revchain::RigMethod::counts);
             CHECK(m.forward.size() == 1);
             CHECK(m.other.size() == 1);
             CHECK(worst_error(RigTruth(Rig(chain, with)), m) <= 0.501);
@@ -48,7 +48,7 @@ TEST_CASE("a float in fluid that turns, and in fluid at rest", "[linear]") {
     const auto net = modes(Rig(chain, with), {.count = revchain::all_modes});
     const auto same =
         modes(Chain<double>(std::vector{plummet(0.5, 1.0), plummet(1.0, 1.0)}), {.count = revchain::all_modes});
-    CHECK(net.method == "counts");
+    CHECK(net.method == revchain::RigMethod::counts);
     CHECK((net.forward.conical_height - same.conical_height).cwiseAbs().maxCoeff() == 0);
 }
 

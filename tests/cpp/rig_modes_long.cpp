@@ -47,7 +47,7 @@ TEST_CASE("long rigs by discs: every root, each proved", "[linear]") {
             const Rig rig = long_rig(kind, n);
             const auto m = modes(rig, {.count = all_modes});
             CAPTURE(static_cast<int>(kind), n);
-            REQUIRE(m.method == "discs");
+            REQUIRE(m.method == revchain::RigMethod::discs);
             REQUIRE(m.complete);
             CHECK(m.status == Status::success);
             CHECK(m.forward.size() + m.backward.size() + m.other_available == (m.has_momentum ? 2 : 1) * n);

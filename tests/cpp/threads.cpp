@@ -105,7 +105,7 @@ TEST_CASE("threads: conical heights of a batch", "[linear]") {
 }
 
 TEST_CASE("threads: steady shapes", "[finite]") {
-    const auto check = [](const auto& system, revchain::SteadyShapesOptions options) {
+    const auto check = [](const auto& system, auto options) {
         const auto one = revchain::steady_shapes(system, options);
         CHECK(one.shapes.size() > 2);
         for (const Index threads : several) {
@@ -125,9 +125,10 @@ TEST_CASE("threads: steady shapes", "[finite]") {
         }
     };
     const auto chain = Chain<double>::uniform_plummets(8, 8.0);
-    check(chain, {.conical_height = 0.05});
-    check(Chain<double>::uniform_plummets(3, 3.0), {.conical_height = 0.2, .hanging_only = false});
-    check(revchain::Rig(chain, {.support = {.radius = 0.1}}), {.conical_height = 0.2});
+    check(chain, revchain::SteadyShapesOptions{.conical_height = 0.05});
+    const revchain::SteadyShapesOptions any_posture{.conical_height = 0.2, .hanging_only = false};
+    check(Chain<double>::uniform_plummets(3, 3.0), any_posture);
+    check(revchain::Rig(chain, {.support = {.radius = 0.1}}), revchain::RigShapesOptions{.conical_height = 0.2});
     CHECK_THROWS_WITH(revchain::steady_shapes(chain, {.conical_height = 0.05, .threads = -2}),
                       "revchain::steady_shapes: threads must not be negative, got -2");
 }

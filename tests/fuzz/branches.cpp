@@ -16,10 +16,10 @@ void fuzz::branches(Random& random) {
         for (const auto& window : revchain::stability_windows(hung, found, {.tolerance = 1e-3, .samples = 1}))
             fuzz::expect_number(window.height_from + window.height_to);
     } else {
-        revchain::SteadyShapeOptions given{.mode = mode};
-        std::optional<double> revchain::SteadyShapeOptions::*const what =
-            random.pick({&revchain::SteadyShapeOptions::conical_height, &revchain::SteadyShapeOptions::tip_inclination,
-                         &revchain::SteadyShapeOptions::tip_radius, &revchain::SteadyShapeOptions::top_tension});
+        revchain::OnBranchOptions given{.mode = mode};
+        std::optional<double> revchain::OnBranchOptions::*const what =
+            random.pick({&revchain::OnBranchOptions::conical_height, &revchain::OnBranchOptions::tip_inclination,
+                         &revchain::OnBranchOptions::tip_radius, &revchain::OnBranchOptions::top_tension});
         given.*what = random.number();
         (void)revchain::steady_shape(hung, given);
     }

@@ -17,7 +17,7 @@ void fuzz::rigs(Random& random) {
         const Eigen::Map<const revchain::Vector<double>> offset(numbers.data(), rig.size() + 1);
         (void)revchain::sensitivity(rig, random.number(), offset, random.number());
     } else {
-        const int sense = random.one_in(2) ? 1 : -1;
+        const auto sense = random.one_in(2) ? revchain::Rotation::forward : revchain::Rotation::backward;
         (void)revchain::steady_shapes(rig, {.conical_height = random.number() * rig.chain().total_length(),
                                             .budget = 3000,
                                             .hanging_only = random.one_in(2),

@@ -133,9 +133,7 @@ inline Index modes_above(const StraightCord& straight, double height) {
 }
 
 /// The modes of a straight cord that the options choose.
-inline CordModes modes_of(const StraightCord& straight, const ModesOptions<double>& options) {
-    if (options.certify)
-        throw_invalid("modes", "certificates of a Cord are not available; count_modes counts at any height");
+inline CordModes modes_of(const StraightCord& straight, const StraightModesOptions& options) {
     if (options.count == all_modes)
         throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
     const auto within = [&](const HeightWindow<double>& window) {
@@ -174,12 +172,13 @@ inline CordModes modes_of(const StraightCord& straight, const ModesOptions<doubl
 
 }  // namespace detail
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const ModesOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const StraightModesOptions& options) {
     detail::check(options);
     return detail::modes_of(cord, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held, const ModesOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held,
+                                         const StraightModesOptions& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }
@@ -267,7 +266,8 @@ REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const BranchesOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord,
+                                               const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
@@ -279,14 +279,15 @@ REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const BranchesO
     return finite::CordDiagram(cord, critical.head(count).eval(), height, options).run();
 }
 
-REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options) {
-    return finite::search_branch(cord, detail::critical_height("steady_shape", cord, options.mode), options);
+REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord,
+                                                             const OnBranchOptions& options,
+                                                             std::size_t max_shapes) {
+    const double critical = detail::critical_height("steady_shape", cord, options.mode);
+    return finite::search_branch(cord, critical, options, max_shapes);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options) {
-    SteadyShapeOptions one = options;
-    one.max_shapes = 1;
-    CordShapesOnBranch found = shapes_on_branch(cord, one);
+REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
+    CordShapesOnBranch found = shapes_on_branch(cord, options, 1);
     if (found.shapes.empty())
         detail::throw_invalid("steady_shape",
                               "the number is not met on the branch of mode " + std::to_string(options.mode) +
@@ -364,18 +365,6 @@ REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOption
         result.velocity.row(i) = (result.shape.transpose() * rate).transpose();
     }
     return result;
-}
-
-REVCHAIN_INLINE_ANALYTIC Tuned tune(const Cord&, const TuneOptions&) {
-    detail::throw_invalid(
-        "tune",
-        "a Cord cannot be tuned yet in C++ (Python's revchain.tune does it); its heights are proportional to its "
-        "length, so multiply the length by the wanted height over that of modes(cord)");
-}
-
-REVCHAIN_INLINE_ANALYTIC Explanation explain(const Cord&, const ModesOptions<double>&) {
-    detail::throw_invalid("explain",
-                          "modes of a Cord have one method for each kind of cord; CordModes::method names it");
 }
 
 }  // namespace revchain

@@ -146,7 +146,7 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     E shortest(1);   // length, in the unit of the chain
     E cancelled(1);  // worst (|W h| + a S) / (W h + a S)
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % segment_size == 0) below = chain.weight_below(m);
+        if (m % detail::segment_size == 0) below = chain.weight_below(m);
         const Link<T> link = chain.link(m);
         const S above = below + S(link.weight);
         int unit = result.units.weight_exponent;

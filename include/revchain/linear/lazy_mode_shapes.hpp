@@ -90,4 +90,12 @@ class LazyModeShapes {
     std::shared_ptr<State> state_;
 };
 
+/// Reaches the shapes that a result of `modes` keeps behind its accessors.
+struct ShapesBehind {
+    template <class Result>
+    static auto& of(Result& result) {
+        return result.lazy_shapes_;
+    }
+};
+
 }  // namespace revchain::detail

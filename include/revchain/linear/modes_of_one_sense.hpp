@@ -10,9 +10,11 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// heights and shapes are those of `modes`.
 class ModesOfOneSense {
    public:
-    /// `direction`: of rotation, 1 or -1; without momentum both are alike. Throws what `RigRoots` throws.
-    ModesOfOneSense(std::string_view place, const Rig& rig, double gravity, int direction)
-        : rig_(rig), roots_(place, rig, gravity, [](double) {}), forward_(direction > 0 || !roots_.has_momentum()) {
+    /// Without momentum both directions are alike. Throws what `RigRoots` throws.
+    ModesOfOneSense(std::string_view place, const Rig& rig, double gravity, Rotation direction)
+        : rig_(rig),
+          roots_(place, rig, gravity, [](double) {}),
+          forward_(direction == Rotation::forward || !roots_.has_momentum()) {
         if (!roots_.spectrum()) return;
         for (const pencil::EnclosedRoot& root : roots_.spectrum()->roots)
             if (root.is_real && (root.value.real() > 0) == forward_ && std::abs(root.value) > 0x1p-200)

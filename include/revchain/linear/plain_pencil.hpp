@@ -25,7 +25,7 @@ std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     T shortest(1);
     T below(0);
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % segment_size == 0) below = static_cast<T>(chain.weight_below(m)) * per_weight;
+        if (m % detail::segment_size == 0) below = static_cast<T>(chain.weight_below(m)) * per_weight;
         const T weight = chain.weight()[m] * per_weight, length = chain.length()[m] * per_length;
         const T centroid = chain.centroid()[m] * per_length, turning = static_cast<T>(chain.gyration_ratio()[m]);
         const T per = T(1) / length, p = centroid * per, q = (length - centroid) * per;
@@ -36,7 +36,7 @@ std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
         shortest = std::min(shortest, length);
     }
     // Beside the sum of up to a segment of weights: quotients by 1/a, products and sums, eight at most.
-    const Index sums = std::min(chain.size(), segment_size);
+    const Index sums = std::min(chain.size(), detail::segment_size);
     pencil.entry_error = epsilon<T>() / T(2) * T(1.01) * T(sums + 10);
     pencil.stiffness_underflow = std::numeric_limits<T>::min() * epsilon<T>() * T(4) / shortest;
     return pencil;

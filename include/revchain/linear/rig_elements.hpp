@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "revchain/pencil/element.hpp"
-#include "revchain/rig.hpp"
+#include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -20,9 +20,10 @@ inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double par
 }
 
 /// One link: stiffness and spin negative where it stands.
-inline RigElement rig_element(const RigLink& link, bool stands) {
-    constexpr double part = RigLink::error_part;
-    RigElement e = RigElement::of(link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross);
+inline RigElement rig_element(const detail::RigLink& link, bool stands) {
+    constexpr double part = detail::RigLink::error_part;
+    RigElement e = RigElement::of(link.tension / link.length, link.spin / link.length, link.lower,
+                                  link.upper, link.cross);
     if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
     e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,
                part * link.size.upper, part * link.size.cross};

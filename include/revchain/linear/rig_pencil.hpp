@@ -133,7 +133,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
                        std::all_of(with.flywheels.begin(), with.flywheels.end(),
                                    [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
     if (!plain || !rig.chain().has_one_weight_unit()) {
-        const std::vector<RigLink> links = rig_links(rig);
+        const std::vector<detail::RigLink> links = detail::rig_links(rig);
         for (Index m = 0; m < rig.size(); ++m)
             elements.push_back(rig_element(links[static_cast<std::size_t>(m)], rig.stands(m)));
         return elements;
@@ -149,7 +149,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
             e.spin = ldexp(rig.flywheel(m).momentum,
                            -assembled.units.weight_exponent - assembled.units.length_exponent) /
                      (length * length);
-            e.error.spin = RigLink::error_part * std::abs(e.spin.high);
+            e.error.spin = detail::RigLink::error_part * std::abs(e.spin.high);
         }
     return elements;
 }

@@ -12,6 +12,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
+using revchain::detail::zero_of_j0;
+
 /// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
 /// would without inertia. That lowers every conical height, and by no more than the largest height that a group has
 /// between held pins (pencil/grouped.hpp). All heights are proved to lie between the coarse ones and the coarse ones

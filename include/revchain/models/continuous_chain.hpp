@@ -10,6 +10,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
+using revchain::detail::zero_of_j0;
+
 /// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). The error bound follows
 /// from the limit of N links, with J = J_1(j). For plummets it is (1/2)/N and the terms of order 1/N^2. For rods
 /// (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, is subtracted, and a bound of order log N/N^4 remains

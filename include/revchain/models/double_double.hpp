@@ -28,7 +28,7 @@ struct DoubleDoubleBisection {
         return 2e-5 + detail::real(kind.size) * (2e-6 + 1.2e-5 * detail::real(question.count));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        const auto wide = converted<DoubleDouble>(chain);
+        const auto wide = revchain::detail::converted<DoubleDouble>(chain);
         revchain::detail::LazyCounter<DoubleDouble> assembled(wide);
         const auto found = revchain::detail::heights_by_bisection(wide, assembled, {question.first, question.count},
                                                                   {.progress = question.progress});

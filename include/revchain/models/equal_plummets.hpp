@@ -6,6 +6,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
+using revchain::detail::zero_of_j0;
+
 /// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N. Tricomi's expansion of them
 /// (DLMF 18.16(v)), with j = j_{0,k} and nu = 4 N + 2, is taken four terms farther,
 ///

@@ -29,8 +29,8 @@ struct FiniteAmplitude {
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         for (Index j = 0; j < question.count; ++j) {
-            const ShapesOnBranch found = shapes_on_branch(
-                chain, {.mode = question.first + j, .tip_inclination = question.inclination, .max_shapes = 1});
+            const ShapesOnBranch found =
+                shapes_on_branch(chain, {.mode = question.first + j, .tip_inclination = question.inclination}, 1);
             if (found.shapes.empty()) return Answer::none();
             answer.conical_height[j] = found.shapes.front().conical_height;
             answer.error_bound[j] =

@@ -17,23 +17,21 @@ inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, Tapered
                             Interpolated, Condensed, Bisection>
     for_modes{};
 
-/// The question that these options ask about a range of modes. Without a tolerance bounds have to be proved.
-template <class Options>
-Question question_of(const ModeRange& range, const Options& options) {
-    const double rtol = options.rtol.value_or(0.0);
-    return {range.first, range.count, rtol, 0, options.progress, !(rtol > 0)};
+/// The question about a range of modes. Without a tolerance bounds have to be proved.
+inline Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
+                            Progress* progress = nullptr) {
+    const double rtol = tolerance.value_or(0.0);
+    return {range.first, range.count, rtol, 0, progress, !(rtol > 0)};
 }
 
 }  // namespace revchain::models
 
 #if defined(REVCHAIN_COMPILED)
-namespace revchain::inline REVCHAIN_BUILD::detail {
-#define REVCHAIN_ANSWER_BY(model) \
-    template Answer answer_by(const models::model&, const Chain<double>&, const ChainKind&, const Question&)
-extern REVCHAIN_ANSWER_BY(CoarseChain);
-extern REVCHAIN_ANSWER_BY(Aberth);
-extern REVCHAIN_ANSWER_BY(Interpolated);
-extern REVCHAIN_ANSWER_BY(Condensed);
-extern REVCHAIN_ANSWER_BY(Bisection);
-}  // namespace revchain::detail
+namespace revchain::inline REVCHAIN_BUILD::models::detail {
+extern template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const Bisection&, const Chain<double>&, const ChainKind&, const Question&);
+}  // namespace revchain::models::detail
 #endif

@@ -5,14 +5,12 @@
 #include "revchain/models/finite_amplitude.hpp"
 #include "revchain/models/for_modes.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
+namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
 /// that are not small and for tolerances below what a double holds. The last always answers.
-inline constexpr std::tuple<models::ClosedForms, models::ConicalPendulum, models::EqualPlummets,
-                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::Aberth,
-                            models::Interpolated, models::Condensed, models::DoubleDoubleBisection,
-                            models::FiniteAmplitude, models::Bisection>
+inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain,
+                            Aberth, Interpolated, Condensed, DoubleDoubleBisection, FiniteAmplitude, Bisection>
     height_models{};
 
 /// `select` and `solve` among all of them.
@@ -29,4 +27,4 @@ inline Solution solve_by(std::string_view model, const Chain<double>& chain, con
     return solve_by(height_models, model, chain, question);
 }
 
-}  // namespace revchain
+}  // namespace revchain::models

@@ -16,6 +16,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// Whether a model can answer; if not, `reason` is a string literal that says why.
+struct Fit {
+    bool applies = true;
+    std::string_view reason{};
+
+    static Fit no(std::string_view why) { return {false, why}; }
+};
+
+namespace models {
+
+using revchain::detail::segment_size;
+
 /// The modes whose conical heights are wanted, and the relative tolerance of each height; 0: full accuracy.
 struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
@@ -102,7 +114,7 @@ struct ChainKind {
     /// Samples the weights along the chain. Up to 255 links are all read. For longer chains weights come from the
     /// stored sums, and lengths are taken as spread evenly.
     void look_at_stretches(const Chain<double>& chain) {
-        const FloatingPointStateGuard quiet;  // ratios may be infinite
+        const revchain::detail::FloatingPointStateGuard quiet;  // ratios may be infinite
         const bool few = size < segment_size;
         const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
         const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
@@ -168,11 +180,11 @@ struct ChainKind {
     }
 };
 
-namespace models::detail {
+namespace detail {
 inline double real(Index x) { return static_cast<double>(x); }
 /// 2 ulp: the relative error bound that the methods in double can prove for any chain.
 inline constexpr double full_accuracy = 2.001 * std::numeric_limits<double>::epsilon();
-}  // namespace models::detail
+}  // namespace detail
 
 /// A height and what bounds its relative error.
 struct Enclosed {
@@ -189,14 +201,6 @@ Answer answer_of_each(const Question& question, const F& enclosed) {
     }
     return answer;
 }
-
-/// Whether a model can answer; if not, `reason` is a string literal that says why.
-struct Fit {
-    bool applies = true;
-    std::string_view reason{};
-
-    static Fit no(std::string_view why) { return {false, why}; }
-};
 
 /// One theory or method. `applies` says whether it can answer a question. Before anything is computed, `error_bound`
 /// bounds the relative errors of all heights asked for, and `cost` predicts the time in seconds. `solve` returns the
@@ -237,4 +241,5 @@ inline double error_of_small_inclinations(const ChainKind& kind, const Question&
     return 2 * sine * sine / std::cos(question.inclination) * (1 + 1e-15);
 }
 
+}  // namespace models
 }  // namespace revchain

@@ -22,6 +22,10 @@ struct Estimate {
     double cost = std::numeric_limits<double>::infinity();         ///< seconds, predicted
 };
 
+namespace models {
+
+using revchain::detail::throw_invalid;
+
 /// The choice of `select`: `model` is an index into `estimates`, past the last where none applies. Where
 /// `meets_tolerance` is false, no model within the budget meets it, and this is the most accurate.
 template <std::size_t N>
@@ -54,8 +58,8 @@ inline void check(const ChainKind& kind, const Question& question) {
 }
 
 /// The tolerance to be kept: the one asked for, or full accuracy.
-inline double goal(const Question& question) {
-    return question.rtol > 0 ? question.rtol : models::detail::full_accuracy;
+inline double kept_tolerance(const Question& question) {
+    return question.rtol > 0 ? question.rtol : full_accuracy;
 }
 
 template <Model M>
@@ -135,15 +139,15 @@ template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind, const Question& question,
                                  std::optional<double> time_budget = std::nullopt) {
     detail::check(kind, question);
-    if (time_budget) detail::require_positive("select", "time budget", *time_budget);
+    if (time_budget) revchain::detail::require_positive("select", "time budget", *time_budget);
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double budget = time_budget.value_or(infinity);
-    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::goal(question), budget);
+    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::kept_tolerance(question), budget);
     if (!chosen)  // no model is within the budget: the cheapest one
         chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
-    choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::goal(question) &&
+    choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
                              choice.estimates[*chosen].cost <= budget;
     return choice;
 }
@@ -162,7 +166,8 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
                std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
     const auto choice = select(models, kind, question, time_budget);
-    const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
+    const double rtol = detail::kept_tolerance(question);
+    const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
     Solution best{Answer::none(), {}, Status::tolerance_not_met};
     if (choice.model == sizeof...(Models)) return best;
@@ -194,10 +199,11 @@ Solution solve_by(const std::tuple<Models...>& models, std::string_view model, c
         Solution found{Answer::none(), estimates[i].name, Status::tolerance_not_met};
         if (!estimates[i].fit.applies) return found;
         found.answer = detail::asked(models, i, chain, kind, question);
-        if (found.answer.worst_bound() <= detail::goal(question)) found.status = Status::success;
+        if (found.answer.worst_bound() <= detail::kept_tolerance(question)) found.status = Status::success;
         return found;
     }
-    detail::throw_invalid("solve_by", "there is no model " + std::string(model));
+    throw_invalid("solve_by", "there is no model " + std::string(model));
 }
 
+}  // namespace models
 }  // namespace revchain

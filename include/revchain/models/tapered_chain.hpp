@@ -43,7 +43,7 @@ struct TaperedChain {
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
         const double p = *kind.taper, n = detail::real(kind.size);
-        const ZerosOfJ zeros(p);
+        const revchain::detail::ZerosOfJ zeros(p);
         return answer_of_each(question, [&](Index k) {
             const double j = zeros(k), half = j / 2, cord = (p + 1) * (kind.length / half / half);
             return detail::enclosed(cord, detail::second_order(p, j) / (n * n),

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are
 /// valid results ("nothing proved").
@@ -20,4 +20,4 @@ class FloatingPointStateGuard {
     std::fenv_t before_{};
 };
 
-}  // namespace revchain
+}  // namespace revchain::detail

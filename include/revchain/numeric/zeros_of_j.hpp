@@ -7,7 +7,7 @@
 #include "revchain/numeric/bessel_ratio.hpp"
 #include "revchain/numeric/status.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Positive zeros of J_order for real order > -1, by number from 1.
 /// Far out the phase series is solved. Nearer: Segura's iteration (doi:10.1137/090747762), which stays between the
@@ -22,22 +22,22 @@ class ZerosOfJ {
     /// Throws InvalidArgument for an order not above -1 or not finite.
     explicit ZerosOfJ(double order) : order_(order), far_(order) {
         if (!(order > -1 && std::isfinite(order)))
-            detail::throw_invalid("ZerosOfJ", "order must be above -1 and finite", order);
+            throw_invalid("ZerosOfJ", "order must be above -1 and finite", order);
     }
 
     /// j_{order,k}. Throws InvalidArgument for k < 1.
     double operator()(Index k) const {
-        if (k < 1) detail::throw_invalid("ZerosOfJ", "the zeros are numbered from 1", k);
-        const detail::TwoDoubles turns = two_sum(static_cast<double>(k) - 0.25, 0.5 * order_);
-        const detail::TwoDoubles place = turns * detail::two_word_pi;  // the zero itself but for the lag
-        if (place.high >= detail::PhaseSeries::first(order_)) return far_out(place);
+        if (k < 1) throw_invalid("ZerosOfJ", "the zeros are numbered from 1", k);
+        const TwoDoubles turns = two_sum(static_cast<double>(k) - 0.25, 0.5 * order_);
+        const TwoDoubles place = turns * two_word_pi;  // the zero itself but for the lag
+        if (place.high >= PhaseSeries::first(order_)) return far_out(place);
         const double z = order_ < 0 && k == 1 ? near_first() : near(k);
-        const detail::TwoDoubles ratio = detail::bessel_ratio<detail::TwoDoubles>(order_, z);
+        const TwoDoubles ratio = bessel_ratio<TwoDoubles>(order_, z);
         return z + ratio.high / (1 - order_ / z * ratio.high);
     }
 
    private:
-    double far_out(const detail::TwoDoubles& place) const {
+    double far_out(const TwoDoubles& place) const {
         double z = place.high;
         for (int round = 0; round < 8; ++round) {
             const double lag = far_.lag(z);
@@ -52,7 +52,7 @@ class ZerosOfJ {
         const double a = order_ + 1, x = std::cbrt(32 * a * a * a * (order_ + 2) * (order_ + 3));
         double z = std::sqrt(x);
         for (int round = 0; round < 30; ++round) {
-            const double step = 2 * z * detail::bessel_ratio<double>(order_, z), next = std::sqrt(z * z + step);
+            const double step = 2 * z * bessel_ratio<double>(order_, z), next = std::sqrt(z * z + step);
             if (!(next > z * (1 + 1e-13))) return next;
             z = next;
         }
@@ -75,7 +75,7 @@ class ZerosOfJ {
         z -= off * z / q;
         for (int round = 0; round < 8; ++round) {
             const double rate = std::sqrt(1 - (order_ - 0.5) / z * ((order_ + 0.5) / z));
-            const double ratio = detail::bessel_ratio<double>(order_, z);
+            const double ratio = bessel_ratio<double>(order_, z);
             const double step = std::atan(rate * ratio / ((order_ + 0.5) / z * ratio - 1)) / rate;
             z -= step;
             if (std::abs(step) <= 1e-5 * z) break;  // of fourth order
@@ -84,7 +84,7 @@ class ZerosOfJ {
     }
 
     double order_;
-    detail::PhaseSeries far_;
+    PhaseSeries far_;
 };
 
-}  // namespace revchain
+}  // namespace revchain::detail

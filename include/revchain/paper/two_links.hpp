@@ -66,7 +66,7 @@ std::array<T, 2> hung_link(std::string_view place, std::string_view name, const 
     require_positive(place, name, thread);
     check(place, link);
     const auto coupling = Product<Wide<T>>{}.times(thread).times(link.centroid);
-    return coupled_roots(place, link.pendulum_length(), thread, coupling, link.squares_over_centroid().times(thread));
+    return coupled_roots(place, link.pendulum_length(), thread, coupling, squares_over_centroid(link).times(thread));
 }
 
 /// With m = W2 h2/(W1 a2), §8 (14) is (lambda sec d1 - l1)(lambda sec d2 - p) = c,  p = (m l2 + a2)/(m + 1),

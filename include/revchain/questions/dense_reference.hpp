@@ -31,7 +31,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
     check(options);
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes(range, options);
+    Modes<T> result = room_for_modes<T>(range, options.certify);
     result.method = method;
     ModeShapes<T> shapes = room_for_shapes(chain, range.count);
     const Pencils<T>& pencils = assembled.pencils();
@@ -40,14 +40,14 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
         const Index before = range.first - 1 + j;
         const T height = system.values[before];
         set_height(result, j, height, proved_error(pencils.wide(), before, height), chain.units().length_exponent,
-                   options);
+                   options.rtol);
         Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
         offset.head(chain.size()) = system.vectors.col(before);
         set_shape(shapes, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
         if (options.certify) certify(result, j, pencils, chain.mode_count());
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    result.lazy_shapes = LazyModeShapes<T>(std::move(shapes));
+    ShapesBehind::of(result) = LazyModeShapes<T>(std::move(shapes));
     return result;
 }
 

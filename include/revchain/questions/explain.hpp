@@ -63,17 +63,11 @@ REVCHAIN_INLINE std::string Explanation::text() const {
     return result;
 }
 
-REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options) {
-    if (options.conical_height || options.angular_speed)
-        detail::throw_invalid("explain", "a window is decided by counting modes; give first and count");
-    const auto no_window = [](const auto&) { return ModeRange{}; };
-    const ModeRange range = detail::chosen(chain.mode_count(), options, no_window, no_window);
-    const auto choice = select(models::for_modes, chain, models::question_of(range, options));
+REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ExplainOptions& options) {
+    detail::check(options);
+    const ModeRange range = detail::numbered_range(chain.mode_count(), options);
+    const auto choice = select(models::for_modes, chain, models::question_of(range, options.rtol));
     return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
-}
-
-REVCHAIN_INLINE Explanation explain(const Rig&, const ModesOptions<double>&) {
-    detail::throw_invalid("explain", "a Rig has one method for each kind, no choice; RigModes::method names it");
 }
 
 }  // namespace revchain

@@ -14,10 +14,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
+inline void require_half_waves(int most) {
+    if (most < 1) throw_invalid("steady_shapes", "max_half_waves must be at least 1", most);
+}
+
 /// The conical height of the speed asked for; 0 without gravity.
-inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& options) {
+template <class Options>
+Wide<double> height_asked(const HeldBy& by, const Options& options) {
     constexpr std::string_view place = "steady_shapes";
-    if (options.max_half_waves < 1) throw_invalid(place, "max_half_waves must be at least 1", options.max_half_waves);
     if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
     if (by.weightless) {
         if (options.conical_height)
@@ -42,8 +46,8 @@ inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& opti
 
 /// The conical height times the tension at the upper end; without gravity, tension over speed squared.
 inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
-                                         const HeldShapesOptions& options) {
-    const Wide<double> tension = by.tension.value(), speed(options.angular_speed.value_or(1));
+                                         const std::optional<double>& angular_speed) {
+    const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
     const Wide<double> product = by.weightless ? tension / speed / speed : height * tension;
     require_positive("steady_shapes", "conical height times tension", product.high);
     return product;
@@ -51,12 +55,12 @@ inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& h
 
 /// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the speed.
 inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
-                                        const HeldShapesOptions& options) {
+                                        const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
-    if (!options.angular_speed)
+    if (!angular_speed)
         throw_invalid("steady_shapes",
                       "without gravity shapes between springs depend on the speed; give angular_speed");
-    const Wide<double> speed(*options.angular_speed), unit(1.0);
+    const Wide<double> speed(*angular_speed), unit(1.0);
     return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
 }
 
@@ -82,7 +86,7 @@ inline double span_asked(std::string_view place, const HeldBy& by) {
 
 /// `at_height(span, height)` and `of_tension(span, tension)` look for the shape that is asked for.
 template <class AtHeight, class OfTension>
-auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeight& at_height,
+auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHeight& at_height,
                 const OfTension& of_tension) {
     constexpr std::string_view place = "steady_shape";
     const double span = span_asked(place, by);
@@ -95,9 +99,7 @@ auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeigh
         if (auto shape = of_tension(span, *options.top_tension)) return *shape;
         throw_invalid(place, "no shape of the branch has this tension at its upper end", *options.top_tension);
     }
-    const Wide<double> height = height_asked(
-        by,
-        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
+    const Wide<double> height = height_asked(by, options);
     if (auto shape = at_height(span, height)) return *shape;
     throw_invalid(place, "the branch does not reach this conical height; branches says how far it goes",
                   static_cast<double>(height));
@@ -106,23 +108,27 @@ auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeigh
 }  // namespace detail
 
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
+    detail::require_half_waves(options.max_half_waves);
     const Wide<double> height = detail::height_asked(held.by(), options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
-    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options);
+    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options.angular_speed);
     if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
-    return finite::held_shapes_under_tension(held.system(), supports,
-                                             detail::height_times_tension(held.by(), height, options), height, wanted);
+    const Wide<double> tension = detail::height_times_tension(held.by(), height, options.angular_speed);
+    return finite::held_shapes_under_tension(held.system(), supports, tension, height, wanted);
 }
 
-REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
+REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held,
+                                             const HeldCordShapesOptions& options) {
+    detail::require_half_waves(options.max_half_waves);
     const Wide<double> height = detail::height_asked(held.by(), options);
     const int most = options.max_half_waves;
     if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height.high, most);
-    return finite::held_cord_shapes_under_tension(
-        held.system(), detail::height_times_tension(held.by(), height, options).high, height.high, most);
+    const Wide<double> tension = detail::height_times_tension(held.by(), height, options.angular_speed);
+    return finite::held_cord_shapes_under_tension(held.system(), tension.high, height.high, most);
 }
 
-REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {
+REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
+                                                 const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -146,7 +152,8 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     return result;
 }
 
-REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options) {
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
+                                                     const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -160,7 +167,8 @@ REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, con
     return result;
 }
 
-REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options) {
+REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held,
+                                       const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
@@ -181,7 +189,8 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     });
 }
 
-REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options) {
+REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held,
+                                           const HeldOnBranchOptions& options) {
     const auto at_height = [&](double span, const Wide<double>& height) {
         return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
     };
@@ -190,10 +199,9 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldSha
     });
 }
 
-REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options) {
+REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
+                                    const StraightModesOptions& options) {
     detail::check(options);
-    if (options.certify)
-        detail::throw_invalid("modes", "certificates of a Held are not available; count_modes counts at any height");
     const finite::TautChain taut = detail::taut_chain("modes", held, options.gravity);
     const auto within = [&](const HeightWindow<double>& window) {
         return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
@@ -201,14 +209,14 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
     const ModeRange range = detail::chosen(taut.mode_count(), options, within, [&](const SpeedWindow<double>& window) {
         return within(detail::window_of_heights(window, options.gravity));
     });
-    Modes<double> result = detail::room_for_modes(range, options);
+    Modes<double> result = detail::room_for_modes<double>(range);
     result.method = "bisection";
     for (Index j = 0; j < range.count; ++j) {
         const double estimate = epsilon<double>();  // of the error: rounding in the counts is not bounded
-        detail::set_height(result, j, taut.height(range.first - 1 + j), estimate, 0, options);
+        detail::set_height(result, j, taut.height(range.first - 1 + j), estimate, 0, options.rtol);
         detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    result.lazy_shapes =
+    detail::ShapesBehind::of(result) =
         detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
                                            Index first, Index count, bool, Progress* progress) {
             detail::ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};

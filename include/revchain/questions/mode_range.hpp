@@ -19,15 +19,9 @@ void check(const Options& options) {
     if (!(rtol >= decltype(rtol)(0))) throw_invalid("modes", "rtol must not be negative or NaN", rtol);
 }
 
-/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
-template <class Options, class InHeights, class InSpeeds>
-ModeRange chosen(Index all, const Options& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
-    const bool numbered = options.first != 1 || options.count.has_value();
-    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        throw_invalid("modes",
-                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
-    if (options.conical_height) return in_heights(*options.conical_height);
-    if (options.angular_speed) return in_speeds(*options.angular_speed);
+/// The modes whose numbers are asked for, of `all` there are.
+template <class Options>
+ModeRange numbered_range(Index all, const Options& options) {
     const std::string of = std::to_string(all) + " modes of this chain";
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
@@ -43,6 +37,20 @@ ModeRange chosen(Index all, const Options& options, const InHeights& in_heights,
                                                               std::to_string(options.first) + " on of the " + of),
             count);
     return {options.first, count};
+}
+
+/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those
+/// in a window.
+template <class Options, class InHeights, class InSpeeds>
+ModeRange chosen(Index all, const Options& options, const InHeights& in_heights,
+                 const InSpeeds& in_speeds) {
+    const bool numbered = options.first != 1 || options.count.has_value();
+    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
+    if (options.conical_height) return in_heights(*options.conical_height);
+    if (options.angular_speed) return in_speeds(*options.angular_speed);
+    return numbered_range(all, options);
 }
 
 }  // namespace revchain::detail

@@ -23,21 +23,22 @@ ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOp
         [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
 }
 
-/// Room for what the options ask of these modes, nothing computed yet.
+/// Room for these modes, nothing computed yet.
 template <Real T>
-Modes<T> room_for_modes(const ModeRange& range, const ModesOptions<T>& options) {
+Modes<T> room_for_modes(const ModeRange& range, bool certified = false) {
     Modes<T> result;
     result.first = range.first;
     result.conical_height.resize(range.count);
     result.error_bound.resize(range.count);
-    if (options.certify) result.certificate = room_for_certificate<T>(range.count);
+    if (certified) result.certificate = room_for_certificate<T>(range.count);
     return result;
 }
 
 /// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
 /// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
 template <Real T>
-void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const ModesOptions<T>& options) {
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent,
+                const std::optional<T>& rtol) {
     using std::abs;
     using std::ldexp;
     const T stored = ldexp(height, exponent);
@@ -45,7 +46,7 @@ void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent
     if (lost > T(0)) bound = stored > T(0) ? bound + T(2) * (lost / height) : std::numeric_limits<T>::infinity();
     modes.conical_height[j] = stored;
     modes.error_bound[j] = bound;
-    if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
+    if (!(bound <= rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
 }
 
 template <Real T, Real P>
@@ -68,7 +69,8 @@ void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const Answer& answer) {
+inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
+                                                    const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
@@ -84,14 +86,15 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
 /// a template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
-Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
-    const Question question = models::question_of(range, options);
+models::Solution solved(const Chain<T>& chain, const ModeRange& range,
+                        const ModesOptions<T>& options) {
+    const models::Question question = models::question_of(range, options.rtol, options.progress);
     if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
-    const ChainKind kind(chain);
+    const models::ChainKind kind(chain);
     const auto by = [&](const auto& model) {
-        return Solution{answer_by(model, chain, kind, question), model.name, Status::success};
+        return models::Solution{models::detail::answer_by(model, chain, kind, question), model.name, Status::success};
     };
-    Solution found{Answer::none(), {}, Status::success};
+    models::Solution found{models::Answer::none(), {}, Status::success};
     if (options.method == ModesMethod::aberth) found = by(models::Aberth{});
     if (options.method == ModesMethod::interpolated) found = by(models::Interpolated{});
     if (options.method == ModesMethod::condensed) found = by(models::Condensed{});
@@ -103,18 +106,18 @@ template <std::same_as<double> T>
 Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) {
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes(range, options);
+    Modes<T> result = room_for_modes<T>(range, options.certify);
     result.method = "bisection";
     if (range.count == 0) {
-        result.lazy_shapes = LazyModeShapes<T>(room_for_shapes(chain, 0));
+        ShapesBehind::of(result) = LazyModeShapes<T>(room_for_shapes(chain, 0));
         return result;
     }
-    Solution found = solved(chain, range, options);
+    models::Solution found = solved(chain, range, options);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
-        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
+        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
                            condense = options.method != ModesMethod::bisection,
                            threads = options.threads](Index from, Index count, bool details, Progress* progress) {
@@ -143,7 +146,7 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     asked.method = options.method;
     const Modes<double> fine = modes(wide, asked);
 
-    Modes<float> result = room_for_modes(fine.range(), options);
+    Modes<float> result = room_for_modes<float>(fine.range(), options.certify);
     result.method = fine.method;
     for (Index j = 0; j < fine.size(); ++j) {
         const float height = static_cast<float>(fine.conical_height[j]);
@@ -151,13 +154,13 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
         const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
                                                                  : std::numeric_limits<double>::infinity();
         set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),
-                   0, options);
+                   0, options.rtol);
     }
     if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
     const Vector<float> heights = result.conical_height;
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
-            const ModeShapes<double> found = fine.lazy_shapes.some(first, count, details, progress);
+            const ModeShapes<double> found = ShapesBehind::of(fine).some(first, count, details, progress);
             ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
             if (count == 0 || !details) return shapes;
             const Pencils<double> own(wide);
@@ -178,16 +181,16 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
     const HeightsOptions<T> stage{options.rtol, options.progress};
-    Modes<T> result = room_for_modes(range, options);
+    Modes<T> result = room_for_modes<T>(range, options.certify);
     result.method = "bisection";
     Heights<T> found;
     if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
     for (Index j = 0; j < range.count; ++j) {
         const auto& height = found[static_cast<std::size_t>(j)];
-        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
+        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options.rtol);
     }
     if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
-    result.lazy_shapes =
+    ShapesBehind::of(result) =
         LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
                            threads = options.threads](Index from, Index count, bool details, Progress* progress) {
             const Threads used("modes", threads);

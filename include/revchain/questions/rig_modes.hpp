@@ -21,7 +21,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// The mode numbers asked for, of those available; fewer, or none, where there are not as many.
-inline ModeRange numbered(const ModesOptions<double>& options, Index available) {
+inline ModeRange numbered(const RigModesOptions& options, Index available) {
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
     const Index left = std::max<Index>(0, available - options.first + 1);
@@ -29,7 +29,8 @@ inline ModeRange numbered(const ModesOptions<double>& options, Index available) 
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const ModesOptions<double>& options, const RigRoots& roots, bool forward, Index available) {
+inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
+                        Index available) {
     if (options.conical_height || options.angular_speed)
         return chosen(
             available, options,
@@ -73,7 +74,7 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pen
 
 /// Finds the modes of one sense; reports progress from one share to another.
 inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
-                           const ModesOptions<double>& options, double from, double to) {
+                           const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
     const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
@@ -94,7 +95,7 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
         found.push_back(root.x);
     };
     const auto keep_shapes = [&]<bool Spins>(std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
-        modes.lazy_shapes = LazyModeShapes<double>(RigShapeFinder<Spins>(
+        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<Spins>(
             rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
@@ -119,12 +120,19 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
 }
 
 /// As the chain's own modes, which they are.
-inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options) {
+inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
-    result.complete = true, result.method = "modes";
-    ModesOptions<double> of_chain = options;
-    of_chain.method = ModesMethod::automatic;
+    result.complete = true, result.method = RigMethod::modes;
+    ModesOptions<double> of_chain{.first = options.first,
+                                  .count = options.count,
+                                  .conical_height = options.conical_height,
+                                  .angular_speed = options.angular_speed,
+                                  .rtol = options.rtol,
+                                  .certify = options.certify,
+                                  .gravity = options.gravity,
+                                  .threads = options.threads,
+                                  .progress = options.progress};
     if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
         const ModeRange range = numbered(options, available);
         if (range.count == 0) {
@@ -134,15 +142,13 @@ inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options)
         of_chain.count = range.count;
     }
     const Modes<double> plain = modes(rig.chain(), of_chain);
-    result.forward = {plain.first,
-                      available,
-                      plain.conical_height,
-                      plain.error_bound,
-                      plain.angular_speed(options.gravity),
-                      plain.error_bound,
-                      plain.certificate,
-                      plain.lazy_shapes};
-    for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
+    WhirlModes& found = result.forward;
+    found.first = plain.first, found.available = available;
+    found.conical_height = plain.conical_height, found.error_bound = plain.error_bound;
+    found.angular_speed = plain.angular_speed(options.gravity), found.speed_error_bound = plain.error_bound;
+    found.certificate = plain.certificate;
+    ShapesBehind::of(found) = ShapesBehind::of(plain);
+    for (double& bound : found.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
     result.status = plain.status;
     return result;
 }
@@ -181,10 +187,11 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
 }
 
 /// By counts.
-inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
+inline RigModes counted_modes(const Rig& rig, const RigRoots& roots,
+                              const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
-    result.has_momentum = roots.has_momentum(), result.method = "counts";
+    result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
     result.complete = pencil.stiffness_positive || pencil.stiffness_certain;
     bool proved = true;
     const std::size_t senses = roots.senses().size();
@@ -206,11 +213,12 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const Modes
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots,
+                               const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
-    result.has_momentum = roots.has_momentum(), result.method = "discs";
+    result.has_momentum = roots.has_momentum(), result.method = RigMethod::discs;
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
@@ -244,7 +252,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const Mode
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.x);
         }
-        modes.lazy_shapes = LazyModeShapes<double>(
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
             RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
@@ -291,7 +299,7 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 }  // namespace detail
 
-REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& options) {
+REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
     detail::require_positive("modes", "gravity", options.gravity);
     detail::check(options);
     const detail::Threads used("modes", options.threads);
@@ -300,10 +308,10 @@ REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& optio
                                  [&](double share) { detail::advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
-        result.complete = true, result.method = "counts";
+        result.complete = true, result.method = RigMethod::counts;
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
             detail::make_room(*sense, detail::chosen(options, roots, true, 0), 0);
-            sense->lazy_shapes = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
+            detail::ShapesBehind::of(*sense) = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
         }
     } else {
         result =

@@ -6,6 +6,7 @@
 
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/sensitivity.hpp"
+#include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -192,7 +193,7 @@ REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double ang
     for (std::size_t m = links.size(); m-- > number + 1; held = false)
         above = held ? links.stiffness(m) - turning * links.link(m).lower
                      : links.across(m, above, links.link(m).upper, links.link(m).lower);
-    const RigLink& it = links.link(number);
+    const detail::RigLink& it = links.link(number);
     const S p = links.below(number) - turning * it.lower, q = above - turning * it.upper, x = turning * it.cross;
     const S k = held ? -p : (x * x - p * q) / (p + q - x - x);
     const S tension = (rig.stands(link) ? -k : k) * it.length;

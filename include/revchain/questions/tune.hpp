@@ -231,10 +231,4 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
     return result;
 }
 
-REVCHAIN_INLINE Tuned tune(const Rig&, const TuneOptions&) {
-    detail::throw_invalid("tune",
-                          "a Rig cannot be tuned yet in C++ (Python's revchain.tune does it); tune its chain, or use "
-                          "momentum_for_speed for a flywheel");
-}
-
 }  // namespace revchain

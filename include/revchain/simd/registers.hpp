@@ -195,4 +195,5 @@ struct RegisterOf {
 
 }  // namespace revchain::detail
 
+#undef REVCHAIN_FUSED_INSTRUCTIONS
 #pragma GCC diagnostic pop

@@ -9,8 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
-using revchain::zero_of_j0;  // numeric/zero_of_j0.hpp
-using revchain::ZerosOfJ;    // numeric/zeros_of_j.hpp
+using revchain::detail::zero_of_j0;  // numeric/zero_of_j0.hpp
+using revchain::detail::ZerosOfJ;    // numeric/zeros_of_j.hpp
 
 /// j_{1,k}, the k-th positive zero of J_1, k >= 1. Greenhill (1908) §4 (13). Accuracy and errors as `zero_of_j0`. GSL's
 /// zeros have errors up to 15 ulp and get one Newton step here.

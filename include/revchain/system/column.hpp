@@ -48,6 +48,8 @@ class Column {
     Index stride_ = 0;
 };
 
+namespace detail {
+
 /// The number of links in a segment. Columns are summed by segments.
 inline constexpr Index segment_size = 256;
 
@@ -59,12 +61,8 @@ struct Summary {
     T most{};
 };
 
-namespace detail {
-
 /// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
-
-}  // namespace detail
 
 /// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of
 /// `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree
@@ -72,14 +70,14 @@ inline constexpr std::size_t sum_lanes = 16;
 /// sizes.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
-    constexpr bool compensated = detail::is_double_word<Wide<T>>;
+    constexpr bool compensated = is_double_word<Wide<T>>;
     using S = std::conditional_t<compensated, T, Wide<T>>;
     return simd([&](auto) REVCHAIN_INLINED {
-        S sum[detail::sum_lanes]{}, error[detail::sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
-        T least[detail::sum_lanes], most[detail::sum_lanes]{};
-        std::fill_n(least, detail::sum_lanes, x[0]);
+        S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
+        T least[sum_lanes], most[sum_lanes]{};
+        std::fill_n(least, sum_lanes, x[0]);
         const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
-            for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
+            for (std::size_t i = 0; i < sum_lanes; ++i) {
                 const S s = sum[i] + S(y[i]);
                 if constexpr (compensated) {  // two_sum
                     const S v = s - sum[i];
@@ -91,16 +89,16 @@ Summary<T> summary(const T* x, Index count) {
                 most[i] = size > most[i] ? size : most[i];
             }
         };
-        const auto lanes = static_cast<Index>(detail::sum_lanes), whole = count - count % lanes;
+        const auto lanes = static_cast<Index>(sum_lanes), whole = count - count % lanes;
         for (Index m = 0; m < whole; m += lanes) take(x + m, x + m);
         if (whole < count) {
-            T last[detail::sum_lanes]{}, filled[detail::sum_lanes];
-            std::fill_n(filled, detail::sum_lanes, x[0]);
+            T last[sum_lanes]{}, filled[sum_lanes];
+            std::fill_n(filled, sum_lanes, x[0]);
             std::copy(x + whole, x + count, last);
             std::copy(x + whole, x + count, filled);
             take(last, filled);
         }
-        for (std::size_t half = detail::sum_lanes / 2; half > 0; half /= 2)
+        for (std::size_t half = sum_lanes / 2; half > 0; half /= 2)
             for (std::size_t i = 0; i < half; ++i) {
                 const S s = sum[i] + sum[i + half];
                 if constexpr (compensated) {
@@ -110,7 +108,7 @@ Summary<T> summary(const T* x, Index count) {
                 sum[i] = s;
             }
         Summary<T> result{
-            {}, *std::min_element(least, least + detail::sum_lanes), *std::max_element(most, most + detail::sum_lanes)};
+            {}, *std::min_element(least, least + sum_lanes), *std::max_element(most, most + sum_lanes)};
         if constexpr (compensated)
             result.sum = two_sum(sum[0], error[0]);
         else
@@ -139,7 +137,7 @@ Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* be
     CompensatedSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
-        detail::look();
+        look();
         if (below != nullptr) below->push_back(sum.value());
         const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
         sum.add(segment.sum);
@@ -149,4 +147,5 @@ Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* be
     return {sum.value(), least, most};
 }
 
+}  // namespace detail
 }  // namespace revchain

@@ -3,9 +3,7 @@
 
 #include "revchain/chain.hpp"
 
-namespace revchain::inline REVCHAIN_BUILD {
-
-namespace detail {
+namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A number of one or two words as another scalar: rounded, or exact where the other one is as wide.
 template <class To, class From>
@@ -40,18 +38,16 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
     return values;
 }
 
-}  // namespace detail
-
 /// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
     // in this order, so that the refusal names the first
-    const auto weight = detail::converted<To>("weight", chain.weight());
-    const auto length = detail::converted<To>("length", chain.length());
-    const auto centroid = detail::converted<To>("centroid", chain.centroid());
+    const auto weight = converted<To>("weight", chain.weight());
+    const auto length = converted<To>("length", chain.length());
+    const auto centroid = converted<To>("centroid", chain.centroid());
     return Chain<To>(chain.size(), weight, length, centroid,
-                     detail::converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
+                     converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
 }
 
-}  // namespace revchain
+}  // namespace revchain::detail

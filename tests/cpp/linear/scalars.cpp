@@ -134,7 +134,7 @@ TEST_CASE("what does not fit into float is refused", "[linear]") {
     const auto refusal = [](double weight, double length) -> std::string {
         try {
             const std::vector<revchain::Link<double>> links(2, revchain::plummet(weight, length));
-            revchain::converted<float>(revchain::Chain<double>(links));
+            revchain::detail::converted<float>(revchain::Chain<double>(links));
         } catch (const revchain::InvalidArgument& error) {
             return error.what();
         }
@@ -154,7 +154,7 @@ TEST_CASE("a million links in float: the nearest floats", "[linear]") {
     for (float& w : weight) w = static_cast<float>(random.between(0.5, 2));
     const revchain::Chain<float> chain(n, std::move(weight), 1.0F, 1.0F, 0.0);
     const auto m = revchain::modes(chain, {.count = 5});
-    const auto exact = revchain::modes(revchain::converted<double>(chain), {.count = 5});
+    const auto exact = revchain::modes(revchain::detail::converted<double>(chain), {.count = 5});
     CHECK(m.status == revchain::Status::success);
     for (Index j = 0; j < 5; ++j) {
         CHECK(m.conical_height[j] == static_cast<float>(exact.conical_height[j]));

@@ -9,6 +9,7 @@
 #include "support/chains.hpp"
 
 using namespace revchain;
+using namespace revchain::models;
 using support::Random;
 
 namespace {
@@ -362,7 +363,7 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
             for (Index mode = 1; mode <= std::min<Index>(n, 4); ++mode)
                 for (const double inclination : {1e-4, 0.01, 0.1, 0.3, 0.7, 1.1, 1.4}) {
                     const auto exact =
-                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination, .max_shapes = 1});
+                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
                     if (exact.shapes.empty()) continue;
                     const SteadyShape& shape = exact.shapes.front();
                     if (mode == 1 || (3 * mode <= n && mode * mode <= n))
@@ -399,7 +400,7 @@ TEST_CASE("at an inclination: up to mode sqrt(N) of equal links the lowest leans
             for (const Index mode : {last, last / 2, 2 * last})
                 for (const double inclination : {0.02, 0.3, 0.8, 1.2, 1.4}) {
                     const auto exact =
-                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination, .max_shapes = 1});
+                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination}, 1);
                     if (exact.shapes.empty()) continue;
                     const double steepest = exact.shapes.front().inclination.cwiseAbs().maxCoeff() / inclination;
                     CAPTURE(rods, n, mode, inclination, steepest);

@@ -6,6 +6,7 @@
 #include "support/chains.hpp"
 
 using namespace revchain;
+using namespace revchain::models;
 using support::Random;
 
 namespace {
@@ -24,7 +25,7 @@ void compare(const M& model, const Chain<double>& chain, double exponent, Shares
     const ChainKind kind(chain);
     const Index n = chain.size(), last = std::min<Index>(n / 2, first - 1 + count);
     const Modes<double> truth = modes(chain, {.first = first, .count = last + 1 - first});
-    const ZerosOfJ zeros(exponent);
+    const revchain::detail::ZerosOfJ zeros(exponent);
     for (Index k = first; k <= last; ++k) {
         const Question question{.first = k, .count = 1};
         REQUIRE(model.applies(kind, question).applies);

@@ -31,6 +31,11 @@ inline QuadRig truth_of(const Rig& rig, double height, int sense = 1) {
     return {rig, sense * sqrtq(Quad(gravity) / Quad(height)), gravity};
 }
 
+/// The direction of rotation of a sign.
+inline revchain::Rotation turning(int sense) {
+    return sense > 0 ? revchain::Rotation::forward : revchain::Rotation::backward;
+}
+
 inline Quad apart(Quad x, Quad y) { return fabsq(remainderq(x - y, 8 * atanq(1))); }
 
 /// Largest difference of inclinations.

@@ -52,8 +52,8 @@ TEMPLATE_TEST_CASE("partial weights are right to a rounding", "[chain]", float, 
             const Quad found = to_quad(chain.weight_below(m));
             if (m == 0) CHECK(found == 0);
             if (m > 0) worst = std::max(worst, static_cast<double>(fabsq(found / truth - 1)));
-            if (m % revchain::segment_size == 0)
-                CHECK(chain.partial_weights()[static_cast<std::size_t>(m / revchain::segment_size)] ==
+            if (m % revchain::detail::segment_size == 0)
+                CHECK(chain.partial_weights()[static_cast<std::size_t>(m / revchain::detail::segment_size)] ==
                       chain.weight_below(m));
         }
         CHECK(chain.partial_weights().size() == static_cast<std::size_t>((size + 255) / 256 + 1));
@@ -102,14 +102,14 @@ TEST_CASE("a summary says what the numbers are", "[chain]") {
     for (const Index count : {1, 3, 16, 255, 256}) {
         std::vector<double> x;
         for (Index m = 0; m < count; ++m) x.push_back(random.between(-1, 1));
-        const auto found = revchain::summary(x.data(), count);
+        const auto found = revchain::detail::summary(x.data(), count);
         CHECK(found.least == *std::min_element(x.begin(), x.end()));
         CHECK(found.most == std::max(*std::max_element(x.begin(), x.end()), -found.least));
         for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
             for (std::size_t m = 0; m < x.size(); ++m) {
                 auto broken = x;
                 broken[m] = bad;
-                CHECK_FALSE(isfinite(revchain::summary(broken.data(), count).sum));
+                CHECK_FALSE(isfinite(revchain::detail::summary(broken.data(), count).sum));
             }
     }
 }

@@ -140,7 +140,7 @@ TEST_CASE("tapered chain: what is refused, what is forgotten") {
     CHECK_THROWS_AS(C::tapered(10, 1.0, 400.0), InvalidArgument);
     CHECK(C::tapered(10, 1.0, 280.0).size() == 10);
     const C chain = C::tapered(5, 1.0, 2.0);
-    CHECK(!converted<float>(chain).taper());
+    CHECK(!revchain::detail::converted<float>(chain).taper());
     CHECK(C(5, chain.weight(), chain.length(), chain.centroid(), chain.gyration_ratio()) == chain);
 }
 

@@ -56,7 +56,7 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     result.links.reserve(static_cast<std::size_t>(chain.size()));
     S below(T(0));
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % segment_size == 0) below = chain.weight_below(m);
+        if (m % revchain::detail::segment_size == 0) below = chain.weight_below(m);
         const revchain::Link<T> link = chain.link(m);
         const S weight(E(ldexp(link.weight, -result.units.weight_exponent)));
         const S hung = ldexp(below, -result.units.weight_exponent);

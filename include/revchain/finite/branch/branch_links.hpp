@@ -76,15 +76,15 @@ struct BranchSystem {
     S bearing{0.0};    ///< weight that bears on the topmost pin, in the unit of weights
     double axial = 0;  ///< moment of inertia of what turns with the links about their own axes
     double gravity = conical_pendulum::standard_gravity;
-    int direction = 1;
+    Rotation direction = Rotation::forward;
 
     explicit BranchSystem(const Chain<double>& of) : chain(links_of(of)), links(chain.links), units(chain.units) {
         bearing = ldexp(of.weight_below(of.size()), -units.weight_exponent);
     }
-    BranchSystem(const Rig& of, double g, int sense)
+    BranchSystem(const Rig& of, double g, Rotation sense)
         : rig(of), units(of.chain().units()), gravity(g), direction(sense) {
         using std::sqrt;
-        for (const RigLink& link : rig_links(of)) {
+        for (const revchain::detail::RigLink& link : revchain::detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
             links.links.push_back(
                 {link.length, stands ? -link.tension : link.tension, link.cross, link.moment, link.rest});
@@ -92,7 +92,7 @@ struct BranchSystem {
             bearing = link.hung;
         }
         const S root = sqrt(ldexp(S(gravity), -units.length_exponent));
-        links.speed = direction > 0 ? root : -root, links.plain = false;
+        links.speed = direction == Rotation::forward ? root : -root, links.plain = false;
         const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
         const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
         const Support& support = of.support();
@@ -112,7 +112,7 @@ struct BranchSystem {
     RiggedLinks rigged_at(const S& height) const {
         using std::sqrt;
         const S whole = ldexp(height, units.length_exponent), n = sqrt(S(gravity) / whole);
-        return rigged_links(*rig, whole, direction > 0 ? n : -n);
+        return rigged_links(*rig, whole, direction == Rotation::forward ? n : -n);
     }
 };
 

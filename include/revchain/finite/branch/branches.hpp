@@ -13,9 +13,10 @@ namespace revchain::inline REVCHAIN_BUILD {
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size())
         detail::throw_invalid("Branch::shape", "there are so many points: " + std::to_string(size()), point);
-    if (onset && finite::largest_rise(points[point].state) == 0)
+    const finite::BranchPoint& at = trace_.points[point];
+    if (trace_.onset && finite::largest_rise(at.state) == 0)
         detail::throw_invalid("Branch::shape", "this point is the straight chain", point);
-    const auto found = finite::shape_at(*system, points[point].state, finite::GivenPlace<Wide<double>>(points[point]));
+    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace<Wide<double>>(at));
     if (!found)
         detail::throw_invalid("Branch::shape", "the shape at this point did not balance in double-double", point);
     return *found;
@@ -24,36 +25,38 @@ REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
 REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const {
     detail::require_positive("Branch::shapes_at", "conical height", height);
     if (size() == 0) return {};
-    finite::Corrector corrector(finite::rounded(system->links));
+    finite::Corrector corrector(finite::rounded(trace_.system->links));
     return finite::states_at(*this, corrector, height);
 }
 
 namespace finite {
 
 /// The branch from rest: from a tenth of the slower of the first critical speed and the speed given.
-inline Branch from_rest(BranchRoot root, double conical_height, const BranchOptions& options) {
+inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points,
+                        double max_step) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
-    result.system = root.system;
+    trace_of(result).system = root.system;
     const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
     const auto start = root.at_rest(std::log(100 * std::max(conical_height, root.height) * unit));
     if (!start) return result;
     append(result, *start);
-    BranchWalk walk(root.corrector, *start, options.max_step);
-    walk.longest = options.max_step;
-    result.end = follow(result, walk, std::log(conical_height * unit), options.max_points, start->state.log_height + 1);
+    BranchWalk walk(root.corrector, *start, max_step);
+    walk.longest = max_step;
+    result.end = follow(result, walk, std::log(conical_height * unit), max_points, start->state.log_height + 1);
     return result;
 }
 
 /// The branch of a mode.
-inline Branch from_vertical(BranchRoot root, double conical_height, const BranchOptions& options) {
+inline Branch from_vertical(BranchRoot root, Index mode, double conical_height,
+                            std::size_t max_points, double max_step) {
     Branch result;
-    result.mode = options.mode;
-    result.system = root.system;
-    const double unit = std::ldexp(1.0, -result.system->units.length_exponent);
+    result.mode = mode;
+    trace_of(result).system = root.system;
+    const double unit = std::ldexp(1.0, -trace_of(result).system->units.length_exponent);
     const double log_end = std::log(conical_height * unit);
-    result.onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
-    const BranchOnset& onset = *result.onset;
+    trace_of(result).onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
+    const BranchOnset& onset = *trace_of(result).onset;
     BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
     vertical.half_waves = onset.half_waves;
     // the direction there: along the mode
@@ -62,10 +65,10 @@ inline Branch from_vertical(BranchRoot root, double conical_height, const Branch
     vertical.tangent.log_height = 0;
     append(result, vertical);
     result.conical_height.front() = root.height;  // no logarithm's rounding
-    if (result.size() >= options.max_points) return result;
+    if (result.size() >= max_points) return result;
     const double steepness = onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
     if (steepness < 1e-3) {
-        const auto only = near_vertical(*result.system, onset, Wide<double>(conical_height * unit));
+        const auto only = near_vertical(*trace_of(result).system, onset, Wide<double>(conical_height * unit));
         result.end = only ? BranchEnd::height : BranchEnd::stuck;
         if (only) append(result, *only), result.conical_height.back() = conical_height;
         return result;
@@ -80,8 +83,8 @@ inline Branch from_vertical(BranchRoot root, double conical_height, const Branch
         Branch attempt = only_vertical;
         append(attempt, *start);
         BranchWalk walk(root.corrector, *start, start->arc);
-        walk.longest = options.max_step;
-        attempt.end = follow(attempt, walk, log_end, options.max_points, log_top);
+        walk.longest = max_step;
+        attempt.end = follow(attempt, walk, log_end, max_points, log_top);
         const bool kept = attempt.end != BranchEnd::stuck;
         if (kept || attempt.size() > result.size()) result = std::move(attempt);
         if (kept) return result;
@@ -90,18 +93,18 @@ inline Branch from_vertical(BranchRoot root, double conical_height, const Branch
     return result;
 }
 
-template <class System>
-Branch followed(const System& system, const BranchOptions& options) {
+template <class System, class Options>
+Branch followed(const System& system, const Options& options) {
     const double conical_height = lowest_height("branch", options);
-    BranchRoot root = BranchRoot::of("branch", system, options.mode, options.gravity, options.direction);
-    if (!root.onset) return from_rest(std::move(root), conical_height, options);
+    BranchRoot root = BranchRoot::of("branch", system, options);
+    if (!root.onset) return from_rest(std::move(root), conical_height, options.max_points, options.max_step);
     if (!root.onset->rises() && !(conical_height < root.height))
         revchain::detail::throw_invalid(
             "branch",
             "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
                 revchain::detail::in_digits(root.height) + ": the height to follow it to must be less",
             conical_height);
-    return from_vertical(std::move(root), conical_height, options);
+    return from_vertical(std::move(root), options.mode, conical_height, options.max_points, options.max_step);
 }
 
 }  // namespace finite
@@ -109,15 +112,15 @@ Branch followed(const System& system, const BranchOptions& options) {
 REVCHAIN_INLINE Branch branch(const Chain<double>& chain, const BranchOptions& options) {
     return finite::followed(chain, options);
 }
-REVCHAIN_INLINE Branch branch(const Rig& rig, const BranchOptions& options) { return finite::followed(rig, options); }
+REVCHAIN_INLINE Branch branch(const Rig& rig, const RigBranchOptions& options) {
+    return finite::followed(rig, options);
+}
 
 namespace finite {
 
-template <class System>
-SteadyShape first_on_branch(const System& system, const SteadyShapeOptions& options) {
-    SteadyShapeOptions first = options;
-    first.max_shapes = 1;
-    ShapesOnBranch found = search_branch<ShapesOnBranch>(system, first);
+template <class System, class Options>
+SteadyShape first_on_branch(const System& system, const Options& options) {
+    ShapesOnBranch found = search_branch<ShapesOnBranch>(system, options, 1);
     if (found.shapes.empty())
         revchain::detail::throw_invalid(
             "steady_shape",
@@ -134,16 +137,20 @@ SteadyShape first_on_branch(const System& system, const SteadyShapeOptions& opti
 
 }  // namespace finite
 
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options) {
-    return finite::search_branch<ShapesOnBranch>(chain, options);
+REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
+                                                const OnBranchOptions& options,
+                                                std::size_t max_shapes) {
+    return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& options) {
-    return finite::search_branch<ShapesOnBranch>(rig, options);
+REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
+                                                std::size_t max_shapes) {
+    return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options) {
+REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain,
+                                         const OnBranchOptions& options) {
     return finite::first_on_branch(chain, options);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options) {
+REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
     return finite::first_on_branch(rig, options);
 }
 

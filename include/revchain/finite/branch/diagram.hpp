@@ -15,10 +15,10 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
 /// it comes back or down to `log_end`.
 inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
-                          int half_waves, double log_end, double log_top, const BranchesOptions& options) {
+                          int half_waves, double log_end, double log_top, std::size_t max_points, double max_step) {
     Branch result;
-    result.system = std::move(system), result.birth = BranchBirth::fold;
-    Corrector corrector(rounded(result.system->links));
+    trace_of(result).system = std::move(system), result.birth = BranchBirth::fold;
+    Corrector corrector(rounded(trace_of(result).system->links));
     auto start = corrector.corrected(at, across, 0.1);
     if (!start) {
         result.end = BranchEnd::stuck;
@@ -27,19 +27,26 @@ inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const Bran
     if (start->half_waves == 0) start->half_waves = half_waves;
     append(result, *start);
     BranchWalk walk(corrector, *start, 0.02);
-    walk.longest = options.max_step;
-    result.end = follow(result, walk, log_end, options.max_points, log_top);
+    walk.longest = max_step;
+    result.end = follow(result, walk, log_end, max_points, log_top);
     return result;
 }
 
 /// Lists, modes and conditions of a proof that a diagram needs, of a chain.
 class ChainQuestions {
    public:
-    ChainQuestions(const Chain<double>& chain, const BranchesOptions& options)
+    ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
         : system(std::make_shared<const BranchSystem>(chain)), chain_(chain), options_(options) {}
 
     std::shared_ptr<const BranchSystem> system;
 
+    Branch followed(Index mode, double height) const {
+        return branch(chain_, {.mode = mode,
+                               .min_conical_height = height,
+                               .max_points = options_.max_points,
+                               .max_step = options_.max_step,
+                               .gravity = options_.gravity});
+    }
     SteadyShapes list(double height) const {
         return steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
     }
@@ -63,13 +70,13 @@ class ChainQuestions {
 
    private:
     const Chain<double>& chain_;
-    const BranchesOptions& options_;
+    const DiagramOptions& options_;
 };
 
 /// The same of a rig.
 class RigQuestions {
    public:
-    RigQuestions(const Rig& rig, const BranchesOptions& options)
+    RigQuestions(const Rig& rig, const RigDiagramOptions& options)
         : system(std::make_shared<const BranchSystem>(rig, options.gravity, options.direction)),
           rig_(rig),
           options_(options),
@@ -78,6 +85,14 @@ class RigQuestions {
 
     std::shared_ptr<const BranchSystem> system;
 
+    Branch followed(Index mode, double height) const {
+        return branch(rig_, {.mode = mode,
+                             .min_conical_height = height,
+                             .max_points = options_.max_points,
+                             .max_step = options_.max_step,
+                             .gravity = options_.gravity,
+                             .direction = options_.direction});
+    }
     SteadyShapes list(double height) const {
         return steady_shapes(rig_, {.conical_height = height,
                                     .budget = options_.budget,
@@ -124,22 +139,19 @@ class RigQuestions {
     }
 
     const Rig& rig_;
-    const BranchesOptions& options_;
+    const RigDiagramOptions& options_;
     revchain::detail::ModesOfOneSense modes_;
     std::vector<revchain::detail::ModesOfOneSense::Mode> found_;
 };
 
-inline ChainQuestions questions(const Chain<double>& chain, const BranchesOptions& options) { return {chain, options}; }
-inline RigQuestions questions(const Rig& rig, const BranchesOptions& options) { return {rig, options}; }
-
 /// Branches and proved lists of shapes brought together.
-template <class System>
+template <class Questions, class Options>
 class Diagram {
    public:
-    Diagram(const System& system, double lowest, const BranchesOptions& options)
-        : of_(system),
-          options_(options),
-          ask_(questions(system, options)),
+    template <class System>
+    Diagram(const System& system, double lowest, const Options& options)
+        : options_(options),
+          ask_(system, options),
           unit_(std::ldexp(1.0, -ask_.system->units.length_exponent)),
           log_end_(std::log(lowest * unit_)),
           corrector_(rounded(ask_.system->links)) {
@@ -183,12 +195,7 @@ class Diagram {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }
     void follow_from(Index mode) {
-        result_.branches.push_back(branch(of_, {.mode = mode,
-                                                .min_conical_height = result_.conical_height,
-                                                .max_points = options_.max_points,
-                                                .max_step = options_.max_step,
-                                                .gravity = options_.gravity,
-                                                .direction = options_.direction}));
+        result_.branches.push_back(ask_.followed(mode, result_.conical_height));
         settle(result_.branches.back().end);
     }
     void settle(BranchEnd end) {
@@ -196,7 +203,8 @@ class Diagram {
                                                     end == BranchEnd::slow || end == BranchEnd::loose);
     }
     Branch from_here(const BranchState& at, const BranchState& across, int half_waves) const {
-        return branch_from(ask_.system, at, across, half_waves, log_end_, log_top_, options_);
+        return branch_from(ask_.system, at, across, half_waves, log_end_, log_top_, options_.max_points,
+                           options_.max_step);
     }
     BranchState state_of(const SteadyShape& shape, double height) const {
         const auto& links = ask_.system->links;
@@ -317,31 +325,30 @@ class Diagram {
         return true;
     }
 
-    const System& of_;
-    const BranchesOptions& options_;
-    decltype(questions(std::declval<const System&>(), std::declval<const BranchesOptions&>())) ask_;
+    const Options& options_;
+    Questions ask_;
     double unit_, log_end_, log_top_ = std::numeric_limits<double>::infinity();
     Corrector corrector_;
     int stuck_ = 0;  ///< traces that came to nothing
     Branches result_;
 };
 
-template <class System>
-Branches diagram_of(const System& system, const BranchesOptions& options) {
+template <class Questions, class System, class Options>
+Branches diagram_of(const System& system, const Options& options) {
     const double lowest = lowest_height("branches", options);
     if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
-    return Diagram<System>(system, lowest, options).run();
+    return Diagram<Questions, Options>(system, lowest, options).run();
 }
 
 }  // namespace revchain::finite
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOptions& options) {
-    return finite::diagram_of(chain, options);
+REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
+    return finite::diagram_of<finite::ChainQuestions>(chain, options);
 }
-REVCHAIN_INLINE Branches branches(const Rig& rig, const BranchesOptions& options) {
-    return finite::diagram_of(rig, options);
+REVCHAIN_INLINE Branches branches(const Rig& rig, const RigDiagramOptions& options) {
+    return finite::diagram_of<finite::RigQuestions>(rig, options);
 }
 
 }  // namespace revchain

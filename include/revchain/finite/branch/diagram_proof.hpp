@@ -218,12 +218,12 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
         return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
                height < within.height_high * (1 - off);
     };
-    if (std::any_of(branch.points.begin(), branch.points.end(), [&](const auto& p) { return inside(p.state); }))
-        return true;
+    const auto& points = trace_of(branch).points;
+    if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return inside(p.state); })) return true;
     const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
                  links = static_cast<double>(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
-        const BranchPoint &before = branch.points[i], &here = branch.points[i + 1];
+        const BranchPoint &before = points[i], &here = points[i + 1];
         const double reach = 2 * (here.arc - before.arc);
         if (std::abs(here.state.log_height - log_height) > reach ||
             std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))

@@ -124,13 +124,18 @@ struct BranchRoot {
     std::optional<BranchOnset> onset;  ///< none from rest
     double height;                     ///< of the mode (from rest: of the first one in the axis), in the chain's unit
 
-    static BranchRoot of(std::string_view place, const Chain<double>& chain, Index mode, double, int) {
-        require_mode(place, mode, chain.mode_count());
-        const auto found = revchain::detail::one_mode(chain, mode);
+    template <class Options>
+    static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
+        require_mode(place, options.mode, chain.mode_count());
+        const auto found = revchain::detail::one_mode(chain, options.mode);
         return from(std::make_shared<const BranchSystem>(chain), found.conical_height, &found.shape);
     }
-    static BranchRoot of(std::string_view place, const Rig& rig, Index mode, double gravity, int direction) {
-        require_turning(place, gravity, direction);
+    template <class Options>
+    static BranchRoot of(std::string_view place, const Rig& rig, const Options& options) {
+        const Index mode = options.mode;
+        const double gravity = options.gravity;
+        const Rotation direction = options.direction;
+        revchain::detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
                 revchain::detail::throw_invalid(place,
@@ -147,7 +152,7 @@ struct BranchRoot {
         return from(std::make_shared<const BranchSystem>(rig, gravity, direction), found.conical_height, &shape);
     }
     /// Conical height of the slowest mode of a rig whose support is in the axis; its length where it has none.
-    static double first_height(std::string_view place, const Rig& rig, double gravity, int direction) {
+    static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
         const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
         return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
     }
@@ -166,11 +171,6 @@ struct BranchRoot {
     }
 
    private:
-    static void require_turning(std::string_view place, double gravity, int direction) {
-        revchain::detail::require_positive(place, "gravity", gravity);
-        if (direction != 1 && direction != -1)
-            revchain::detail::throw_invalid(place, "direction must be 1 or -1", direction);
-    }
     static void require_mode(std::string_view place, Index mode, Index count) {
         if (mode < 1 || mode > count)
             revchain::detail::throw_invalid(

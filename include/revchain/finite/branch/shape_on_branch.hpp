@@ -204,7 +204,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
 
 /// The states on the branch at which the number given is met.
 template <class Found, class System, class Options>
-Found search_branch(const System& system, const Options& given) {
+Found search_branch(const System& system, const Options& given, std::size_t max_shapes) {
     using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
     using S = Wide<double>;
@@ -216,7 +216,7 @@ Found search_branch(const System& system, const Options& given) {
                       "tension; given were",
                       count);
     if (given.min_conical_height) require_positive(place, "min_conical_height", *given.min_conical_height);
-    BranchRoot root = BranchRoot::of(place, system, given.mode, given.gravity, given.direction);
+    BranchRoot root = BranchRoot::of(place, system, given);
     const bool falls = root.onset && !root.onset->rises();
     if (falls && given.min_conical_height && !(*given.min_conical_height < root.height))
         throw_invalid(place,
@@ -225,7 +225,7 @@ Found search_branch(const System& system, const Options& given) {
     const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
     const auto run = [&](const auto& measure, const auto& condition, double amplitude, double end, double wanted) {
         using Search = BranchSearch<Found, std::decay_t<decltype(measure)>>;
-        return Search(root, measure, condition, amplitude).run(end, given.max_shapes, wanted);
+        return Search(root, measure, condition, amplitude).run(end, max_shapes, wanted);
     };
     if (!given.conical_height && !given.angular_speed)
         return search_by_number(place, system, root, given,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "revchain/numeric/compiler.hpp"
@@ -21,5 +22,28 @@ struct BranchPoint {
     double arc = 0;
     int half_waves = 0;  ///< sign changes of the offsets, and one; 0 where rounding leaves a sign open
 };
+
+struct BranchSystem;
+struct BranchOnset;
+
+/// What a branch keeps of how it was followed, behind its accessors.
+struct BranchTrace {
+    std::shared_ptr<const BranchSystem> system;
+    std::vector<BranchPoint> points;
+    std::shared_ptr<const BranchOnset> onset;  ///< of the mode; null for other branches
+};
+
+/// Reaches the trace of a branch.
+struct TraceBehind {
+    template <class Branch>
+    static auto& of(Branch& branch) {
+        return branch.trace_;
+    }
+};
+
+template <class Branch>
+auto& trace_of(Branch& branch) {
+    return TraceBehind::of(branch);
+}
 
 }  // namespace revchain::finite

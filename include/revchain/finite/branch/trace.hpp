@@ -11,7 +11,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// Appends a point, with what is told of it, to a branch. Numbers are those of `described`.
 template <class Branch>
 void append(Branch& branch, const BranchPoint& point) {
-    const BranchSystem& system = *branch.system;
+    const BranchSystem& system = *trace_of(branch).system;
     const auto& links = system.links;
     const auto length = [&](double x) { return std::ldexp(x, system.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, system.units.weight_exponent); };
@@ -36,7 +36,7 @@ void append(Branch& branch, const BranchPoint& point) {
     branch.top_tension.push_back(weight(std::hypot(static_cast<double>(system.bearing), sideways / height)));
     branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * system.units.length_exponent)));
     branch.effective_energy.push_back(weight(length(energy - inertia / (2 * height))));
-    branch.points.push_back(point);
+    trace_of(branch).points.push_back(point);
 }
 
 /// Whether a point lies beyond another one next to it, in the direction of the branch.
@@ -81,7 +81,7 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     using End = decltype(Branch::end);
     const HeightMeasure to_end{log_end};
     const BranchPoint start = walk.here();
-    const bool passes_vertical = branch.system->links.is_symmetric();
+    const bool passes_vertical = trace_of(branch).system->links.is_symmetric();
     while (branch.size() < max_points) {
         if (!walk.advance()) return is_slack(walk.links(), walk.here().state.log_height) ? End::slack : End::stuck;
         const BranchPoint &before = walk.before(), &here = walk.here();
@@ -108,7 +108,7 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
         }
         append(branch, here);
         if (here.state.log_height > log_top) return End::slow;
-        if (is_loose(branch.system->links, here.state)) return End::loose;
+        if (is_loose(trace_of(branch).system->links, here.state)) return End::loose;
     }
     return End::budget;
 }
@@ -119,7 +119,8 @@ template <class Branch>
 std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
     std::vector<SteadyShape> found;
     if (branch.size() == 0) return found;
-    const BranchSystem& system = *branch.system;
+    const auto& trace = trace_of(branch);
+    const BranchSystem& system = *trace.system;
     const Wide<double> height = ldexp(Wide<double>(conical_height), -system.units.length_exponent);
     const HeightMeasure measure{std::log(static_cast<double>(height))};
     const GivenHeight<Wide<double>> condition(height);
@@ -127,8 +128,8 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, d
     const auto take = [&](const BranchState& near) {
         if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));
     };
-    const bool from_vertical = branch.onset && largest_rise(branch.points[0].state) == 0;
-    const double side = from_vertical && branch.onset->rises() ? -1 : 1;  // where the branch lies of its mode
+    const bool from_vertical = trace.onset && largest_rise(trace.points[0].state) == 0;
+    const double side = from_vertical && trace.onset->rises() ? -1 : 1;  // where the branch lies of its mode
     const bool within = from_vertical && side * off(0) > 0;
     if (from_vertical && !within && branch.size() < 2) return found;
     const double there = within ? std::min(1e-9, 0.01 * side * off(0)) : 1e-9;
@@ -136,11 +137,11 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, d
     for (std::size_t i = from_vertical ? 1 : 0; i <= last; ++i) {
         const double a = off(i);
         if (i == 1 && within && side * a <= -there)
-            if (const auto point = near_vertical(system, *branch.onset, height)) take(point->state);
+            if (const auto point = near_vertical(system, *trace.onset, height)) take(point->state);
         if (std::abs(a) < there) {  // the point itself: an end, or a crossing
-            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(branch.points[i].state);
+            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(trace.points[i].state);
         } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {
-            const auto walk = BranchWalk::between(corrector, branch.points[i], branch.points[i + 1]);
+            const auto walk = BranchWalk::between(corrector, trace.points[i], trace.points[i + 1]);
             const auto crossing = crossings_of(walk, measure);
             if (!crossing.empty()) take(crossing.front().point.state);
         }

@@ -34,9 +34,11 @@ struct CordBranch {
     std::vector<finite::BranchLine::Point> points;
 };
 
+namespace finite {
 /// The shape of a cord at one conical height whose free end is near an offset, at a fold of its branch or not. Throws
 /// InvalidArgument for one that could not be followed.
 CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset, bool at_fold);
+}  // namespace finite
 
 /// All branches found above one conical height. `complete` where a theorem counts the shapes (see `steady_shapes` of a
 /// cord). Elsewhere `consistent` says whether, at every height in `looked_at`, each shape found by a scan is met once.

@@ -6,10 +6,11 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Branches of a cord and scanned lists of its shapes brought together.
+template <class Options>
 class CordDiagram {
    public:
     /// `critical`: the heights of the modes above `lowest`, descending.
-    CordDiagram(const Cord& cord, const Vector<double>& critical, double lowest, const BranchesOptions& options)
+    CordDiagram(const Cord& cord, const Vector<double>& critical, double lowest, const Options& options)
         : cord_(cord), critical_(critical), log_end_(std::log(lowest)), options_(options) {
         result_.conical_height = lowest;
     }
@@ -110,7 +111,7 @@ class CordDiagram {
     const Cord& cord_;
     Vector<double> critical_;
     double log_end_;
-    BranchesOptions options_;
+    const Options& options_;
     CordBranches result_;
 };
 

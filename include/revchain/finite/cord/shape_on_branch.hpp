@@ -20,7 +20,7 @@ class WantedOnLine {
     enum class Kind { height, tip_inclination, tip_radius, top_tension };
 
     /// Throws InvalidArgument unless exactly one number is given, within its range.
-    WantedOnLine(const BranchLine& line, double critical, const SteadyShapeOptions& given) : line_(line) {
+    WantedOnLine(const BranchLine& line, double critical, const OnBranchOptions& given) : line_(line) {
         using revchain::detail::require_positive, revchain::detail::throw_invalid;
         constexpr std::string_view place = "steady_shape";
         const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
@@ -78,7 +78,8 @@ class WantedOnLine {
 };
 
 /// All shapes on the branch of a mode at which a number is as given; `critical` is the height of the mode.
-inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const SteadyShapeOptions& given) {
+inline CordShapesOnBranch search_branch(const Cord& cord, double critical,
+                                        const OnBranchOptions& given, std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));
     const WantedOnLine wanted(*line, critical, given);
@@ -112,7 +113,7 @@ inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const
                                     shape->conical_height = wanted.height();
                                 result.shapes.push_back(std::move(*shape));
                             }
-                            return result.shapes.size() >= given.max_shapes ? BranchEnd::height : end;
+                            return result.shapes.size() >= max_shapes ? BranchEnd::height : end;
                         });
     result.searched_to = branch.conical_height.back();
     return result;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/finite/shapes/described.hpp"
-#include "revchain/rig.hpp"
+#include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
 /// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
 struct RiggedLinks : Links<Wide<double>> {
-    std::vector<RigLink> given;
+    std::vector<revchain::detail::RigLink> given;
     std::vector<Posture> posture;
     Wide<double> speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
     Held<Wide<double>> support{};
@@ -32,7 +32,7 @@ namespace detail {
 
 /// sigma + n H/a, which may cancel: enclosed in double-double first.
 template <class T>
-Interval<T> effective_tension(const RigLink& link, const Wide<double>& speed) {
+Interval<T> effective_tension(const revchain::detail::RigLink& link, const Wide<double>& speed) {
     if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
     const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
     return {revchain::detail::down(static_cast<T>(pull.low)), revchain::detail::up(static_cast<T>(pull.high))};
@@ -91,7 +91,7 @@ template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
     std::vector<double> hung;
-    for (const RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    for (const revchain::detail::RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
     Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
     const S top = found.offset.back();
     double last = 0;
@@ -115,11 +115,11 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
     using S = Wide<double>;
     RiggedLinks result;
     result.units = rig.chain().units();
-    result.given = rig_links(rig);
+    result.given = revchain::detail::rig_links(rig);
     result.total_weight = std::ldexp(rig.chain().total_weight(), -result.units.weight_exponent);
     if (rig.has_momentum()) result.speed = speed;
     for (Index m = 0; m < rig.size(); ++m) {
-        const RigLink& link = result.given[static_cast<std::size_t>(m)];
+        const revchain::detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
         const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
             revchain::detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what),

@@ -50,8 +50,9 @@ inline bool same(const SteadyShape& x, const SteadyShape& y) {
 
 /// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
 inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
-                                  const SteadyShapesOptions& options) {
-    if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
+                                  const RigShapesOptions& options) {
+    if (rig == Rig(rig.chain(), {}))
+        return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
     const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
@@ -75,7 +76,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     leave_beyond(result);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
-    SteadyShapesOptions rest = options;
+    RigShapesOptions rest = options;
     rest.budget -= result.cells * static_cast<long>(rig.size());
     auto other = listed<SteadyShapes>(links, lambda, rest);
     leave_beyond(other);
@@ -95,7 +96,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 }
 
 /// Whether the speed is given as a conical height, and not as an angular speed.
-inline bool height_is_given(const SteadyShapesOptions& options) {
+template <class Options>
+bool height_is_given(const Options& options) {
     revchain::detail::require_one_speed("steady_shapes", options);
     if (options.conical_height)
         revchain::detail::require_positive("steady_shapes", "conical height", *options.conical_height);
@@ -123,13 +125,11 @@ REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const Ste
     return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, const SteadyShapesOptions& options) {
+REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
     const detail::Threads threads("steady_shapes", options.threads);
     if (finite::height_is_given(options)) {
-        if (options.direction != 1 && options.direction != -1)
-            detail::throw_invalid("steady_shapes", "direction must be 1 or -1", options.direction);
         const Wide<double> height(*options.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
-        return finite::steady_shapes(rig, height, options.direction > 0 ? speed : -speed, options);
+        return finite::steady_shapes(rig, height, options.direction == Rotation::forward ? speed : -speed, options);
     }
     const double angular_speed = *options.angular_speed, size = std::abs(angular_speed);
     const Wide<double> height = finite::height_at_speed(size, options.gravity);

@@ -359,15 +359,14 @@ REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape&
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
-    if (options.direction != 1 && options.direction != -1)
-        detail::throw_invalid(place, "direction must be 1 or -1", options.direction);
     finite::require_shape_of(rig.chain(), shape);
     const Support& support = rig.support();
     const double end = shape.offset[rig.size()];
     if (support.is_firm() && !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
         detail::throw_invalid(place, "the shape is not of this rig; its upper end is at", end);
     const Wide<double> height(shape.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
-    const finite::RiggedLinks given = finite::rigged_links(rig, height, options.direction > 0 ? speed : -speed);
+    const bool forward = options.direction == Rotation::forward;
+    const finite::RiggedLinks given = finite::rigged_links(rig, height, forward ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
     if (finite::displaces_turning_fluid(rig))

@@ -22,9 +22,9 @@ inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const Stead
     return stability(chain, shape, frame).verdict;
 }
 inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShape& shape, StabilityFrame frame) {
-    return stability(rig, shape,
-                     {.frame = frame, .direction = branch.system->direction, .gravity = branch.system->gravity})
-        .verdict;
+    const BranchSystem& system = *trace_of(branch).system;
+    const RigStabilityOptions options{.frame = frame, .direction = system.direction, .gravity = system.gravity};
+    return stability(rig, shape, options).verdict;
 }
 
 /// Judges a branch at an arc beyond point `index` and not beyond the next.
@@ -32,13 +32,15 @@ template <class System>
 JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector, std::size_t index, double arc,
                       StabilityFrame frame) {
     revchain::detail::look();
-    const BranchPoint& from = branch.points[index];
+    const BranchTrace& trace = trace_of(branch);
+    const BranchPoint& from = trace.points[index];
     std::optional<BranchPoint> point;
     if (arc > from.arc) point = corrector.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
     const BranchPoint& here = point ? *point : from;
-    if (const auto shape = shape_at(*branch.system, here.state, GivenPlace<Wide<double>>(here)))
+    if (const auto shape = shape_at(*trace.system, here.state, GivenPlace<Wide<double>>(here)))
         return {arc, shape->conical_height, verdict_on(system, branch, *shape, frame)};
-    return {arc, std::ldexp(std::exp(here.state.log_height), branch.system->units.length_exponent), Verdict::undecided};
+    const double height = std::ldexp(std::exp(here.state.log_height), trace.system->units.length_exponent);
+    return {arc, height, Verdict::undecided};
 }
 
 template <class System>
@@ -48,18 +50,19 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     revchain::detail::require_positive(place, "tolerance", options.tolerance);
     if (options.samples < 1) revchain::detail::throw_invalid(place, "samples must be at least 1", options.samples);
     constexpr bool is_rig = std::is_same_v<System, Rig>;
-    if (branch.system && (branch.system->rig.has_value() != is_rig ||
-                          branch.system->links.bodies() != static_cast<std::size_t>(system.size())))
+    const BranchTrace& trace = trace_of(branch);
+    if (trace.system && (trace.system->rig.has_value() != is_rig ||
+                         trace.system->links.bodies() != static_cast<std::size_t>(system.size())))
         revchain::detail::throw_invalid(place,
                                         is_rig ? "the branch is not of this rig; its links number"
                                                : "the branch is not of this chain; its links number",
-                                        branch.system->links.bodies());
+                                        trace.system->links.bodies());
     std::vector<StabilityWindow> windows;
     std::size_t first = 0;
-    while (branch.onset && first < branch.size() && largest_rise(branch.points[first].state) == 0) ++first;
+    while (trace.onset && first < branch.size() && largest_rise(trace.points[first].state) == 0) ++first;
     if (first >= branch.size()) return windows;
     using Judged = JudgedPlace;
-    Corrector corrector(rounded(branch.system->links));
+    Corrector corrector(rounded(trace.system->links));
     const auto judge = [&](std::size_t index, double arc) {
         return judged_at(system, branch, corrector, index, arc, options.frame);
     };

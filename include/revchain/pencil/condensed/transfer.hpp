@@ -121,3 +121,5 @@ inline Transfer<V, To> extended(const Transfer<V, From>& run) {
 }
 
 }  // namespace revchain::pencil
+
+#undef REVCHAIN_UNROLL

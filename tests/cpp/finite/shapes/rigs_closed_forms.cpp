@@ -86,7 +86,7 @@ TEST_CASE("one gyrostat: (I cos d) n^2 - p n - W h = 0, a top hung up", "[finite
         const Quad cosine = (Quad(H) * n + Quad(W) * h) / ((I - Quad(C) / g) * n * n);
         for (const bool hanging : {true, false}) {
             const auto found =
-                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = sense});
+                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)});
             REQUIRE(found.complete);
             const bool there = fabsq(cosine) < 1 && (cosine > 0 || !hanging);
             REQUIRE(found.shapes.size() == (there ? 1U : 0U));
@@ -101,7 +101,7 @@ TEST_CASE("one gyrostat: (I cos d) n^2 - p n - W h = 0, a top hung up", "[finite
         const auto again = revchain::steady_shapes(rig, {.angular_speed = speed, .hanging_only = false});
         if (fabsq(cosine) < 0.999)
             CHECK(again.shapes.size() ==
-                  revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false, .direction = sense})
+                  revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false, .direction = turning(sense)})
                       .shapes.size());
     }
     CHECK(inclined > 50);
@@ -126,7 +126,7 @@ TEST_CASE("two gyrostats, hanging and standing: torques on both", "[finite][rig]
         const int sense = i % 2 == 0 ? 1 : -1;
         for (const bool hanging : {true, false}) {
             const auto found =
-                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = sense});
+                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)});
             CAPTURE(i, hanging, found.cells);
             check_shapes(rig, lambda, found, sense, measured);
             if (!hanging) check_by_random_starts(rig, lambda, found, sense, 100, random, met);

@@ -95,14 +95,15 @@ TEST_CASE("nutation of a gyrostat in steady precession, on free bearings and dri
     for (const double momentum : {0.0, 0.3, 1.0, -0.1})
         for (const double axial : {0.0, 0.05})
             for (const int direction : {1, -1}) {
+                const auto turning = direction > 0 ? revchain::Rotation::forward : revchain::Rotation::backward;
                 const Rig rig(chain, {.flywheels = {{momentum, axial}}});
                 const double height = 0.3, n = direction * std::sqrt(g / height), A = 2.0 / 3 / g;
                 for (const SteadyShape& shape :
                      revchain::steady_shapes(rig,
-                                             {.conical_height = height, .hanging_only = false, .direction = direction})
+                                             {.conical_height = height, .hanging_only = false, .direction = turning})
                          .shapes) {
                     const double c = std::cos(shape.inclination[0]), p = momentum + axial * n * c / g;
-                    const Stability s = revchain::stability(rig, shape, {.direction = direction});
+                    const Stability s = revchain::stability(rig, shape, {.direction = turning});
                     const double square = std::pow(p / (A * n) - 2 * c, 2) + 1 - c * c;
                     CAPTURE(momentum, axial, direction, c);
                     REQUIRE(s.exponents.size() == 2);
@@ -188,7 +189,6 @@ TEST_CASE("stability of rigs: refusals", "[finite][rig][stability]") {
     refuses(Rig(Chain<double>::uniform_rods(3, 1.0, 1.0), {}), shape_of(plain), "its links number");
     const Rig wheel(chain, {.support = revchain::horizontal_spring(50.0), .flywheels = {{}, {0.1, 0.0}}});
     refuses(wheel, shape_of(wheel), "give it a carriage weight");
-    CHECK_THROWS_WITH(revchain::stability(arm, shape_of(arm), {.direction = 0}), ContainsSubstring("direction"));
     CHECK_THROWS_WITH(revchain::stability(arm, shape_of(arm), {.gravity = -1}), ContainsSubstring("gravity"));
 }
 
