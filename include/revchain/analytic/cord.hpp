@@ -64,7 +64,7 @@ struct StraightCord {
 
    private:
     static Wide<double> as_length(std::string_view place, const Held<Cord>& of, double gravity) {
-        return lower_tension(place, of, gravity) / Wide<double>(of.system().weight()) *
+        return lower_tension(place, of, gravity).tension / Wide<double>(of.system().weight()) *
                Wide<double>(of.system().length());
     }
 };

@@ -41,6 +41,9 @@ template <Real S>
 struct SignedPencil {
     std::vector<SignedElement<S>> elements;
     bool quadratic = false;  ///< L = x^2 k + x s
+    /// The element below the lowest pin, if it holds that pin to one that does not move; else the
+    /// lowest pin is free.
+    std::optional<SignedElement<S>> ground{};
 
     Index size() const { return static_cast<Index>(elements.size()); }
     template <class X>
@@ -57,6 +60,7 @@ struct SignedPencil {
     SignedPencil reversed() const {
         SignedPencil other = *this;
         for (SignedElement<S>& e : other.elements) e.spin = -e.spin;
+        if (other.ground) other.ground->spin = -other.ground->spin;
         return other;
     }
 };
@@ -67,11 +71,13 @@ bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// Converts to an `ElementPencil`. Returns nothing if the error of a number exceeds 1e-20 of its size.
-/// Precondition: every stiffness is positive, and no mass is negative.
+/// Converts to an `ElementPencil`. Returns nothing if the error of a number exceeds 1e-20 of its
+/// size, or the lowest pin is held. Precondition: every stiffness is positive, and no mass is
+/// negative.
 template <Real S>
 std::optional<ElementPencil<S>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;
+    if (pencil.ground) return std::nullopt;
     using M = Narrow<S>;
     const S zero(M(0));
     ElementPencil<S> result;
@@ -103,10 +109,13 @@ class SignedCounter {
     template <Real S>
     explicit SignedCounter(const SignedPencil<S>& pencil, Index offset = 0, Index sign = 1, int side = 1)
         : offset_(offset), sign_(sign), side_(side), quadratic_(pencil.quadratic) {
+        const auto row = [](const SignedElement<S>& e) {
+            return Row{static_cast<T>(e.stiffness), static_cast<T>(e.spin),     static_cast<T>(e.lower),
+                       static_cast<T>(e.upper),     static_cast<T>(e.weight()), static_cast<T>(e.determinant())};
+        };
+        if (pencil.ground) ground_ = row(*pencil.ground);
         rows_.reserve(pencil.elements.size());
-        for (const SignedElement<S>& e : pencil.elements)
-            rows_.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.spin), static_cast<T>(e.lower),
-                             static_cast<T>(e.upper), static_cast<T>(e.weight()), static_cast<T>(e.determinant())});
+        for (const SignedElement<S>& e : pencil.elements) rows_.push_back(row(e));
     }
 
     /// Dynamic stiffness carried up by equation (1) of docs/theory/counts.md, in which neither k nor M need be
@@ -120,6 +129,7 @@ class SignedCounter {
             const T x = side_ < 0 ? -shifts[i] : shifts[i];
             stiffness[i] = quadratic_ ? x * x : x;
             spin[i] = quadratic_ ? x : T(0);
+            if (ground_) below[i] = stiffness[i] * ground_->stiffness + spin[i] * ground_->spin - ground_->upper;
         }
         const T least = least_pivot<T>();
         for (const Row& e : rows_)
@@ -139,6 +149,7 @@ class SignedCounter {
         T stiffness, spin, lower, upper, weight, determinant;
     };
     std::vector<Row> rows_;
+    std::optional<Row> ground_{};
     Index offset_, sign_;
     int side_;
     bool quadratic_;
@@ -171,7 +182,15 @@ std::array<CertifiedCount, N> certified_count(const SignedPencil<S>& pencil, con
     std::array<S, N> below{};
     std::array<M, N> error{};
     std::array<CertifiedCount, N> result{};
-    for (std::size_t i = 0; i < N; ++i) factors[i] = pencil.factors(shifts[i]), result[i].proved = true;
+    for (std::size_t i = 0; i < N; ++i) {
+        factors[i] = pencil.factors(shifts[i]), result[i].proved = true;
+        if (!pencil.ground) continue;
+        const SignedElement<S>& e = *pencil.ground;
+        const M a = size_of(factors[i].stiffness), b = size_of(factors[i].spin);
+        const M size = a * size_of(e.stiffness) + b * size_of(e.spin) + size_of(e.upper);
+        below[i] = factors[i].stiffness * e.stiffness + factors[i].spin * e.spin - e.upper;
+        error[i] = inflate * (a * e.error.stiffness + b * e.error.spin + e.error.upper + M(5) * u * size + underflow);
+    }
     for (const SignedElement<S>& e : pencil.elements) {
         const ElementError<M>& off = e.error;
         const M k = size_of(e.stiffness), s = size_of(e.spin);

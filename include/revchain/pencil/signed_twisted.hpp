@@ -33,9 +33,12 @@ std::vector<S> twisted_vector(const SignedPencil<S>& pencil, const S& x) {
     const auto size_of = [](const S& value) { return static_cast<T>(abs(value)); };
     const auto forces = [&](std::size_t m) {
         const T own = size_of(stiffness(elements[m])) + size_of(elements[m].lower);
-        return m == 0 ? own : own + size_of(stiffness(elements[m - 1])) + size_of(elements[m - 1].upper);
+        if (m == 0 && !pencil.ground) return own;
+        const SignedElement<S>& below = m == 0 ? *pencil.ground : elements[m - 1];
+        return own + size_of(stiffness(below)) + size_of(below.upper);
     };
-    auto [offset, largest, crossings] = detail::twisted<S>(elements.size(), rise, sink, forces);
+    const S footing = pencil.ground ? S(stiffness(*pencil.ground) - pencil.ground->upper) : S(T(0));
+    auto [offset, largest, crossings] = detail::twisted<S>(elements.size(), rise, sink, forces, footing);
     for (S& y : offset) y = y / largest + S(T(0));
     return offset;
 }
@@ -46,13 +49,14 @@ template <Real S>
 S rayleigh_root(const SignedPencil<S>& pencil, const std::vector<S>& y, const S& near) {
     const S zero(Narrow<S>(0));
     S stiffness = zero, spin = zero, mass = zero;
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const SignedElement<S>& e = pencil.elements[m];
-        const S difference = y[m] - y[m + 1], square = difference * difference;
+    const auto add = [&](const SignedElement<S>& e, const S& lower, const S& upper) {
+        const S difference = lower - upper, square = difference * difference;
         stiffness = stiffness + e.stiffness * square;
         spin = spin + e.spin * square;
-        mass = mass + mass_form(e, y[m], y[m + 1]);
-    }
+        mass = mass + mass_form(e, lower, upper);
+    };
+    if (pencil.ground) add(*pencil.ground, zero, y[0]);
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) add(pencil.elements[m], y[m], y[m + 1]);
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
@@ -69,15 +73,16 @@ T relative_residual(const SignedPencil<S>& pencil, const S& x, const Vector<T>& 
     using std::abs;
     using M = Narrow<S>;
     const Factors<S> f = pencil.factors(x);
-    const auto link = [&](std::size_t m) {
-        const SignedElement<S>& e = pencil.elements[m];
+    const auto loaded = [&](const SignedElement<S>& e, const S& lower, const S& upper) {
         const S spring = f.stiffness * e.stiffness, spin = f.spin * e.spin;
-        const auto y = [&](std::size_t pin) { return S(static_cast<M>(offset[static_cast<Index>(pin)])); };
         return detail::LoadedElement<S>{
-            spring + spin, abs(static_cast<M>(spring)) + abs(static_cast<M>(spin)), e.lower, e.cross, e.upper, y(m),
-            y(m + 1)};
+            spring + spin, abs(static_cast<M>(spring)) + abs(static_cast<M>(spin)), e.lower, e.cross, e.upper, lower,
+            upper};
     };
-    return static_cast<T>(detail::relative_residual<S>(pencil.elements.size(), link));
+    const auto y = [&](std::size_t pin) { return S(static_cast<M>(offset[static_cast<Index>(pin)])); };
+    const auto link = [&](std::size_t m) { return loaded(pencil.elements[m], y(m), y(m + 1)); };
+    const auto ground = pencil.ground ? loaded(*pencil.ground, S(M(0)), y(0)) : detail::LoadedElement<S>{};
+    return static_cast<T>(detail::relative_residual<S>(pencil.elements.size(), link, ground));
 }
 
 }  // namespace revchain::pencil

@@ -106,14 +106,16 @@ struct UnroundedEigenvector {
 
 namespace detail {
 
-/// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation: dynamic stiffness D
-/// of what hangs below each pin, going up, and E of what holds it from above, going down; they balance best (|D + E|
-/// least) where the mode is largest, and from there the offsets follow outwards by ratios without cancellation.
-/// `rise(m, D)` returns D above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and
-/// the inverse ratio. Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
-/// meets at the lower pin of element m.
+/// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation:
+/// dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from above,
+/// going down; they balance best (|D + E| least) where the mode is largest, and from there the
+/// offsets follow outwards by ratios without cancellation. `rise(m, D)` returns D above element m
+/// and the ratio of its lower offset to the upper; `sink(m, E)` E below it and the inverse ratio.
+/// Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
+/// meets at the lower pin of element m. `footing` is D at the lowest pin.
 template <Real S, class Rise, class Sink, class Forces>
-UnroundedEigenvector<S> twisted(std::size_t n, const Rise& rise, const Sink& sink, const Forces& forces) {
+UnroundedEigenvector<S> twisted(std::size_t n, const Rise& rise, const Sink& sink, const Forces& forces,
+                                const S& footing = S(Narrow<S>(0))) {
     using std::abs;
     using T = Narrow<S>;
     struct Pin {
@@ -122,7 +124,7 @@ UnroundedEigenvector<S> twisted(std::size_t n, const Rise& rise, const Sink& sin
         S up;               // offset of the pin above over that of this pin
     };
     std::vector<Pin> pins(n);
-    S below(T(0)), above(T(0));
+    S below = footing, above(T(0));
     for (std::size_t m = 0; m < n; ++m) {
         const Across<S> across = rise(m, below);
         pins[m].stiffness_below = below, pins[m].down = across.ratio;
@@ -253,9 +255,10 @@ S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
 
 namespace detail {
 
-/// The largest force left unbalanced at a pin over the largest sum of the sizes of its terms, of a string of elements
-/// whose last pin is held. `link(m)` returns element m: its stiffness at the eigenvalue, the size of what that is made
-/// of, the masses, and the offsets of its pins.
+/// The largest force left unbalanced at a pin over the largest sum of the sizes of its terms, of a
+/// string of elements whose last pin is held. `link(m)` returns element m: its stiffness at the
+/// eigenvalue, the size of what that is made of, the masses, and the offsets of its pins. `ground`
+/// is the element below the lowest pin, if there is one.
 template <Real S>
 struct LoadedElement {
     S stiffness;
@@ -263,18 +266,21 @@ struct LoadedElement {
     S lower_mass, cross, upper_mass, lower, upper;
 };
 template <Real S, class Link>
-Narrow<S> relative_residual(std::size_t n, const Link& link) {
+Narrow<S> relative_residual(std::size_t n, const Link& link, const LoadedElement<S>& ground = {}) {
     using std::abs;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return abs(static_cast<M>(x)); };
     M largest(0), worst(0), size(0);
     S force(M(0));  // from the link below
-    for (std::size_t m = 0; m < n; ++m) {
-        const LoadedElement<S> e = link(m);
+    for (std::size_t m = 0; m <= n; ++m) {
+        const LoadedElement<S> e = m == 0 ? ground : link(m - 1);
         const S spring = e.stiffness * (e.lower - e.upper);
         const M spring_size = e.stiffness_size * (size_of(e.lower) + size_of(e.upper));
-        worst = std::max(worst, size_of(force + (spring - (e.lower_mass * e.lower + e.cross * e.upper))));
-        largest = std::max(largest, size + spring_size + size_of(e.lower_mass * e.lower) + size_of(e.cross * e.upper));
+        if (m > 0) {
+            const M terms = size_of(e.lower_mass * e.lower) + size_of(e.cross * e.upper);
+            worst = std::max(worst, size_of(force + (spring - (e.lower_mass * e.lower + e.cross * e.upper))));
+            largest = std::max(largest, size + spring_size + terms);
+        }
         force = -spring - (e.cross * e.lower + e.upper_mass * e.upper);
         size = spring_size + size_of(e.cross * e.lower) + size_of(e.upper_mass * e.upper);
     }

@@ -63,8 +63,9 @@ namespace detail {
 /// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
 
-/// Sum of non-negative numbers with one word more than they have. Its error is about one rounding, however many are
-/// added.
+/// Sum with one word more than its numbers have. Of numbers of one sign its error is about one
+/// rounding, however many are added. Of n double words of any sign it is one rounding, and (2 n
+/// u)^3/2 of their sizes, u that of one word.
 template <Real S>
 class RunningSum {
    public:
@@ -83,7 +84,12 @@ class RunningSum {
             sum_ = sum_ + x;
         }
     }
-    S value() const { return sum_ + S(rest_); }
+    S value() const {
+        if constexpr (is_double_word<S>)
+            return two_sum(sum_.high, sum_.low) + S(rest_);  // of any sign, the words may be as large as one another
+        else
+            return sum_ + S(rest_);
+    }
 
    private:
     S sum_{Narrow<S>(0)};
