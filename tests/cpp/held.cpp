@@ -249,7 +249,8 @@ TEST_CASE("held straight: a tension barely above the weight, or far above it") {
         for (const double more : {0x1p-52, 0x1p-40, 1e15}) {
             const Chain<double> chain = family.make(12);
             double tension = chain.total_weight() * (1 + more);
-            while (!(revchain::Wide<double>(tension) > chain.weight_below(12))) tension = std::nextafter(tension, 1e300);
+            while (!(revchain::Wide<double>(tension) > chain.weight_below(12)))
+                tension = std::nextafter(tension, 1e300);
             const auto modes = revchain::modes(Held(chain, {.tension = tension}));
             const support::TautCounts above(chain, tension);
             for (Index k = 0; k < modes.size(); ++k) {
@@ -380,7 +381,8 @@ TEST_CASE("held straight: pins that move without mass have no mode") {
         if (slower > 0) CHECK(revchain::modes(held, {.count = revchain::all_modes}).size() == slower);
         return slower;
     };
-    const auto thread = revchain::plummet(0.0, 1.0), bead = revchain::plummet(1.0, 1.0), rod = revchain::uniform_rod(1.0, 1.0);
+    const auto thread = revchain::plummet(0.0, 1.0), bead = revchain::plummet(1.0, 1.0);
+    const auto rod = revchain::uniform_rod(1.0, 1.0);
     const revchain::Link<double> middle{.weight = 1.0, .length = 1.0, .centroid = 0.5};  // a plummet on a thin rod
     const revchain::Support spring{.stiffness = 2.0}, laden{.stiffness = 2.0, .carriage_weight = 0.5};
     CHECK(count({bead, thread}) == 0);  // the mass of a plummet is at its lower pin

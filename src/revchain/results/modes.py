@@ -327,17 +327,14 @@ class Modes(Result, Moving):
         if not len(self):
             none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
-        if isinstance(self.system, Held):
-            return self._again_held()
-        method = self.method if self.method in _core.METHODS else "auto"
         first, certified = int(self.number[0]), self.certificate is not None
+        if isinstance(self.system, Held):
+            held = self.system._under(self.gravity)
+            return _core.held_modes(held, first, len(self), None, None, self.rtol, certified, None, self.gravity)
+        method = self.method if self.method in _core.METHODS else "auto"
         return _core.modes(
             self.system._compiled, first, len(self), None, None, self.rtol, certified, self.precision, method
         )
-
-    def _again_held(self) -> Any:
-        held, first, certified = self.system._under(self.gravity), int(self.number[0]), self.certificate is not None
-        return _core.held_modes(held, first, len(self), None, None, self.rtol, certified, None, self.gravity)
 
     def _which(self) -> str:
         """Text with the number of modes out of all, or with their numbers if they are not the slowest."""
@@ -806,9 +803,11 @@ class CordModes(Modes):
         if not len(self):
             none = lambda arc: np.empty((0, len(arc)))  # noqa: E731
             return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
+        first = int(self.number[0])
         if isinstance(self.system, Held):
-            return self._again_held()
-        return _core.cord_modes(self.system._compiled, int(self.number[0]), len(self), None, None, self.rtol)
+            held = self.system._under(self.gravity)
+            return _core.held_modes(held, first, len(self), None, None, self.rtol, None, self.gravity)
+        return _core.cord_modes(self.system._compiled, first, len(self), None, None, self.rtol)
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         nodes = self._node_column()
