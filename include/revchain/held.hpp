@@ -168,8 +168,8 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 ///
 /// Method: the chain as elements, as a hanging one, on the lowest link or spring
 /// (linear/rig_pencil.hpp): counts in double, then for each mode a shape and its quotient in
-/// double-double, and two proved counts. Accuracy: 1 ulp, proved by `error_bound`, which is wider for a
-few modes of links 1e9 times lighter than their neighbours (docs/accuracy.md). The exact
+/// double-double, and two proved counts. Accuracy: 1 ulp, proved by `error_bound`, which is wider
+/// for a few modes of links 1e9 times lighter than their neighbours (docs/accuracy.md). The exact
 /// height is that of the numbers given: a tension and a stiffness whose second word is not 0 are
 /// taken as quotients that were rounded once. Cost: 2 microseconds a link and mode, 0.5 for each
 /// shape. `method` and `other` of the options have no effect.
