@@ -22,7 +22,7 @@ CordModes modes(const System& cord, Index first, std::optional<Index> count, std
                 std::optional<std::tuple<double, double, double>> angular_speed, std::optional<double> rtol,
                 revchain::Progress* progress, double gravity) {
     const py::gil_scoped_release release;
-    revchain::StraightModesOptions options{.first = first, .count = count, .gravity = gravity};
+    revchain::CordModesOptions options{.first = first, .count = count, .gravity = gravity};
     if (conical_height) options.conical_height = {conical_height->first, conical_height->second};
     if (angular_speed) {
         options.angular_speed = {std::get<0>(*angular_speed), std::get<1>(*angular_speed)};

@@ -162,17 +162,18 @@ using HeldChain = revchain::Held<Chain>;
 /// Modes of a chain held straight under a tension at its upper end.
 FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> count,
                       std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
-                      std::optional<double> rtol, revchain::Progress* progress, double gravity) {
-    const Asked asked{first, count, conical_height, angular_speed, rtol, false, revchain::ModesMethod::automatic};
+                      std::optional<double> rtol, bool certify, revchain::Progress* progress, double gravity) {
+    const Asked asked{first, count, conical_height, angular_speed, rtol, certify, revchain::ModesMethod::automatic};
     const auto as_hung = asked.options<double>(progress);
-    const revchain::StraightModesOptions options{.first = first,
-                                                 .count = as_hung.count,
-                                                 .conical_height = as_hung.conical_height,
-                                                 .angular_speed = as_hung.angular_speed,
-                                                 .rtol = rtol,
-                                                 .gravity = gravity,
-                                                 .progress = progress};
-    return {without_lock([&] { return revchain::modes(held, options); }), false};
+    const revchain::HeldModesOptions options{.first = first,
+                                             .count = as_hung.count,
+                                             .conical_height = as_hung.conical_height,
+                                             .angular_speed = as_hung.angular_speed,
+                                             .rtol = rtol,
+                                             .gravity = gravity,
+                                             .certify = certify,
+                                             .progress = progress};
+    return {without_lock([&] { return revchain::modes(held, options); }), certify};
 }
 
 template <std::size_t N>
@@ -259,7 +260,7 @@ void bind_linear(py::module_& module) {
              }),
              "chain"_a, "span"_a, "tension"_a, "weightless"_a, "lower"_a, "upper"_a);
     module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
-               "rtol"_a, "progress"_a, "gravity"_a);
+               "rtol"_a, "certify"_a, "progress"_a, "gravity"_a);
     module.def("count_held_modes", &counts_above<HeldChain>, "held"_a, "conical_height"_a, "gravity"_a);
     module.def(
         "recurrence_matrices",

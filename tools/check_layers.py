@@ -32,7 +32,7 @@ ALLOWED = {
     "finite/balance": {"numeric", "simd", "system", "linear"},
     "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
     "finite/branch": {"numeric", "simd", "system", "linear", "finite/balance", "finite/shapes"},
-    "finite/held": {"numeric", "system", "finite/balance", "finite/shapes", "finite/cord"},
+    "finite/held": {"numeric", "system", "linear", "finite/balance", "finite/shapes", "finite/cord"},
     "finite/cord": {"numeric", "system", "finite/branch"},
     "finite/stability": {"numeric", "system", "pencil/complex", "finite/balance", "finite/shapes"}
     | {"finite/branch", "finite/held", "finite/cord"},

@@ -78,7 +78,7 @@ struct CordModes {
 /// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many),
 /// for modes above number 1e5 with series, and for a density too rough or a tip too heavy for the
 /// series.
-[[nodiscard]] CordModes modes(const Cord& cord, const StraightModesOptions& options = {});
+[[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on
 /// either side. Cost: that of some 40 modes, with series one path.
@@ -94,7 +94,7 @@ struct CordModes {
 /// Offsets are within 1e-15 times the mode number of the largest one. Cost: as of a cord with a tip weight.
 /// Throws InvalidArgument for a span, for a tension that does not exceed the weight (the cord would not be straight),
 /// and as for a cord that hangs.
-[[nodiscard]] CordModes modes(const Held<Cord>& held, const StraightModesOptions& options = {});
+[[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// d(conical height)/d(datum) of each mode, (k,), with all other data constant. For speeds dn = -n/(2 lambda) d lambda.

@@ -168,28 +168,44 @@ struct HeldCordShapesOptions {
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
+/// Which modes of a chain held straight under a tension: as in `ModesOptions`. There is one method.
+struct HeldModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};  ///< bounds above it are `Status::tolerance_not_met`
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
+    bool certify = false;
+    Index threads = 1;  ///< 0: all processors
+    Progress* progress = nullptr;
+};
+
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
 /// choose them as they do for a hanging chain. Ends on springs move with the chain. In `shapes` firm ends are 0, the
 /// largest offset is 1, and that of the lowest pin that moves is positive; nodes are distances from the lower end.
 /// Shapes of finite amplitude begin at these heights, where the span is nearly the length. Without gravity a height is
 /// `gravity` over the square of the speed, with the gravity of the options. Modes of a held cord: cord.hpp.
 ///
-/// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp. `error_bound` is this number, an estimate: rounding in the counts is
-/// not bounded. Shapes 1e-13 over the relative gap to the next height. Cost: 60 sweeps for each height, one for each
-/// shape. 
-/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
-/// does not exceed the weight (the chain would not be straight), and for wrong numbers and windows
-/// as `modes` of a chain does. N links have N - 1 modes, one more for each end on a spring, less
-/// one for each pin that moves without mass.
+/// Method: the chain as elements, as a hanging one, on the lowest link or spring
+/// (linear/rig_pencil.hpp): counts in double, then for each mode a shape and its quotient in
+/// double-double, and two proved counts. Accuracy: 1 ulp, proved by `error_bound`, which is wider
+/// for a few modes of links 1e9 times lighter than their neighbours (docs/accuracy.md). The exact
+/// height is that of the numbers given: a tension and a stiffness whose second word is not 0 are
+/// taken as quotients that were rounded once. Cost: 2 microseconds a link and mode, 0.5 for each
+/// shape.
+/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability),
+/// for a tension that does not exceed the weight (the chain would not be straight) or is beyond its
+/// range, for wrong numbers and windows as `modes` of a chain does, and where rounding leaves in
+/// doubt how many modes lie in a window. N links have N - 1 modes, one more for each end on a
+/// spring, less one for each pin that moves without mass.
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
-                                  const StraightModesOptions& options = {});
+                                  const HeldModesOptions& options = {});
 
-/// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
-/// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
-[[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
-                                const CountOptions<double>& options);
+/// The number of modes of the straight chain under tension that are slower than a speed, proved as
+/// for a rig. Cost: 0.5 microseconds a link. Throws InvalidArgument unless exactly one of height
+/// and speed is given, positive and finite, and as `modes` does.
+[[nodiscard]] Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
 
 /// How far branches go: give one of the first two.
 struct HeldDiagramOptions {

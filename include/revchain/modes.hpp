@@ -53,9 +53,8 @@ struct ModesOptions {
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Which modes of a cord, or of a chain held straight at both ends: as in `ModesOptions`. There is
-/// one method.
-struct StraightModesOptions {
+/// Which modes of a cord, hanging or held at both ends: as in `ModesOptions`. There is one method.
+struct CordModesOptions {
     Index first = 1;
     std::optional<Index> count{};
     std::optional<HeightWindow<double>> conical_height{};

@@ -1073,6 +1073,7 @@ def held_modes(
     conical_height: tuple[float, float] | None,
     angular_speed: tuple[float, float, float] | None,
     rtol: float | None,
+    certify: bool,
     progress: Progress | None,
     gravity: float,
 ) -> Modes: ...

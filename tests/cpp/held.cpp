@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/held.hpp"
+#include "support/held_straight.hpp"
 #include "support/held_truth.hpp"
 #include "support/truth.hpp"
 
@@ -219,39 +220,47 @@ TEST_CASE("held at both ends: refused, and nothing where a chain folds") {
     CHECK(support::held_shapes(Chain<double>::uniform_rods(1), 0.5, 0.1).shapes.empty());
 }
 
-TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadruple precision") {
+TEST_CASE("held straight: heights within their proved bound, an ulp, of the assembled pencil in quadruple precision") {
+    const revchain::Support soft{.stiffness = 3.0}, laden{.stiffness = 0.5, .carriage_weight = 0.25};
     for (const auto& family : support::families())
         for (const Index size : {2, 5, 40})
-            for (const double pull : {1e-3, 1.0, 1e3}) {
-                const Chain<double> chain = family.make(size);
-                const double tension = pull * chain.total_weight();
-                const revchain::finite::TautChain modes(chain, revchain::Wide<double>(tension));
-                // negative pivots of height K - M, the lowest pin left out
-                const auto above = [&](Quad height) {
-                    Index negative = 0;
-                    Quad below = 0, pivot = 0, stiff_below = 0, upper_mass = 0, mixed_below = 0;
-                    for (Index m = 0; m < size; ++m) {
-                        const auto link = chain.link(m);
-                        const Quad W = link.weight, a = link.length, p = Quad(link.centroid) / a, q = 1 - p,
-                                   turn = quad(link.gyration_ratio);
-                        const Quad k = height * ((W * p + below) + Quad(tension)) / a;
-                        below += W;
-                        if (m > 0) {
-                            const Quad diagonal = stiff_below + k - upper_mass - W * (p * p + turn);
-                            pivot = diagonal - (m > 1 ? mixed_below * mixed_below / pivot : 0);
-                            if (pivot < 0) ++negative;
-                        }
-                        stiff_below = k, upper_mass = W * (q * q + turn), mixed_below = -k - W * (p * q - turn);
+            for (const double pull : {1e-3, 1.0, 1e3})
+                for (const auto& [lower, upper] : {std::pair<revchain::Support, revchain::Support>{}, {soft, laden}}) {
+                    const Chain<double> chain = family.make(size);
+                    const double tension = (1 + pull) * chain.total_weight();
+                    const Held held(chain, {.tension = tension, .lower = lower, .upper = upper});
+                    if (revchain::count_modes(held, {.conical_height = 1e-300}) == 0) continue;
+                    const auto modes = revchain::modes(held, {.count = revchain::all_modes});
+                    const support::TautCounts above(chain, tension, lower, upper);
+                    CHECK(modes.status == revchain::Status::success);
+                    CHECK(modes.size() == above(Quad(1e-25) * modes.conical_height[modes.size() - 1]));
+                    for (Index k = 0; k < modes.size(); ++k) {
+                        INFO(family.name << " " << size << " " << pull << " mode " << k + 1);
+                        const Quad height = modes.conical_height[k], by = modes.error_bound[k];
+                        CHECK(by <= revchain::epsilon<double>() * (1 + 1e-14));
+                        CHECK(above(height * (1 - by)) == k + 1);
+                        CHECK(above(height * (1 + by)) == k);
                     }
-                    return negative;
-                };
-                for (Index k = 0; k < std::min<Index>(5, modes.mode_count()); ++k) {
-                    INFO(family.name << " " << size << " " << pull << " mode " << k + 1);
-                    const Quad height = modes.height(k), by = revchain::epsilon<double>();
-                    CHECK(above(height * (1 - by)) == k + 1);
-                    CHECK(above(height * (1 + by)) == k);
                 }
+}
+
+TEST_CASE("held straight: a tension barely above the weight, or far above it") {
+    for (const auto& family : support::families())
+        for (const double more : {0x1p-52, 0x1p-40, 1e15}) {
+            const Chain<double> chain = family.make(12);
+            double tension = chain.total_weight() * (1 + more);
+            while (!(revchain::Wide<double>(tension) > chain.weight_below(12)))
+                tension = std::nextafter(tension, 1e300);
+            const auto modes = revchain::modes(Held(chain, {.tension = tension}));
+            const support::TautCounts above(chain, tension);
+            for (Index k = 0; k < modes.size(); ++k) {
+                INFO(family.name << " " << more << " mode " << k + 1);
+                const Quad height = modes.conical_height[k], by = modes.error_bound[k];
+                CHECK(by <= revchain::epsilon<double>() * (1 + 1e-14));
+                CHECK(above(height * (1 - by)) == k + 1);
+                CHECK(above(height * (1 + by)) == k);
             }
+        }
 }
 
 TEST_CASE("held straight: where shapes of finite amplitude begin") {
@@ -272,16 +281,17 @@ TEST_CASE("held straight: the tension at the upper end, less the weight in doubl
         const double tension = 1.25 * chain.total_weight();
         INFO(family.name);
         const auto modes = revchain::modes(Held(chain, {.tension = tension}));
-        const revchain::finite::TautChain taut(chain, revchain::Wide<double>(tension) - chain.weight_below(12));
-        REQUIRE(modes.size() == std::min<Index>(10, taut.mode_count()));
+        const support::TautCounts above(chain, tension);
+        const auto all = revchain::modes(Held(chain, {.tension = tension}), {.count = revchain::all_modes});
+        REQUIRE(modes.size() == std::min<Index>(10, all.size()));
         CHECK(modes.first == 1);
         CHECK(modes.method == "bisection");
         CHECK(modes.status == revchain::Status::success);
         const auto& shapes = modes.shapes();
         for (Index j = 0; j < modes.size(); ++j) {
-            CHECK(modes.conical_height[j] == taut.height(j));
-            CHECK(modes.error_bound[j] == revchain::epsilon<double>());
-            CHECK(modes.shape(j) == taut.shape(modes.conical_height[j]));
+            CHECK(modes.conical_height[j] == all.conical_height[j]);
+            CHECK(modes.shape(j) == all.shape(j));
+            CHECK(above.unbalanced(modes.conical_height[j], modes.shape(j)) < 1e-15);
             const double height = modes.conical_height[j];
             CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 - 1e-14)}) ==
                   j + 1);
@@ -348,6 +358,43 @@ TEST_CASE("held straight: numbers, windows, all modes") {
     CHECK(revchain::count_modes(held, {.angular_speed = 2 * speeds[6] * 1.001, .gravity = 4 * 9.80665}) == 7);
     CHECK(revchain::modes(held, {.rtol = 1e-3}).status == revchain::Status::success);
     CHECK(revchain::modes(held, {.rtol = 1e-20}).status == revchain::Status::tolerance_not_met);
+    const auto certified = revchain::modes(held, {.count = revchain::all_modes, .certify = true});
+    const auto& certificate = certified.certificate;
+    for (Index j = 0; j < 29; ++j) {
+        const double height = certified.conical_height[j];
+        CHECK(certificate.lower[j] >= height * (1 - 1e-15));
+        CHECK(certificate.upper[j] <= height * (1 + 1e-15));
+        CHECK(revchain::count_modes(held, {.conical_height = certificate.lower[j]}) == certificate.above_lower[j]);
+        CHECK(revchain::count_modes(held, {.conical_height = certificate.upper[j]}) == certificate.above_upper[j]);
+        CHECK(certificate.above_lower[j] == j + 1);
+        CHECK(certificate.above_upper[j] == j);
+    }
+    const auto shared = revchain::modes(held, {.count = revchain::all_modes, .threads = 3});
+    CHECK(shared.conical_height == all.conical_height);
+    CHECK(shared.shapes() == all.shapes());
+}
+
+TEST_CASE("held straight: pins that move without mass have no mode") {
+    const auto count = [](const std::vector<revchain::Link<double>>& links, const revchain::Support& lower = {}) {
+        const Held held(Chain<double>(links), {.tension = 5.0, .lower = lower});
+        const Index slower = revchain::count_modes(held, {.conical_height = 1e-300});
+        if (slower > 0) CHECK(revchain::modes(held, {.count = revchain::all_modes}).size() == slower);
+        return slower;
+    };
+    const auto thread = revchain::plummet(0.0, 1.0), bead = revchain::plummet(1.0, 1.0);
+    const auto rod = revchain::uniform_rod(1.0, 1.0);
+    const revchain::Link<double> middle{.weight = 1.0, .length = 1.0, .centroid = 0.5};  // a plummet on a thin rod
+    const revchain::Support spring{.stiffness = 2.0}, laden{.stiffness = 2.0, .carriage_weight = 0.5};
+    CHECK(count({bead, thread}) == 0);  // the mass of a plummet is at its lower pin
+    CHECK(count({bead, bead}) == 1);
+    CHECK(count({rod}) == 0);
+    CHECK(count({rod, thread, rod}) == 2);
+    CHECK(count({bead, thread, bead, thread}) == 1);
+    CHECK(count({middle, thread}) == 1);
+    CHECK(count({middle, middle, thread}) == 2);
+    CHECK(count({bead, thread}, spring) == 1);
+    CHECK(count({middle, thread}, spring) == 1);
+    CHECK(count({middle, thread}, laden) == 2);
 }
 
 TEST_CASE("held: a weightless system under a tension") {

@@ -204,6 +204,27 @@ def test_taut_speeds_against_a_dense_pencil():
             assert abs(a - b) <= EPS * a
 
 
+def test_taut_speeds_come_with_a_certificate():
+    held = Held(rc.Chain.uniform_rods(9, length=1.0, mass=2.0), tension=40.0)
+    found = rc.modes(held, "all", certify=True)
+    proof = found.certificate
+    assert (found.error_bound <= EPS * (1 + 1e-14)).all()
+    assert (proof.lower < found.conical_height).all() and (found.conical_height < proof.upper).all()
+    assert (proof.upper / proof.lower < 1 + 5 * EPS).all()
+    np.testing.assert_array_equal(proof.above_lower, found.number)
+    np.testing.assert_array_equal(proof.above_upper, found.number - 1)
+    np.testing.assert_array_equal(rc.count_modes(held, conical_height=proof.lower), proof.above_lower)
+    assert rc.modes(held, "all").certificate is None
+    with pytest.raises(ValueError, match="certify is for a Chain that hangs"):
+        rc.modes(Held(rc.Cord(1.0, weight=1.0), tension=2.0), certify=True)
+
+
+def test_a_pin_with_mass_has_a_mode_where_the_lowest_link_is_held():
+    links = rc.Chain(weight=[1.0, 0.0], length=1.0, centroid=[0.5, 1.0], radius_of_gyration=0.0)
+    held = Held(links, tension=3.0)
+    assert held.mode_count == len(rc.modes(held)) == 1
+
+
 def test_taut_modes_of_a_heavy_pull_are_those_of_a_string():
     modes = rc.modes(Held(rc.Chain.uniform_plummets(8, length=8.0, weight=8.0), tension=1e15 + 8), 7)
     string = 1e-15 / (4 * np.sin(np.arange(1, 8) * np.pi / 16) ** 2)

@@ -65,7 +65,7 @@ struct StraightCord {
 
    private:
     static Wide<double> as_length(std::string_view place, const Held<Cord>& of, double gravity) {
-        return lower_tension(place, of, gravity) / Wide<double>(of.system().weight()) *
+        return lower_tension(place, of, gravity).tension / Wide<double>(of.system().weight()) *
                Wide<double>(of.system().length());
     }
 };
@@ -133,7 +133,7 @@ inline Index modes_above(const StraightCord& straight, double height) {
 }
 
 /// The modes of a straight cord that the options choose.
-inline CordModes modes_of(const StraightCord& straight, const StraightModesOptions& options) {
+inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
     if (options.count == all_modes)
         throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
     const auto within = [&](const HeightWindow<double>& window) {
@@ -172,13 +172,13 @@ inline CordModes modes_of(const StraightCord& straight, const StraightModesOptio
 
 }  // namespace detail
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const StraightModesOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const CordModesOptions& options) {
     detail::check(options);
     return detail::modes_of(cord, options);
 }
 
 REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held,
-                                         const StraightModesOptions& options) {
+                                         const CordModesOptions& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }

@@ -51,7 +51,7 @@ REVCHAIN_INLINE_ANALYTIC CordSensitivity sensitivity(const CordModes& modes) {
         v->setZero(modes.size());
     if (modes.held) {
         const double tension = modes.held->tension->high;
-        const Wide<double> below = detail::lower_tension("sensitivity", Held<Cord>(cord, *modes.held), 1.0);
+        const Wide<double> below = detail::lower_tension("sensitivity", Held<Cord>(cord, *modes.held), 1.0).tension;
         const double lower = static_cast<double>(below / Wide<double>(cord.weight()) * Wide<double>(cord.length()));
         for (Index j = 0; j < modes.size(); ++j)
             result.tension[j] =

@@ -50,7 +50,8 @@ inline DrivenChain driven_chain(const Rig& rig) {
         elements.push_back(element);
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig)) elements.push_back(*support), result.end = 0;
+    if (const auto support = support_element(rig.support(), result.units))
+        elements.push_back(*support), result.end = 0;
     return result;
 }
 

@@ -1,138 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <atomic>
-
 #include "revchain/count.hpp"
 #include "revchain/linear/aberth_heights.hpp"
-#include "revchain/linear/rig_pencil.hpp"
+#include "revchain/linear/counted_roots.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
-#include "revchain/numeric/parallel.hpp"
-#include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/proved_roots.hpp"
-#include "revchain/pencil/twisted.hpp"
 
-/// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
+/// The part of `rig_modes` that finds several roots side by side.
 namespace revchain::inline REVCHAIN_BUILD::detail {
-
-using RigWord = Wide<double>;
-
-/// A root x > 0, and half the width of the proved interval about what is given out for it, relative to that.
-struct FoundRoot {
-    RigWord x{};
-    double margin = std::numeric_limits<double>::infinity();
-};
-
-/// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues of Q) exceed x.
-class CountedRoots {
-   public:
-    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
-        : pencil_(std::move(pencil)), pace_(pace), base_(base), sign_(sign), side_(side) {}
-
-    /// Counts in double, for `bisect`.
-    struct Counter {
-        pencil::SignedPencil<double> rounded;
-        Index base, sign;
-        double side;
-
-        template <std::size_t N>
-        friend std::array<Index, N> count_above(const Counter& counter, std::array<double, N> shifts) {
-            for (double& shift : shifts) shift *= counter.side;
-            auto above = pencil::count_above(counter.rounded, shifts);
-            for (Index& count : above) count = counter.base + counter.sign * count;
-            return above;
-        }
-    };
-
-    const pencil::SignedPencil<RigWord>& pencil() const { return pencil_; }
-
-    struct Available {
-        Index count = 0;
-        bool proved = false;
-    };
-    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no doubt, at 1e-120 of
-    /// the length where what has no mass has none at all.
-    Available available() const {
-        if (const auto count = counted<1>({RigWord(0.0)}); count[0].proved) return {count[0].above, true};
-        const int start = pencil_.quadratic ? -200 : -400;
-        Available found{std::max<Index>(0, counted<1>({RigWord(std::ldexp(1.0, start))})[0].above), false};
-        for (int exponent = start; exponent < 200; exponent += 20)
-            if (const auto count = counted<1>({RigWord(std::ldexp(1.0, exponent))}); count[0].proved)
-                return {count[0].above, exponent == start};
-        return found;
-    }
-
-    /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
-    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
-                                                  const std::function<void(Index)>& finished) const {
-        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
-        return pencil::bisect(counter, first, count, 2 * epsilon<double>(), start, finished);
-    }
-
-    /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
-    FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
-        const double margin = epsilon<double>();
-        const RigWord side(static_cast<double>(side_));
-        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) { return counted(shifts); };
-        RigWord x(pencil::between(bracket.lower, bracket.upper));
-        for (int round = 0; round < 3; ++round) {
-            const RigWord root =
-                side * pencil::rayleigh_quotient(pencil_, pencil::twisted_vector(pencil_, side * x), side * x);
-            if (!(root > RigWord(0.0)) || !isfinite(root)) break;
-            x = root;
-            if (pencil::root_within(in_pairs, j, given_out(x), margin)) return {x, margin};
-        }
-        // by proved counts alone, as far as they go
-        const RigWord guess(pencil::between(bracket.lower, bracket.upper));
-        const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
-        if (!found) return {guess};
-        return {found->middle(), found->reach(given_out(found->middle()))};
-    }
-
-    /// A proved count of the roots above x.
-    pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
-
-    /// y with Q y = 0 at a root.
-    std::vector<RigWord> vector(const RigWord& x) const {
-        return pencil::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
-    }
-
-   private:
-    template <std::size_t N>
-    std::array<pencil::CertifiedCount, N> counted(std::array<RigWord, N> x) const {
-        for (RigWord& one : x) one = RigWord(static_cast<double>(side_)) * one;
-        auto result = pencil::certified_count(pencil_, x);
-        for (auto& one : result) one.above = base_ + sign_ * one.above;
-        return result;
-    }
-
-    /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a height.
-    RigWord given_out(const RigWord& x) const {
-        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
-    }
-
-    pencil::SignedPencil<RigWord> pencil_;
-    RigWord pace_;
-    Index base_, sign_;
-    int side_;
-};
-
-/// The roots number `first` ... of a sense, one by one; `bracketed(done)` and `finished(done)` are told how many are.
-inline std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
-                                            const std::function<void(Index)>& bracketed,
-                                            const std::function<void(Index)>& finished) {
-    const auto brackets = roots.brackets(first, count, guess, bracketed);
-    std::vector<FoundRoot> found(brackets.size());
-    std::atomic<Index> done = 0;
-    parallel_for(count, 1, [&](Index begin, Index end) {
-        for (Index j = begin; j < end; ++j) {
-            look();
-            found[static_cast<std::size_t>(j)] = roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
-            if (finished) finished(++done);
-        }
-    });
-    return found;
-}
 
 /// A root as it is given out.
 inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) {

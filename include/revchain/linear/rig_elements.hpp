@@ -43,14 +43,12 @@ inline bool is_nothing(const RigElement& e) {
 
 }  // namespace detail
 
-/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm. The error
-/// of the stiffness is that of the quotient a caller may have found it as.
+/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it
+/// is firm. The error of the stiffness is that of the quotients a caller may have found it as.
 /// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
-inline std::optional<RigElement> support_element(const Rig& rig) {
+inline std::optional<RigElement> support_element(const Support& support, const ChainUnits& units) {
     using S = Wide<double>;
-    const Support& support = rig.support();
     if (support.is_firm()) return std::nullopt;
-    const ChainUnits units = rig.chain().units();
     const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
     if (!(isfinite(stiffness) && stiffness.high > 0))
         detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length",
@@ -60,5 +58,28 @@ inline std::optional<RigElement> support_element(const Rig& rig) {
     spring.error.stiffness = 2 * operation_error<S>() * stiffness.high;
     return spring;
 }
+
+/// What holds the lower end of a chain, too, and pulls it straight.
+struct LowerEnd {
+    Support support{};         ///< on the axis
+    Wide<double> tension{};    ///< at this end, in the unit of the weights
+    double tension_error = 0;  ///< bound on its absolute error
+    bool weightless = false;   ///< whether no weight adds to the tension on the way up
+
+    /// A link of this length under the tension: its own weight, and what hangs below, bear on it
+    /// besides.
+    /// Throws InvalidArgument where the tension is beyond the range of the weights.
+    RigElement pulled(RigElement e, double length, const ChainUnits& units) const {
+        using S = Wide<double>;
+        const S pull = ldexp(tension, -units.weight_exponent) / S(std::ldexp(length, -units.length_exponent));
+        if (!(pull.high > 0x1p-800 && pull.high < 0x1p800))
+            detail::throw_invalid("Held", "tension is too far from the weight", tension.high);
+        if (weightless) e.stiffness = S(0.0), e.error.stiffness = 0;
+        const double error = e.error.stiffness + tension_error / tension.high * pull.high;
+        e.stiffness = e.stiffness + pull;
+        e.error.stiffness = 1.01 * error + 4 * operation_error<S>() * e.stiffness.high;
+        return e;
+    }
+};
 
 }  // namespace revchain

@@ -21,7 +21,9 @@ struct MasslessForm {
 /// stands, and mass [lower cross; cross upper]; on top a support that yields, a massless element of its stiffness with
 /// the carriage at its lower pin. Weights in units of 2^weight_exponent, lengths of 2^length_exponent.
 ///
-/// Lowest links without weight, inertia or momentum, and with none below, follow the rest anyhow and are left out.
+/// Lowest links without weight, inertia or momentum, and with none below, follow the rest anyhow
+/// and are left out. Where the lower end is held, too, the ground of the pencil is its spring or,
+/// if it is firm, the lowest link.
 ///
 /// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else with
 /// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
@@ -36,7 +38,7 @@ struct RigPencil {
     Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
     bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
     MasslessForm massless;    ///< K, or with momentum G, on the motions that carry no inertia
-    Index idle = 0;           ///< lowest links left out: nothing on them bears, spins or moves
+    Index idle = 0;           ///< lowest pins left out: of links where nothing bears, spins or moves, or a firm end
 };
 
 namespace detail {
@@ -60,9 +62,11 @@ inline HeldPins held_by(const Rig& rig, Index m) {
     return h == 0 ? HeldPins::upper : h == link.length ? HeldPins::lower : HeldPins::one;
 }
 
-/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c is an element's
-/// stiffness or, in a quadratic family, its spin. Coordinates are eliminated by intervals, from the free end up.
-inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held) {
+/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c
+/// is an element's stiffness or, in a quadratic family, its spin. Coordinates are eliminated by
+/// intervals, from the lower end up. `free`: whether the lowest pin moves.
+inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held,
+                                  bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -78,10 +82,9 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
         else
             form.certain = form.certain && pivot.positive();
     };
-    I below;           // the form of all pins passed, carried to this one
-    bool free = true;  // whether this pin moves unnoticed
+    I below;  // the form of all pins passed, carried to this one, which moves unnoticed if it is `free`
     // Where every pin has inertia, which is nearly always, there is no such motion.
-    bool at_liberty = true, plain = true;
+    bool at_liberty = free, plain = true;
     for (const HeldPins each : held) {
         plain =
             plain && each != HeldPins::one && !(at_liberty && (each == HeldPins::nothing || each == HeldPins::upper));
@@ -154,10 +157,14 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
     return elements;
 }
 
-/// The pencil of a rig; every number with a bound on its error, from the sizes of the terms that `rig_links` adds.
-/// Cost O(N). Throws InvalidArgument as rig_links does, and unless gravity > 0.
-inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity) {
+/// The pencil of a rig, or of one whose lower end is held, too: no link of that stands, spins or is
+/// in a fluid. Every number has a bound on its error, from the sizes of the terms that `rig_links`
+/// adds. Cost O(N). Throws InvalidArgument as rig_links does, unless gravity > 0, and for a
+/// stiffness or a tension beyond the range of weights.
+inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
+                            const std::optional<LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;
+    using detail::HeldPins;
     detail::require_positive("rig_pencil", "gravity", gravity);
     const std::vector<RigElement> links = rig_elements(rig);
     RigPencil result;
@@ -166,9 +173,10 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
     result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = true;
     result.not_positive = 0;
-    std::vector<detail::HeldPins> held;
-    const auto add = [&](const RigElement& e, bool mass_not_negative) {
+    std::vector<HeldPins> held;
+    const auto add = [&](const RigElement& e, HeldPins pins, bool mass_not_negative) {
         result.pencil.elements.push_back(e);
+        held.push_back(pins);
         const double k = static_cast<double>(e.stiffness), off = e.error.stiffness;
         const bool neutral = k == 0 && off == 0;
         result.stiffness_positive = result.stiffness_positive && k > off;
@@ -176,8 +184,14 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         result.not_positive += k > 0 ? 0 : 1, result.neutral += neutral ? 1 : 0;
         result.mass_not_negative = result.mass_not_negative && mass_not_negative;
     };
+    if (lower_end)
+        if (auto spring = support_element(lower_end->support, result.units)) {
+            std::swap(spring->lower, spring->upper);
+            add(*spring, lower_end->support.carriage_weight > 0 ? HeldPins::upper : HeldPins::nothing, true);
+        }
     for (Index m = 0; m < rig.size(); ++m) {
         RigElement e = links[static_cast<std::size_t>(m)];
+        if (lower_end) e = lower_end->pulled(e, rig.chain().length()[m], result.units);
         if (result.pencil.elements.empty() && detail::is_nothing(e)) {
             ++result.idle;
             continue;
@@ -185,14 +199,16 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         e.spin = e.spin * result.pace, e.error.spin *= result.pace.high;
         const bool plain =
             rig.flywheel(m).axial_moment.high == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
-        add(e, plain || detail::is_not_negative(e));
-        held.push_back(detail::held_by(rig, m));
+        add(e, detail::held_by(rig, m), plain || detail::is_not_negative(e));
     }
-    if (const auto support = support_element(rig)) {
-        add(*support, true);
-        held.push_back(rig.support().carriage_weight > 0 ? detail::HeldPins::lower : detail::HeldPins::nothing);
+    if (const auto spring = support_element(rig.support(), result.units))
+        add(*spring, rig.support().carriage_weight > 0 ? HeldPins::lower : HeldPins::nothing, true);
+    result.massless = detail::massless_form(result.pencil, held, !lower_end);
+    if (lower_end) {
+        result.pencil.ground = result.pencil.elements.front();
+        result.pencil.elements.erase(result.pencil.elements.begin());
+        result.idle = lower_end->support.is_firm() ? 1 : 0;
     }
-    result.massless = detail::massless_form(result.pencil, held);
     return result;
 }
 

@@ -14,26 +14,6 @@
 /// The roots of a rig's pencil in each sense of rotation, by number.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The roots of one sense: by counts, which are proved without any root being found.
-struct CountedSense {
-    CountedRoots roots;
-    CountedRoots::Available available;
-};
-
-/// Heights above 0 of a rig without momentum; K > 0 or M >= 0.
-inline CountedSense counted_heights(const RigPencil& rig) {
-    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K - mu M, mu = 1/h,
-    // are these and besides as many as K has.
-    const Index before = rig.stiffness_positive ? 0 : rig.not_positive, size = rig.pencil.size();
-    CountedRoots roots(rig.pencil, rig.pace, -before, 1, 1);
-    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the signs of K.
-    const MasslessForm& form = rig.massless;
-    const bool ranked = rig.mass_not_negative && form.certain && form.zero == 0;
-    const auto available =
-        ranked ? CountedRoots::Available{size - form.size + form.negative - before, true} : roots.available();
-    return {std::move(roots), available};
-}
-
 /// Heights below 0, under the same conditions; nothing where there are none.
 inline std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     const Index size = rig.pencil.size();
@@ -116,25 +96,11 @@ class RigRoots {
         return sense.roots.certified(x);
     }
 
-    /// How many modes of a sense have a larger x. Throws InvalidArgument where that is not proved. A root within 2^20
-    /// roundings of x counts as equal to it, not as larger. Numbers beyond 2^-400 and 2^400 units of length are taken
-    /// as those limits. `place` and `value` are for the message.
+    /// How many modes of a sense have a larger x, as `number_above` says.
     Index above(const RigWord& x, bool forward, std::string_view place, double value) const {
         if (rig_.pencil.size() == 0) return 0;
-        const RigWord least(std::ldexp(1.0, has_momentum() ? -200 : -400)), most = RigWord(1.0) / least;
-        if (!spectrum_ && !(x > least)) {
-            const auto& available = senses_[forward ? 0 : 1].available;
-            if (available.proved) return available.count;
-        }
-        RigWord at = std::min(std::max(x, least), most);
-        for (const double tie : {0.0, operation_error<RigWord>() * 0x1p20}) {
-            at = at + at * RigWord(tie);
-            if (const auto found = count(at, forward); found.proved) return found.above;
-        }
-        throw_invalid(place,
-                      "rounding leaves in doubt how many whirl speeds of this rig lie below it; use one "
-                      "a little beside it",
-                      value);
+        if (!spectrum_) return senses_[forward ? 0 : 1].above(x, place, value);
+        return number_above(x, has_momentum(), place, value, [&](const RigWord& at) { return count(at, forward); });
     }
 
    private:

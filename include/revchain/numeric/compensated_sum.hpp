@@ -15,7 +15,8 @@ struct CompensatedSum {
     S value() const { return high; }
 };
 
-/// Sum of double words in three words.
+/// Sum of n double words of any sign in three words. Its error is one rounding, and (2 n u)^3/2 of their
+/// sizes, u that of one word.
 template <std::floating_point T>
 struct CompensatedSum<DoubleWord<T>> {
     T high{}, middle{}, low{};
@@ -27,7 +28,7 @@ struct CompensatedSum<DoubleWord<T>> {
         middle = both.high;
         low += both.low + second.low;
     }
-    DoubleWord<T> value() const { return DoubleWord<T>(high, middle) + DoubleWord<T>(low); }
+    DoubleWord<T> value() const { return two_sum(high, middle) + DoubleWord<T>(low); }
 };
 
 /// Sum of numbers, or of packs lane by lane, in two words: the second is the sum of the rounding errors of the first.

@@ -159,6 +159,9 @@ template <class S>
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
     std::vector<Element<S, Spins, OwnErrors>> elements;
+    /// With own errors: the element below the lowest pin, if it holds that pin to one that does not move; else the
+    /// lowest pin is free.
+    std::optional<Element<S, Spins, OwnErrors>> ground{};
     bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s; with own errors spins may be 0, and L = x k
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
@@ -188,6 +191,7 @@ struct ElementPencil {
     ElementPencil reversed() const {
         ElementPencil other = *this;
         for (auto& e : other.elements) e.spin = -e.spin;
+        if (other.ground) other.ground->spin = -other.ground->spin;
         return other;
     }
 };
@@ -202,12 +206,16 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
         return wide;
     } else {
         ElementPencil<T, Spins, OwnErrors> pencil;
+        const auto narrow = [](const Element<S, Spins, OwnErrors>& e) {
+            Element<T, Spins, OwnErrors> result{static_cast<T>(e.stiffness), static_cast<T>(e.lower),
+                                                static_cast<T>(e.upper),     static_cast<T>(e.cross),
+                                                static_cast<T>(e.turning),   static_cast<T>(e.weight)};
+            if constexpr (Spins) result.spin = static_cast<T>(e.spin);
+            return result;
+        };
         pencil.elements.reserve(wide.elements.size());
-        for (const auto& e : wide.elements) {
-            pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
-                                       static_cast<T>(e.cross), static_cast<T>(e.turning), static_cast<T>(e.weight)});
-            if constexpr (Spins) pencil.elements.back().spin = static_cast<T>(e.spin);
-        }
+        for (const auto& e : wide.elements) pencil.elements.push_back(narrow(e));
+        if (wide.ground) pencil.ground = narrow(*wide.ground);
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
@@ -223,11 +231,12 @@ bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// The same family with small relative errors. Returns nothing if the error of a number exceeds 1e-20 of its size.
-/// Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether the family is quadratic.
+/// The same family with small relative errors. Returns nothing if the error of a number exceeds 1e-20 of its size, or
+/// the lowest pin is held. Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether the family is quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;
+    if (pencil.ground) return std::nullopt;
     using M = Narrow<S>;
     const S zero(M(0));
     ElementPencil<S, Spins> result;

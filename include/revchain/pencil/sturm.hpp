@@ -24,7 +24,11 @@ template <class Carry, class Pencil, class X, std::size_t L>
 [[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil, const std::array<X, L>& shifts) {
     std::array<typename Carry::Shift, L> at;
     std::array<typename Carry::State, L> state{};
-    for (std::size_t i = 0; i < L; ++i) at[i] = carry.at(shifts[i]);
+    for (std::size_t i = 0; i < L; ++i) {
+        at[i] = carry.at(shifts[i]);
+        if constexpr (!Carry::in_units)
+            if (pencil.ground) carry.begin(*pencil.ground, at[i], state[i]);
+    }
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
         if constexpr (Carry::in_units)
@@ -63,6 +67,9 @@ struct PlainCarry {
     static void change_unit(State& state, int step) {
         using std::ldexp;
         state.below = ldexp(state.below, step);
+    }
+    [[gnu::always_inline]] static void begin(const auto& ground, const Shift& at, State& state) {
+        state.below = ground.stiffness_at(at) - V(ground.upper);
     }
     [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at, State& state) const {
         const V stiffness = e.stiffness_at(at);
@@ -238,17 +245,24 @@ class BoundedCarry<SignedPencil<S>> {
         return {size_of(e.stiffness), size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
                 lower * upper + cross * cross};
     }
+    static void begin(const SignedElement<S>& ground, const Shift& shift, State& at) {
+        const M a = shift.stiffness_size, b = shift.spin_size;
+        const M size = a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
+        const ElementError<M>& off = ground.error;
+        at.below = ground.stiffness_at(shift.x) - ground.upper;
+        at.error = (M(1) + M(64) * epsilon<M>()) * (a * off.stiffness + b * off.spin + off.upper +
+                                                    M(5) * operation_error<S>() * size + underflow());
+    }
     [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
                                            State& at) const {
         using std::abs;
         const M u = operation_error<S>();
         const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
         const M tiny = M(2) * least_pivot<M>();
-        const M underflow = M(64) * std::numeric_limits<M>::denorm_min();  // of an operation
         const ElementError<M>& off = e.error;
         const S L = e.stiffness_at(shift.x);
         const M a = shift.stiffness_size, b = shift.spin_size, L_size = a * of.stiffness + b * of.spin;
-        const M L_error = (a * off.stiffness + b * off.spin) + M(4) * u * L_size + underflow;
+        const M L_error = (a * off.stiffness + b * off.spin) + M(4) * u * L_size + underflow();
         const S p = at.below + (L - e.lower);
         const M D_size = size_of(at.below), p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
         const M p_rounding = M(3) * u * (D_size + L_size + of.lower);
@@ -267,13 +281,14 @@ class BoundedCarry<SignedPencil<S>> {
             const M roundings =
                 M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
                 M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
-            const M lost = underflow * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
+            const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
             at.error = inflate * (slopes + roundings + lost);
         }
         at.below = next;
     }
 
    private:
+    static M underflow() { return M(64) * std::numeric_limits<M>::denorm_min(); }  // of an operation
     static M size_of(const S& x) {
         using std::abs;
         return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // taken from a rounded number

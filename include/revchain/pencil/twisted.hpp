@@ -150,10 +150,10 @@ struct Twisted {
 /// least) where the mode is largest, and from there the offsets follow outwards by ratios without cancellation.
 /// `rise(m, D)` returns D above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and
 /// the inverse ratio. Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
-/// meets at the lower pin of element m. S is a number, or a pack of numbers or double words with a mode in each lane.
+/// meets at the lower pin of element m; `footing` is D at the lowest pin. S is a number, or a pack of numbers or double words with a mode in each lane.
 template <class S, class Rise, class Sink, class Forces>
 [[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
-                                                 const Forces& forces) {
+                                                 const Forces& forces, const S& footing = S{}) {
     using std::abs;
     using V = Narrow<S>;
     using T = Lane<V>;
@@ -161,7 +161,7 @@ template <class S, class Rise, class Sink, class Forces>
     const S zero(V(T(0))), one(V(T(1)));
     Twisted<S> result{std::vector<S>(n + 1), std::vector<S>(n), std::vector<S>(n), number(n - 1)};
     auto& [offset, down, up, pin] = result;
-    S below = zero, above = zero;
+    S below = footing, above = zero;
     for (std::size_t m = 0; m < n; ++m) {
         offset[m] = below;  // D, for now
         const Across<S> across = rise(m, below);
@@ -210,14 +210,17 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
         above = detail::rescaled(above, -pencil.step_down(m + 1));
         return detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
     };
-    const auto meeting = [&](std::size_t m, const S& mass) {
-        return abs(static_cast<T>(elements[m].stiffness_at(x))) + abs(static_cast<T>(mass));
+    const auto meeting = [&](const auto& e, const S& mass) {
+        return abs(static_cast<T>(e.stiffness_at(x))) + abs(static_cast<T>(mass));
     };
     const auto forces = [&](std::size_t m) {
-        const T own = meeting(m, elements[m].lower);
-        return m == 0 ? own : own + detail::rescaled(meeting(m - 1, elements[m - 1].upper), pencil.step_down(m));
+        const T own = meeting(elements[m], elements[m].lower);
+        if (m == 0) return pencil.ground ? own + meeting(*pencil.ground, pencil.ground->upper) : own;
+        const auto& hung = elements[m - 1];
+        return own + detail::rescaled(meeting(hung, hung.upper), pencil.step_down(m));
     };
-    auto [offset, down, up, pin] = detail::twisted<S>(elements.size(), rise, sink, forces);
+    const S footing = pencil.ground ? S(pencil.ground->stiffness_at(x) - pencil.ground->upper) : S(T(0));
+    auto [offset, down, up, pin] = detail::twisted<S>(elements.size(), rise, sink, forces, footing);
     UnroundedEigenvector<S> result{std::move(offset), S(T(0)), {}};
     for (const S& y : result.offset)
         if (abs(y) > result.largest) result.largest = abs(y);
@@ -293,14 +296,15 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
     const auto offsets = detail::in_one_unit(pencil, offset, 2);
     const S zero(Narrow<S>(0));
     S mass = zero, stiffness = zero, spin = zero;
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const auto& e = pencil.elements[m];
-        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
+    const auto add = [&](const auto& e, const S& lower, const S& upper) {
         const S difference = lower - upper, square = difference * difference;
         mass = mass + mass_form(e, lower, upper);
         stiffness = stiffness + e.stiffness * square;
         if constexpr (Spins) spin = spin + e.spin * square;
-    }
+    };
+    if (pencil.ground) add(*pencil.ground, zero, offsets(0, 0));
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
+        add(pencil.elements[m], offsets(m, static_cast<Index>(m)), offsets(m, static_cast<Index>(m) + 1));
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
@@ -323,23 +327,26 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
     const Factors<S> x = pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
     M largest(0), worst(0), size(0);
     S force(M(0));  // from the link below
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const auto& e = pencil.elements[m];
-        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
-        const S stretch = lower - upper;
+    const auto pass = [&](const auto& e, const S& lower, const S& upper, bool is_ground) {
         S spring = x.stiffness * e.stiffness;
         M stiffness_size = size_of(spring);
         if constexpr (Spins) {
             spring = spring + x.spin * e.spin;
             stiffness_size += size_of(x.spin * e.spin);
         }
-        spring = spring * stretch;
+        spring = spring * (lower - upper);
         const M spring_size = stiffness_size * (size_of(lower) + size_of(upper));
-        worst = std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
-        largest = std::max(largest, size + spring_size + size_of(e.lower * lower) + size_of(e.cross * upper));
+        if (!is_ground) {
+            const M masses = size_of(e.lower * lower) + size_of(e.cross * upper);
+            worst = std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
+            largest = std::max(largest, size + spring_size + masses);
+        }
         force = -spring - (e.cross * lower + e.upper * upper);
         size = spring_size + size_of(e.cross * lower) + size_of(e.upper * upper);
-    }
+    };
+    if (pencil.ground) pass(*pencil.ground, S(M(0)), offsets(0, 0), true);
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
+        pass(pencil.elements[m], offsets(m, static_cast<Index>(m)), offsets(m, static_cast<Index>(m) + 1), false);
     return largest > M(0) ? static_cast<T>(worst / largest) : T(0);
 }
 

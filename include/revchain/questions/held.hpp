@@ -6,8 +6,11 @@
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
+#include "revchain/linear/counted_roots.hpp"
+#include "revchain/linear/rig_shape.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
+#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -64,15 +67,34 @@ inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& he
     return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
 }
 
-/// The straight chain under the tension at its lower end.
-inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held, double gravity) {
-    HeldBy by = held.by();
-    const Wide<double> lower = lower_tension(place, held, gravity);
-    if (by.weightless)  // in masses times gravity
-        for (Support* end : {&by.lower, &by.upper})
-            if (!end->is_firm()) end->stiffness = end->stiffness / Wide<double>(gravity);
-    return {held.system(), lower, by.weightless, {by.lower, by.upper, {}}};
-}
+/// A straight chain under a tension, and the counts of its modes.
+struct TautChain {
+    RigPencil pencil;
+    CountedSense heights;
+
+    TautChain(std::string_view place, const Held<Chain<double>>& held, double gravity)
+        : pencil(rig_pencil({held.system(), {.support = end(held.by(), held.by().upper, gravity)}},
+                            conical_pendulum::standard_gravity, lower_end(place, held, gravity))),
+          heights(counted_heights(pencil)) {}
+
+    Index mode_count() const { return heights.available.count; }
+    /// How many heights exceed one.
+    Index above(std::string_view place, const Wide<double>& height) const {
+        return heights.above(scaled(height), place, height.high);
+    }
+    Wide<double> scaled(const Wide<double>& height) const { return ldexp(height, -pencil.units.length_exponent); }
+
+   private:
+    /// Without gravity stiffnesses are those of masses, as tensions are.
+    static Support end(const HeldBy& by, Support support, double gravity) {
+        if (by.weightless && !support.is_firm()) support.stiffness = support.stiffness / Wide<double>(gravity);
+        return support;
+    }
+    static LowerEnd lower_end(std::string_view place, const Held<Chain<double>>& held, double gravity) {
+        const auto [tension, error] = lower_tension(place, held, gravity);
+        return {end(held.by(), held.by().lower, gravity), tension, error, held.by().weightless};
+    }
+};
 
 /// The span of what is held, of whose shapes at every speed a question is.
 inline double span_asked(std::string_view place, const HeldBy& by) {
@@ -200,32 +222,52 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held,
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
-                                    const StraightModesOptions& options) {
+                                    const HeldModesOptions& options) {
+    constexpr std::string_view place = "modes";
     detail::check(options);
-    const finite::TautChain taut = detail::taut_chain("modes", held, options.gravity);
-    const auto within = [&](const HeightWindow<double>& window) {
-        return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
-    };
-    const ModeRange range = detail::chosen(taut.mode_count(), options, within, [&](const SpeedWindow<double>& window) {
-        return within(detail::window_of_heights(window, options.gravity));
-    });
-    Modes<double> result = detail::room_for_modes<double>(range);
+    const detail::Threads used(place, options.threads);
+    const detail::TautChain taut(place, held, options.gravity);
+    const detail::CountedRoots& roots = taut.heights.roots;
+    const Index available = taut.mode_count();
+    const ModeRange range = detail::chosen(
+        available, options,
+        [&](const HeightWindow<double>& window) {
+            return detail::modes_within(window, available, [&](double height) { return taut.above(place, height); });
+        },
+        [&](const SpeedWindow<double>& window) {
+            detail::require_positive(place, "gravity", options.gravity);
+            return detail::modes_within(window, available, [&](double speed) {
+                return taut.above(place, finite::height_at_speed(speed, options.gravity));
+            });
+        });
+    Modes<double> result = detail::room_for_modes<double>(range, options.certify);
     result.method = "bisection";
-    for (Index j = 0; j < range.count; ++j) {
-        const double estimate = epsilon<double>();  // of the error: rounding in the counts is not bounded
-        detail::set_height(result, j, taut.height(range.first - 1 + j), estimate, 0, options.rtol);
-        detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
+    std::vector<detail::RigWord> found;
+    if (range.count > 0) {
+        const double length = taut.scaled(held.system().total_length()).high;
+        const auto finished = [&](Index done) {
+            detail::advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
+        };
+        for (const auto& root : detail::refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
+            const auto j = static_cast<Index>(found.size());
+            const double bound = pencil::bound_of_margin<detail::RigWord>(root.margin);
+            detail::set_height(result, j, static_cast<double>(root.x), bound, taut.pencil.units.length_exponent,
+                               options.rtol);
+            if (options.certify)
+                detail::certify(result.certificate, j, result.conical_height[j], bound, range.first - 1 + j, available,
+                                [&](double lower, double upper) {
+                                    return std::array{roots.certified(taut.scaled(lower)),
+                                                      roots.certified(taut.scaled(upper))};
+                                });
+            found.push_back(root.x);
+        }
     }
-    detail::ShapesBehind::of(result) =
-        detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
-                                           Index first, Index count, bool, Progress* progress) {
-            detail::ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};
+    detail::ShapesBehind::of(result) = detail::LazyModeShapes<double>(
+        [shape = detail::RigShape(held.system(), taut.pencil.idle, roots.pencil()), found = std::move(found)](
+            Index first, Index count, bool details, Progress* progress) {
+            auto shapes = detail::room_for_shapes(shape.chain(), count, details);
             for (Index j = 0; j < count; ++j) {
-                const double height = heights[first + j];
-                const Vector<double> offset = taut.shape(height);
-                shapes.offset.row(j) = offset.transpose();
-                shapes.residual[j] = taut.residual(height, offset);
-                shapes.nodes.push_back(taut.nodes(offset));
+                shape.find(shapes, j, found[static_cast<std::size_t>(first + j)]);
                 detail::advance(progress, 1.0);  // may be cancelled
             }
             return shapes;
@@ -234,7 +276,11 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
 }
 
 REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
-    return detail::taut_chain("count_modes", held, options.gravity).above(detail::height_given("count_modes", options));
+    constexpr std::string_view place = "count_modes";
+    const double height = detail::height_given(place, options);
+    return detail::TautChain(place, held, options.gravity)
+        .above(place, options.conical_height ? Wide<double>(height)
+                                             : finite::height_at_speed(*options.angular_speed, options.gravity));
 }
 
 }  // namespace revchain

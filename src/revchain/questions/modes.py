@@ -154,8 +154,8 @@ def modes(
     Proved counts of the exact heights decide which modes lie in a window: adjacent windows share no mode and miss none.
     A height just above `low` may be rounded to it.
 
-    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, proved by counts; for a held chain 1 ulp, an
-    estimate). Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N) time and
+    Accuracy: ``error_bound`` is the relative error bound (2 ulp by default, for a held chain 1 ulp, proved by counts).
+    Cost: bisection takes O(N) for each halving, about 50 halvings for each mode; shapes take O(N) time and
     memory for each mode, when they are read. Other Python threads can run meanwhile. For a rig whose speeds may be complex
     all speeds are found, in 0.3 microseconds times the square of the number of links: 5000 links in 7 s.
 
@@ -308,15 +308,19 @@ def _of_cord_or_held(
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     if not isinstance(system, Held):
         raise no_system(place, system)
+    certify = asked["certify"]
+    if isinstance(system.system, Chain):
+        asked = asked | {"certify": False}
     _refuse(place, asked, "is for a Chain that hangs")
     core, most = straight(place, system, gravity), system.mode_count
     if most is None and count == "all":
         raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
     default = 10 if most is None else max(min(10, most - first + 1), 1)
     wanted = None if heights or speeds else count_of(place, count, default, each=24)
-    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress, gravity)
-    if most is None:
-        return CordModes._made(of_held, system=system, gravity=gravity, rtol=rtol)
+    if isinstance(core, _core.HeldCord):
+        of_cord = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress, gravity)
+        return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
+    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, certify, progress, gravity)
     return Modes._made(of_held, system=system, gravity=gravity, precision="double", rtol=rtol)
 
 

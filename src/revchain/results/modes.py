@@ -148,7 +148,7 @@ class Modes(Result, Moving):
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
-        "cords it is checked by measurement, and for a chain held at both ends it is an estimate.",
+        "cords it is checked by measurement.",
         part=True,
     )
     conical_height_low: Field[Floats | None] = Field(
@@ -327,17 +327,14 @@ class Modes(Result, Moving):
         if not len(self):
             none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
-        if isinstance(self.system, Held):
-            return self._again_held()
-        method = self.method if self.method in _core.METHODS else "auto"
         first, certified = int(self.number[0]), self.certificate is not None
+        if isinstance(self.system, Held):
+            held = self.system._under(self.gravity)
+            return _core.held_modes(held, first, len(self), None, None, self.rtol, certified, None, self.gravity)
+        method = self.method if self.method in _core.METHODS else "auto"
         return _core.modes(
             self.system._compiled, first, len(self), None, None, self.rtol, certified, self.precision, method
         )
-
-    def _again_held(self) -> Any:
-        held = self.system._under(self.gravity)
-        return _core.held_modes(held, int(self.number[0]), len(self), None, None, self.rtol, None, self.gravity)
 
     def _which(self) -> str:
         """Text with the number of modes out of all, or with their numbers if they are not the slowest."""
@@ -357,12 +354,8 @@ class Modes(Result, Moving):
             Column("period", self.period, "period (s)"),
             Column("speed_error_bound", self.speed_error_bound),
             Column("conical_height", self.conical_height, "height (m)", 9),
-            Column("error_bound", self.error_bound, self._error),
+            Column("error_bound", self.error_bound, "error bound"),
         ]
-
-    @property
-    def _error(self) -> str:
-        return "error estimate" if isinstance(self.system, Held) else "error bound"
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         """Columns of the shapes; with `brief`, nodes only if they are known or cheap."""
@@ -380,7 +373,7 @@ class Modes(Result, Moving):
         return f"{which} of a {system[0].lower()}{system[1:]}: by {self.method}, {self.status.replace('_', ' ')}"
 
     def _note(self) -> str:
-        return f"gravity {self.gravity:.6g} m/s^2; {self._error}: relative, of the conical height"
+        return f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]
@@ -810,9 +803,11 @@ class CordModes(Modes):
         if not len(self):
             none = lambda arc: np.empty((0, len(arc)))  # noqa: E731
             return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
+        first = int(self.number[0])
         if isinstance(self.system, Held):
-            return self._again_held()
-        return _core.cord_modes(self.system._compiled, int(self.number[0]), len(self), None, None, self.rtol)
+            held = self.system._under(self.gravity)
+            return _core.held_modes(held, first, len(self), None, None, self.rtol, None, self.gravity)
+        return _core.cord_modes(self.system._compiled, first, len(self), None, None, self.rtol)
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         nodes = self._node_column()

@@ -41,7 +41,7 @@ class Tuned(Result):
         part=True,
     )
     error_bound: Field[float | None] = Field(
-        "Proved bound of the absolute error of `value`; for cords and held systems an estimate, as the bounds of their modes "
+        "Proved bound of the absolute error of `value`; for cords an estimate, as the bounds of their modes "
         "are. None if no value was found, and for stiffness, momentum and spin of a rig, which are computed to 1e-15; the "
         "bound of the new rig's speed is then proved.",
         part=True,

@@ -154,12 +154,10 @@ class Held(System):
         """
         if not isinstance(self.system, Chain):
             return None
-        if self.is_firm or self.tension is None:
-            return max(self.system.mode_count - 1, 0)
         force = 2.0 * self.system._compiled.total_weight  # any tension has as many
-        ends = self._ends(STANDARD_GRAVITY)
+        ends = self._ends(STANDARD_GRAVITY) if self.tension is not None else (_FIRM, _FIRM)
         taut = _core.Held(self.system._compiled, None, (force, 1.0), False, *ends)
-        return int(_core.count_held_modes(taut, np.asarray(1e-100 * self.length), STANDARD_GRAVITY))
+        return int(_core.count_held_modes(taut, np.asarray(5e-324), STANDARD_GRAVITY))
 
     @property
     def by_mass(self) -> bool:  # type: ignore[override]
@@ -248,6 +246,7 @@ class Held(System):
 
 
 _End = tuple[float, float, float, float]
+_FIRM = (math.inf, 1.0, 0.0, 0.0)
 
 
 def _checked(place: str, end: Support, held: Held) -> Support:

@@ -4,7 +4,8 @@
 #include "revchain/finite/held/proof.hpp"
 #include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
-#include "revchain/finite/held/taut.hpp"
+#include "revchain/finite/held/supports.hpp"
+#include "revchain/linear/counted_roots.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -26,7 +27,7 @@ class HeldChain {
     using S = Wide<double>;
 
     explicit HeldChain(const Chain<double>& chain, const HeldSupports& supports = {})
-        : wide_(links_of(chain)), links_(rounded<double>(wide_.links)), supports_(supports) {
+        : chain_(chain), wide_(links_of(chain)), links_(rounded<double>(wide_.links)), supports_(supports) {
         for (const Link<S>& link : wide_.links)
             length_ = length_ + link.length, weight_ = weight_ + link.moment + link.rest;
         if (supports.height) supports_.height = ldexp(*supports.height, -wide_.units.length_exponent);
@@ -72,19 +73,25 @@ class HeldChain {
     /// The state with `half_waves` half waves, see `HeldCurve::from_straight`; if there are no mirror images, from the
     /// chain whose lowest link leads outwards, or from the other.
     std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
-        if (half_waves >= static_cast<Index>(links_.size())) return {};
-        const double along = taut_number([&](double x) { return taut_count(links_, 0.0, x); }, half_waves - 1,
-                                         static_cast<double>(weight_ * length_));
-        if (along == 0) return {};
-        const std::vector<double> y = taut_shape(links_, 0.0, along);
-        double short_of = 0;  // by how much the shape of unit pull is shorter than the chain
+        // Nearly straight and without gravity it has the shape y of a mode under a tension of 1, whose height is the
+        // force along the axis.
+        const LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
+        const auto taut = revchain::detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
+        if (half_waves > taut.available.count) return {};
+        const auto guess = static_cast<double>(weight_ * length_);
+        const auto bracket = taut.roots.brackets(half_waves - 1, 1, guess, {}).front();
+        const double along = pencil::between(bracket.lower, bracket.upper);
+        std::vector<double> y{0.0};
+        for (const S& offset : taut.roots.vector(S(along))) y.push_back(static_cast<double>(offset));
+        double short_of = 0;  // by how much the shape y is shorter than the chain
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
+        const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);  // across, of the shape y
         straighten();
         const double across = outwards ? -1 : 1, part = supports_.plain() ? 1 : 0;
         return curve().from_straight(
             static_cast<double>(length_ - span), static_cast<double>(span), height, [&](double slack) {
-                return HeldForces<double>{across * std::sqrt(slack / short_of), along, 0, part};
+                return HeldForces<double>{across * pull * std::sqrt(slack / short_of), along, 0, part};
             });
     }
 
@@ -152,6 +159,7 @@ class HeldChain {
    private:
     void straighten() { kept_.assign(links_.size(), {0.0, 1.0}); }
 
+    Chain<double> chain_;
     Links<S> wide_;
     std::vector<Link<double>> links_;
     HeldSupports supports_;
