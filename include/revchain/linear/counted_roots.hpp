@@ -14,13 +14,15 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 
-/// A root x > 0, and half the width of the proved interval about what is given out for it, relative to that.
+/// A root x > 0, and half the width of the proved interval about what is given out for it, relative
+/// to that.
 struct FoundRoot {
     RigWord x{};
     double margin = std::numeric_limits<double>::infinity();
 };
 
-/// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues of Q) exceed x.
+/// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues
+/// of Q) exceed x.
 class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
@@ -47,8 +49,8 @@ class CountedRoots {
         Index count = 0;
         bool proved = false;
     };
-    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no doubt, at 1e-120 of
-    /// the length where what has no mass has none at all.
+    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no
+    /// doubt, at 1e-120 of the length where what has no mass has none at all.
     Available available() const {
         if (const auto count = counted<1>({RigWord(0.0)}); count[0].proved) return {count[0].above, true};
         const int start = pencil_.quadratic ? -200 : -400;
@@ -59,7 +61,8 @@ class CountedRoots {
         return found;
     }
 
-    /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
+    /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called
+    /// after every pass.
     std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
                                                   const std::function<void(Index)>& finished) const {
         const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
@@ -103,7 +106,8 @@ class CountedRoots {
         return result;
     }
 
-    /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a height.
+    /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a
+    /// height.
     RigWord given_out(const RigWord& x) const {
         return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
     }
@@ -117,9 +121,10 @@ class CountedRoots {
 /// Roots below this number, and above one over it, are not looked for.
 inline RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// How many roots exceed x, by the proved counts `count(x)`. A root within 2^20 roundings of x counts as equal to it,
-/// not as larger. Numbers beyond `least_root` and one over it are taken as those limits. Throws InvalidArgument where
-/// the number is not proved; `place` and `value` are for the message.
+/// How many roots exceed x, by the proved counts `count(x)`. A root within 2^20 roundings of x
+/// counts as equal to it, not as larger. Numbers beyond `least_root` and one over it are taken as
+/// those limits. Throws InvalidArgument where the number is not proved; `place` and `value` are for
+/// the message.
 template <class Count>
 Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value, const Count& count) {
     const RigWord least = least_root(quadratic);
@@ -149,11 +154,12 @@ struct CountedSense {
 
 /// Heights above 0 of a rig without momentum; K > 0 or M >= 0.
 inline CountedSense counted_heights(const RigPencil& rig) {
-    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K - mu M, mu = 1/h,
-    // are these and besides as many as K has.
+    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K
+    // - mu M, mu = 1/h, are these and besides as many as K has.
     const Index before = rig.stiffness_positive ? 0 : rig.not_positive, size = rig.pencil.size();
     CountedRoots roots(rig.pencil, rig.pace, -before, 1, 1);
-    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the signs of K.
+    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the
+    // signs of K.
     const MasslessForm& form = rig.massless;
     const bool ranked = rig.mass_not_negative && form.certain && form.zero == 0;
     const auto available =
@@ -161,7 +167,8 @@ inline CountedSense counted_heights(const RigPencil& rig) {
     return {std::move(roots), available};
 }
 
-/// The roots number `first` ... of a sense, one by one; `bracketed(done)` and `finished(done)` are told how many are.
+/// The roots number `first` ... of a sense, one by one; `bracketed(done)` and `finished(done)` are
+/// told how many are.
 inline std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
                                             const std::function<void(Index)>& bracketed,
                                             const std::function<void(Index)>& finished) {

@@ -50,16 +50,16 @@ inline DrivenChain driven_chain(const Rig& rig) {
         elements.push_back(element);
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig.support(), result.units))
-        elements.push_back(*support), result.end = 0;
+    if (const auto support = support_element(rig.support(), result.units)) elements.push_back(*support), result.end = 0;
     return result;
 }
 
 /// Beside rounding an offset to double.
 inline bool is_negligible(const pencil::Driven& found) { return found.error_bound <= 0x1p-56; }
 
-/// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not negligible beside rounding.
-/// `put(row, which, offset)`, and then `take(row, found)` for each, on several threads.
+/// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not
+/// negligible beside rounding. `put(row, which, offset)`, and then `take(row, found)` for each, on
+/// several threads.
 template <class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
                      const Put& put, const Take& take, Progress* progress) {

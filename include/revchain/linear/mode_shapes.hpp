@@ -23,8 +23,8 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in the pencil's scalar;
-/// `height` in the pencil's unit.
+/// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in
+/// the pencil's scalar; `height` in the pencil's unit.
 template <Real T, Real S>
 void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil,
                const T& height, const pencil::Eigenvector<T>& vector) {
@@ -34,46 +34,49 @@ void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const penc
     shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
 }
 
-/// Shapes of the modes that `shapes` has room for, eight at a time, and their residuals if there is room for those.
-/// Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` tells a mode's root, `alone(j)` finds
-/// a shape that lanes cannot, and `take(j, found, lane)` whatever else is wanted of the others.
+/// Shapes of the modes that `shapes` has room for, eight at a time, and their residuals if there is
+/// room for those. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)`
+/// tells a mode's root, `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)`
+/// whatever else is wanted of the others.
 template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
 void shapes_in_eights(ModeShapes<T>& shapes, const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
                       const Root& root, const Alone& alone, const Take& take, Progress* progress) {
     const FloatingPointStateGuard quiet;
     const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
     const auto stride = static_cast<std::size_t>(shapes.offset.cols()), pins = stride - static_cast<std::size_t>(idle);
-    pencil::for_eights<T>(
-        static_cast<std::size_t>(shapes.offset.rows()), pencil.elements.size(),
-        [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-            pencil::RootsInLanes<T> roots;
-            for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-                root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i], roots.rounded[i]);
-            pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
-            found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
-            for (std::size_t i = 0; i < there; ++i) {
-                const auto j = static_cast<Index>(first + i);
-                if (found.found[i]) {
-                    if (details) shapes.residual[j] = found.residual[i];
-                    take(j, found, i);
-                } else {
-                    alone(j);
-                }
-                advance(progress, 1.0);  // may be cancelled
-            }
-        });
+    pencil::for_eights<T>(static_cast<std::size_t>(shapes.offset.rows()), pencil.elements.size(),
+                          [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+                              pencil::RootsInLanes<T> roots;
+                              for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
+                                  root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i],
+                                       roots.rounded[i]);
+                              pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
+                              found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
+                              for (std::size_t i = 0; i < there; ++i) {
+                                  const auto j = static_cast<Index>(first + i);
+                                  if (found.found[i]) {
+                                      if (details) shapes.residual[j] = found.residual[i];
+                                      take(j, found, i);
+                                  } else {
+                                      alone(j);
+                                  }
+                                  advance(progress, 1.0);  // may be cancelled
+                              }
+                          });
 }
 
 /// Finds shapes of some modes of a chain, from heights in the units of its pencils.
 template <Real T>
 class ShapeFinder {
    public:
-    /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else shapes are found in
-    /// `Wide<T>` at the height before it was rounded. `condense`: whether a long chain may be condensed first.
+    /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else
+    /// shapes are found in `Wide<T>` at the height before it was rounded. `condense`: whether a
+    /// long chain may be condensed first.
     ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
         : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
 
-    /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals and nodes.
+    /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals
+    /// and nodes.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
         const auto begin = height_.begin() + from;

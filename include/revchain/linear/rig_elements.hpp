@@ -8,22 +8,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A link of a rig, or what yields at its support: stiffness at rest, and momentum over the square of the length as
-/// `spin`: times a speed it is stiffness.
+/// A link of a rig, or what yields at its support: stiffness at rest, and momentum over the square
+/// of the length as `spin`: times a speed it is stiffness.
 using RigElement = pencil::SignedElement<Wide<double>>;
-
-/// An element of a chain, whose numbers have small relative errors, with errors of its own.
-inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
-    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
-                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
-                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
-}
 
 /// One link: stiffness and spin negative where it stands.
 inline RigElement rig_element(const detail::RigLink& link, bool stands) {
     constexpr double part = detail::RigLink::error_part;
-    RigElement e = RigElement::of(link.tension / link.length, link.spin / link.length, link.lower,
-                                  link.upper, link.cross);
+    RigElement e =
+        RigElement::of(link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross);
     if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
     e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,
                part * link.size.upper, part * link.size.cross};
@@ -32,8 +25,15 @@ inline RigElement rig_element(const detail::RigLink& link, bool stands) {
 
 namespace detail {
 
-/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with none below, hang
-/// along with the rest: no equation holds them.
+/// An element of a chain, whose numbers have small relative errors, with errors of its own.
+inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
+    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
+                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
+                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
+}
+
+/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with
+/// none below, hang along with the rest: no equation holds them.
 inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
     const auto& off = e.error;
@@ -59,6 +59,8 @@ inline std::optional<RigElement> support_element(const Support& support, const C
     return spring;
 }
 
+namespace detail {
+
 /// What holds the lower end of a chain, too, and pulls it straight.
 struct LowerEnd {
     Support support{};         ///< on the axis
@@ -81,5 +83,7 @@ struct LowerEnd {
         return e;
     }
 };
+
+}  // namespace detail
 
 }  // namespace revchain

@@ -17,16 +17,17 @@ struct MasslessForm {
     bool certain = true;  ///< whether rounding leaves no doubt of any sign
 };
 
-/// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length, sign -1 where it
-/// stands, and mass [lower cross; cross upper]; on top a support that yields, a massless element of its stiffness with
-/// the carriage at its lower pin. Weights in units of 2^weight_exponent, lengths of 2^length_exponent.
+/// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length,
+/// sign -1 where it stands, and mass [lower cross; cross upper]; on top a support that yields, a
+/// massless element of its stiffness with the carriage at its lower pin. Weights in units of
+/// 2^weight_exponent, lengths of 2^length_exponent.
 ///
 /// Lowest links without weight, inertia or momentum, and with none below, follow the rest anyhow
 /// and are left out. Where the lower end is held, too, the ground of the pencil is its spring or,
 /// if it is firm, the lowest link.
 ///
-/// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else with
-/// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+/// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else
+/// with Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;
@@ -144,14 +145,15 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
     // Links as in a chain, but for momentum.
     using S = Wide<double>;
     const AssembledChain<double> assembled = assemble(rig.chain());
-    for (const auto& e : assembled.pencil.elements) elements.push_back(with_errors(e, assembled.pencil.entry_error));
+    for (const auto& e : assembled.pencil.elements)
+        elements.push_back(detail::with_errors(e, assembled.pencil.entry_error));
     if (rig.has_momentum())
         for (Index m = 0; m < rig.size(); ++m) {
             RigElement& e = elements[static_cast<std::size_t>(m)];
             const S length(std::ldexp(rig.chain().length()[m], -assembled.units.length_exponent));
-            e.spin = ldexp(rig.flywheel(m).momentum,
-                           -assembled.units.weight_exponent - assembled.units.length_exponent) /
-                     (length * length);
+            e.spin =
+                ldexp(rig.flywheel(m).momentum, -assembled.units.weight_exponent - assembled.units.length_exponent) /
+                (length * length);
             e.error.spin = detail::RigLink::error_part * std::abs(e.spin.high);
         }
     return elements;
@@ -162,7 +164,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
 /// adds. Cost O(N). Throws InvalidArgument as rig_links does, unless gravity > 0, and for a
 /// stiffness or a tension beyond the range of weights.
 inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
-                            const std::optional<LowerEnd>& lower_end = {}) {
+                            const std::optional<detail::LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;
     using detail::HeldPins;
     detail::require_positive("rig_pencil", "gravity", gravity);

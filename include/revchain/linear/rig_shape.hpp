@@ -32,13 +32,12 @@ class RigShape {
         complete(shapes, j);
     }
 
-    /// Stores the offsets of idle pins and, where there is room for them, nodes. Links left out hang
-    /// along, but for one that holds the lower end.
+    /// Stores the offsets of idle pins and, where there is room for them, nodes. Links left out
+    /// hang along, but for one that holds the lower end.
     void complete(ModeShapes<double>& shapes, Index j) const {
         auto offset = shapes.offset.row(j);
         offset.head(idle_).setConstant(sense_.ground ? 0.0 : offset[idle_]);
-        if (shapes.residual.size() > 0)
-            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(offset));
+        if (shapes.residual.size() > 0) shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(offset));
     }
 
    private:

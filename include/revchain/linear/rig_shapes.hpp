@@ -12,8 +12,8 @@
 /// The part of `rig_modes` that finds shapes.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Finds shapes of rigged chains from the roots of their modes. `Spins`: of the elements whose shapes are found eight at
-/// a time.
+/// Finds shapes of rigged chains from the roots of their modes. `Spins`: of the elements whose
+/// shapes are found eight at a time.
 template <bool Spins = false>
 class RigShapeFinder {
    public:
@@ -26,7 +26,8 @@ class RigShapeFinder {
           elements_(std::move(elements)),
           roots_(std::move(roots)) {}
 
-    /// Returns the shapes of `count` modes, the first at index `first`, and if asked for residuals and nodes.
+    /// Returns the shapes of `count` modes, the first at index `first`, and if asked for residuals
+    /// and nodes.
     ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
         const Threads used("modes", threads_);
         ModeShapes<double> shapes = room_for_shapes(shape_.chain(), count, details);

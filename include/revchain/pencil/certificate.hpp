@@ -8,7 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// An eigenvalue with a bound on its relative error that is proved by two counts (infinite: nothing could be proved).
+/// An eigenvalue with a bound on its relative error that is proved by two counts (infinite: nothing
+/// could be proved).
 template <Real T>
 struct Certified {
     T eigenvalue{};
@@ -16,13 +17,15 @@ struct Certified {
     Wide<T> unrounded{};  ///< what the eigenvector is computed at
 };
 
-/// Whether counts at the lower and the upper end of an interval prove that eigenvalue number `j` lies between them.
+/// Whether counts at the lower and the upper end of an interval prove that eigenvalue number `j`
+/// lies between them.
 inline bool bracketed(const std::array<CertifiedCount, 2>& count, Index j) {
     return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
 }
 
-/// Whether the root number `j` (from 0, descending) lies within a relative `margin` of `centre`, by proved counts at
-/// both ends of the interval. `count(two shifts)` returns certified counts of the roots above them.
+/// Whether the root number `j` (from 0, descending) lies within a relative `margin` of `centre`, by
+/// proved counts at both ends of the interval. `count(two shifts)` returns certified counts of the
+/// roots above them.
 template <Real S, class Count>
 bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& margin) {
     const S reach = centre * S(margin);
@@ -36,8 +39,8 @@ bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, c
     return root_within(count, j, S(static_cast<Narrow<S>>(eigenvalue)), margin);
 }
 
-/// The error bound that goes with `lies_within`: relative to the exact eigenvalue, and with the roundings of the two
-/// interval ends (in S) and of itself.
+/// The error bound that goes with `lies_within`: relative to the exact eigenvalue, and with the
+/// roundings of the two interval ends (in S) and of itself.
 template <Real S, Real T>
 T bound_of_margin(const T& margin) {
     return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) + T(4) * static_cast<T>(operation_error<S>());
@@ -55,9 +58,9 @@ struct ProvedInterval {
     }
 };
 
-/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as narrow as rounding in
-/// S leaves no count in doubt. Nothing where no interval could be proved. `count(two shifts)` returns certified counts.
-/// Cost: about 60 calls.
+/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as
+/// narrow as rounding in S leaves no count in doubt. Nothing where no interval could be proved.
+/// `count(two shifts)` returns certified counts. Cost: about 60 calls.
 template <Real S, class Count>
 std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess, const Narrow<S>& finest) {
     using M = Narrow<S>;
@@ -84,8 +87,9 @@ std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, co
     return ProvedInterval<S>{lower, upper};
 }
 
-/// Bisection by proved counts alone, from a first guess. The bound is infinite where not even 1/2 can be proved (seen
-/// only where weights span 1e37 and lengths 1e23 together). Used where the fast path's certificate is refused.
+/// Bisection by proved counts alone, from a first guess. The bound is infinite where not even 1/2
+/// can be proved (seen only where weights span 1e37 and lengths 1e23 together). Used where the fast
+/// path's certificate is refused.
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;
@@ -101,13 +105,15 @@ Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& 
     return certified(eigenvalue, bound_of_margin<S>(static_cast<T>(worst)));
 }
 
-/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` that is nearer to it than to any other: the
-/// Rayleigh quotient in S of the vector in T, proved by two counts; where that fails, by counts alone.
+/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` that is nearer to it than to
+/// any other: the Rayleigh quotient in S of the vector in T, proved by two counts; where that
+/// fails, by counts alone.
 template <Real S, Real T>
 Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded, Index j,
                                   const T& start) {
-    // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
-    // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
+    // One round nearly always, two at most: the quotient's error is the square of the vector's.
+    // Where no arithmetic is wider than T, rounding in T limits what two counts can prove: then as
+    // many ulp as it takes, within a factor of 2.
     T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
     T eigenvalue = start;
     S fine(static_cast<Narrow<S>>(start));

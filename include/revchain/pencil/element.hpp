@@ -26,30 +26,32 @@ namespace detail {
 struct Nothing {};
 }  // namespace detail
 
-/// One element between two neighbouring pins (lower, upper) of a family of symmetric matrices in one unknown x,
+/// One element between two neighbouring pins (lower, upper) of a family of symmetric matrices in
+/// one unknown x,
 ///
 ///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s,
 ///
-/// with W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of one another: that keeps
-/// the counts accurate. Elements of a hanging chain have k > 0 and masses that are not negative, small relative errors
-/// for all of the chain, and are linear in the weights: no square of a small one underflows. With `OwnErrors` numbers
-/// may have any sign, and c W takes the place of c: W may be 0.
+/// with W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of one
+/// another: that keeps the counts accurate. Elements of a hanging chain have k > 0 and masses that
+/// are not negative, small relative errors for all of the chain, and are linear in the weights: no
+/// square of a small one underflows. With `OwnErrors` numbers may have any sign, and c W takes the
+/// place of c: W may be 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
     using M = Narrow<S>;
     template <bool Has, class X>
     using If = std::conditional_t<Has, X, detail::Nothing>;
 
-    S stiffness{};                                    ///< k
-    S lower{}, upper{}, cross{};                      ///< A, B, and X, of any sign
-    S turning{};                                      ///< c, what the element resists turning with; or c W
-    std::conditional_t<OwnErrors, S, M> weight{};     ///< W
-    [[no_unique_address]] If<Spins, S> spin{};        ///< s, of any sign
+    S stiffness{};                                 ///< k
+    S lower{}, upper{}, cross{};                   ///< A, B, and X, of any sign
+    S turning{};                                   ///< c, what the element resists turning with; or c W
+    std::conditional_t<OwnErrors, S, M> weight{};  ///< W
+    [[no_unique_address]] If<Spins, S> spin{};     ///< s, of any sign
     [[no_unique_address]] If<OwnErrors, ElementError<M>> error{};
 
     /// From its masses, where these are all there is.
     static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
-                      const ElementError<M>& error = {}) requires(Spins && OwnErrors) {
+                      const ElementError<M>& error = {}) requires(Spins&& OwnErrors) {
         const S weight = (lower + cross) + (cross + upper), determinant = lower * upper - cross * cross;
         return {stiffness, lower, upper, cross, determinant, weight, spin, error};
     }
@@ -110,29 +112,33 @@ struct Element {
 template <Real S>
 using SignedElement = Element<S, true, true>;
 
-/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from `near` at the pin where
-/// it is known to the other, whose own mass is `far`; `inverse` is one over the pivot.
+/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from
+/// `near` at the pin where it is known to the other, whose own mass is `far`; `inverse` is one over
+/// the pivot.
 template <class E, class S>
 [[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near, const S& far,
                                           const S& inverse) {
     return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
-/// This form has one operation less after the division. It is for pencils in one unit, whose products stay in range.
+/// This form has one operation less after the division. It is for pencils in one unit, whose
+/// products stay in range.
 template <class E, class X>
 [[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near, const X& far,
                                                       const X& pivot) {
     return ((stiffness - far) * near - e.resisted(stiffness)) / pivot;
 }
 
-/// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the pivot are small.
+/// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the
+/// pivot are small.
 template <class S>
 [[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling,
                                                       const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
-/// The least size of a pivot: its reciprocal can still be split into two halves for a product of double words.
+/// The least size of a pivot: its reciprocal can still be split into two halves for a product of
+/// double words.
 template <Real M>
 M least_pivot() {
     using std::ldexp;
@@ -140,8 +146,8 @@ M least_pivot() {
     return ldexp(M(1), limits::min_exponent + (limits::digits + 1) / 2 + 3);
 }
 
-/// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue at the shift is not
-/// above it. `size` is that of L.
+/// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue
+/// at the shift is not above it. `size` is that of L.
 template <class S>
 [[gnu::always_inline]] inline S not_zero(const S& pivot, const S& size) {
     using std::abs;
@@ -153,22 +159,23 @@ template <class S>
         return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
-/// A family Q(x) kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once added, lose the
-/// slowest modes. The last element's upper pin is held. Without spins it is the pencil lambda K - M of a hanging chain,
-/// with positive eigenvalues; with spins it has a positive root x for each mode in one sense of rotation.
+/// A family Q(x) kept as its elements, lowest first, never assembled: neighbouring stiffnesses,
+/// once added, lose the slowest modes. The last element's upper pin is held. Without spins it is
+/// the pencil lambda K - M of a hanging chain, with positive eigenvalues; with spins it has a
+/// positive root x for each mode in one sense of rotation.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
     std::vector<Element<S, Spins, OwnErrors>> elements;
-    /// With own errors: the element below the lowest pin, if it holds that pin to one that does not move; else the
-    /// lowest pin is free.
+    /// With own errors: the element below the lowest pin, if it holds that pin to one that does not
+    /// move; else the lowest pin is free.
     std::optional<Element<S, Spins, OwnErrors>> ground{};
     bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s; with own errors spins may be 0, and L = x k
-    /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
-    /// the way up and end at 0. Else empty.
+    /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents
+    /// that never fall on the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// Bound on the error of every number in `elements`, unless they have their own, relative to it and, of the cross
-    /// mass, to |X| + 2 c; besides what underflows: less than `least_pivot` in masses, `stiffness_underflow` in
-    /// stiffnesses.
+    /// Bound on the error of every number in `elements`, unless they have their own, relative to it
+    /// and, of the cross mass, to |X| + 2 c; besides what underflows: less than `least_pivot` in
+    /// masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 
@@ -184,10 +191,11 @@ struct ElementPencil {
         using limits = std::numeric_limits<Narrow<S>>;
         return ldexp(limits::min() * limits::epsilon(), limits::max_exponent / 4 + 2);
     }
-    /// The exponent by which what is carried across pin m from below grows less: in the unit of element m from that of
-    /// m - 1.
+    /// The exponent by which what is carried across pin m from below grows less: in the unit of
+    /// element m from that of m - 1.
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
-    /// Returns the pencil with every spin reversed: its x are those of this pencil with the other sign.
+    /// Returns the pencil with every spin reversed: its x are those of this pencil with the other
+    /// sign.
     ElementPencil reversed() const {
         ElementPencil other = *this;
         for (auto& e : other.elements) e.spin = -e.spin;
@@ -199,7 +207,8 @@ struct ElementPencil {
 template <Real S>
 using SignedPencil = ElementPencil<S, true, true>;
 
-/// Returns the pencil in a narrower scalar, with one more rounding in each entry; errors of their own are left out.
+/// Returns the pencil in a narrower scalar, with one more rounding in each entry; errors of their
+/// own are left out.
 template <Real T, Real S, bool Spins, bool OwnErrors>
 ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErrors>& wide) {
     if constexpr (std::is_same_v<T, S>) {
@@ -231,8 +240,9 @@ bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// The same family with small relative errors. Returns nothing if the error of a number exceeds 1e-20 of its size, or
-/// the lowest pin is held. Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether the family is quadratic.
+/// The same family with small relative errors. Returns nothing if the error of a number exceeds
+/// 1e-20 of its size, or the lowest pin is held. Precondition: every stiffness is positive, and no
+/// mass is negative; `Spins` says whether the family is quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;
@@ -247,8 +257,8 @@ std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& 
     };
     for (const SignedElement<S>& e : pencil.elements) {
         const S turning = e.weight > zero ? e.turning / e.weight : zero;
-        result.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero,
-                                   static_cast<M>(e.weight)});
+        result.elements.push_back(
+            {e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero, static_cast<M>(e.weight)});
         if constexpr (Spins) {
             result.elements.back().spin = e.spin;
             add(e.error.spin, static_cast<M>(abs(e.spin)));

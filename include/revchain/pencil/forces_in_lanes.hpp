@@ -9,7 +9,8 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-/// One pencil at several x at once, a lane each: stiffnesses, and forces left over in twice the digits.
+/// One pencil at several x at once, a lane each: stiffnesses, and forces left over in twice the
+/// digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Whether all elements are point masses at their lower pins.
@@ -22,7 +23,8 @@ bool is_lumped(const ElementPencil<S, Spins>& pencil) {
 
 namespace detail {
 
-/// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own digits.
+/// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own
+/// digits.
 template <class V>
 struct Pair {
     V high{}, low{};
@@ -60,9 +62,9 @@ template <bool Spins, class T>
     return high;
 }
 
-/// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m, force, size, offset,
-/// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much
-/// it exceeds the next one's.
+/// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m,
+/// force, size, offset, stretch)` gets that at pin m, the sum of the sizes of what meets there if
+/// `sized`, the pin's offset, and by how much it exceeds the next one's.
 template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset, class Take>
 [[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {

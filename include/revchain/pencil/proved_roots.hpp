@@ -41,8 +41,8 @@ void for_eights(std::size_t count, std::size_t links, const F& f) {
 /// meet, counts on either side, `certified(x)`, number the others: false where they cannot.
 /// `worst`: how far a root may be off (relative) to count as proved.
 template <std::floating_point T, class Certified>
-bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first,
-           const T& below, const T& above, const T& worst, const Certified& certified) {
+bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first, const T& below, const T& above,
+           const T& worst, const Certified& certified) {
     const T infinity = std::numeric_limits<T>::infinity();
     const std::size_t count = roots.size();
     const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
@@ -100,16 +100,16 @@ std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<Doubl
     return roots;
 }
 
-/// Elements for each mode up to the last one asked for, from which on brackets come from groups: a fifth to a third
-/// faster with 32 to 1000, as fast as without with 10.
+/// Elements for each mode up to the last one asked for, from which on brackets come from groups: a
+/// fifth to a third faster with 32 to 1000, as fast as without with 10.
 inline constexpr Index least_for_groups = 32;
 
 namespace detail {
 
-/// Brackets of a few of many heights from groups of elements, each some three per cent wide. None where groups would be
-/// nearly as many as elements, or too few.
-/// How large groups may be follows from the height of the last mode, which the phase integral estimates (WKB: a few per
-/// cent for like links). A bad estimate costs time, and no more: all is proved later.
+/// Brackets of a few of many heights from groups of elements, each some three per cent wide. None
+/// where groups would be nearly as many as elements, or too few. How large groups may be follows
+/// from the height of the last mode, which the phase integral estimates (WKB: a few per cent for
+/// like links). A bad estimate costs time, and no more: all is proved later.
 template <std::floating_point T>
 std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index first, Index count) {
     using std::sqrt;
@@ -131,8 +131,8 @@ std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index
 
 }  // namespace detail
 
-/// The `count` roots from number `first` on (from 0, descending), of `available`; `counter` has a `count_above` for
-/// `bisect`, `guess` as there; the rest as in `proved_roots`.
+/// The `count` roots from number `first` on (from 0, descending), of `available`; `counter` has a
+/// `count_above` for `bisect`, `guess` as there; the rest as in `proved_roots`.
 template <std::floating_point T, bool Spins, class Counter, class Certified>
 std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                        const Counter& counter, const Certified& certified, Index first,

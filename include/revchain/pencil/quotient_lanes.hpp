@@ -13,8 +13,8 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-/// Roots of several modes at once from Rayleigh quotients of their twisted vectors. A root is a height or, of a pencil
-/// with spins, x.
+/// Roots of several modes at once from Rayleigh quotients of their twisted vectors. A root is a
+/// height or, of a pencil with spins, x.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Roots and how sure they are.
@@ -37,9 +37,10 @@ T positive_root(const T& k, const T& s, const T& m) {
 }
 
 template <class Where, class Terms, bool Spins, class T>
-[[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                     Index first, Bracket<T>* brackets, std::size_t count,
-                                                     ShapesInLanes<T>& s, T* roots) {
+[[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms,
+                                                     const ElementPencil<DoubleWord<T>, Spins>& pencil, Index first,
+                                                     Bracket<T>* brackets, std::size_t count, ShapesInLanes<T>& s,
+                                                     T* roots) {
     using std::abs;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     constexpr T near(0x1p-24), next_near(0x1p-40);
@@ -79,8 +80,8 @@ template <class Where, class Terms, bool Spins, class T>
             const T quotient = Spins ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
             const bool exceeds = static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
             (exceeds ? bracket.lower : bracket.upper) = at;
-            // A step squares the error, times what depends on the pin of the twist: two at one pin tell how small the
-            // next one would be.
+            // A step squares the error, times what depends on the pin of the twist: two at one pin
+            // tell how small the next one would be.
             const T step = abs(quotient - at), shrunk = step / step_before[i];
             const bool same_pin = rounds[i] > 0 && joined.pin[i] == pin_before[i];
             bool done = step <= near * at || (same_pin && step * (shrunk * shrunk) <= next_near * at);
@@ -96,8 +97,9 @@ template <class Where, class Terms, bool Spins, class T>
 }
 
 template <class Where, class Terms, bool Spins, class T>
-[[gnu::always_inline]] inline void quotients_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                      const T& unit, ShapesInLanes<T>& s, QuotientsInLanes<T>& result) {
+[[gnu::always_inline]] inline void quotients_in_lanes(Where, Terms terms,
+                                                      const ElementPencil<DoubleWord<T>, Spins>& pencil, const T& unit,
+                                                      ShapesInLanes<T>& s, QuotientsInLanes<T>& result) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     const T u = epsilon<T>() / T(2);
@@ -135,7 +137,8 @@ template <class Where, class Terms, bool Spins, class T>
             work_size += abs(offset * force);
             work_error += abs(offset) * error;
         });
-    // Each sum has lost less than a 2^-20th part of itself, and `work` less than n + 16 roundings of its terms' sizes.
+    // Each sum has lost less than a 2^-20th part of itself, and `work` less than n + 16 roundings
+    // of its terms' sizes.
     const T slack = T(1) + T(0x1p-20), terms_added = T(pencil.elements.size() + 16);
     for (std::size_t i = 0; i < L; ++i) {
         using std::abs;
@@ -157,9 +160,10 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// From brackets of the roots number `first`, `first` + 1, ... (from 0, descending) to roots of some eleven digits or
-/// more: inverse iteration with Rayleigh quotients, whose counts keep it within the bracket and narrow that.
-/// Cost: 2.5 ns a link and root for each round: three from a factor of two on, two from three per cent.
+/// From brackets of the roots number `first`, `first` + 1, ... (from 0, descending) to roots of
+/// some eleven digits or more: inverse iteration with Rayleigh quotients, whose counts keep it
+/// within the bracket and narrow that. Cost: 2.5 ns a link and root for each round: three from a
+/// factor of two on, two from three per cent.
 template <std::floating_point T, bool Spins>
 std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, Index first,
                           std::vector<Bracket<T>> brackets) {
@@ -182,9 +186,9 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, boo
     return roots;
 }
 
-/// Better roots from `quotients.start`. NaN or infinite where numbers leave the range of T. Preconditions as those of
-/// `shapes_in_lanes`, and every stiffness is positive and every mass not negative; `shapes` is scratch. Cost: 6 ns a
-/// link and root.
+/// Better roots from `quotients.start`. NaN or infinite where numbers leave the range of T.
+/// Preconditions as those of `shapes_in_lanes`, and every stiffness is positive and every mass not
+/// negative; `shapes` is scratch. Cost: 6 ns a link and root.
 template <std::floating_point T, bool Spins>
 void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, ShapesInLanes<T>& shapes,
                         QuotientsInLanes<T>& quotients) {

@@ -12,16 +12,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// How many shifts one pass over the elements serves. The recursion waits on one division per element; eight shifts
-/// fill that wait: in packs they cost what one costs, 7 ns a link.
+/// How many shifts one pass over the elements serves. The recursion waits on one division per
+/// element; eight shifts fill that wait: in packs they cost what one costs, 7 ns a link.
 inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
-/// Carries the dynamic stiffness D of everything below a pin up a string of elements, at several shifts, and counts
-/// negative pivots. `Carry` says how, with or without a bound: what it keeps of a shift, of an element and of D.
+/// Carries the dynamic stiffness D of everything below a pin up a string of elements, at several
+/// shifts, and counts negative pivots. `Carry` says how, with or without a bound: what it keeps of
+/// a shift, of an element and of D.
 template <class Carry, class Pencil, class X, std::size_t L>
-[[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil, const std::array<X, L>& shifts) {
+[[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil,
+                                              const std::array<X, L>& shifts) {
     std::array<typename Carry::Shift, L> at;
     std::array<typename Carry::State, L> state{};
     for (std::size_t i = 0; i < L; ++i) {
@@ -84,15 +86,15 @@ struct PlainCarry {
 
 }  // namespace detail
 
-/// For each shift x, the number of negative eigenvalues of Q(x): of a hanging chain the number of eigenvalues above x.
-/// Sylvester's law of inertia on the dynamic stiffness D of everything below a pin, carried up the chain (equation (1)
-/// of docs/theory/counts.md):
+/// For each shift x, the number of negative eigenvalues of Q(x): of a hanging chain the number of
+/// eigenvalues above x. Sylvester's law of inertia on the dynamic stiffness D of everything below a
+/// pin, carried up the chain (equation (1) of docs/theory/counts.md):
 ///
 ///     p = D + L - A,    D' = [ (L - B) D - (L - c) W ] / p,    negative p are counted.
 ///
-/// Precondition for hanging chains: shifts positive.
-/// Cost: one pass, O(N). Accuracy: exact for a pencil whose entries differ by a few ulp and whose parts below a pin are
-/// scaled by a few ulp for each link above; for a proof see `certified_count`.
+/// Precondition for hanging chains: shifts positive. Cost: one pass, O(N). Accuracy: exact for a
+/// pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp for
+/// each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
 std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
     using Pencil = ElementPencil<T, Spins, OwnErrors>;
@@ -103,7 +105,7 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     };
     if (!pencil.units.empty())
         return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
-    if constexpr ((std::same_as<T, double> || std::same_as<T, float>) && L % 8 == 0) {
+    if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
         return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using V = Pack<T, width, L / width>;
@@ -117,7 +119,8 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     }
 }
 
-/// A count with its proof: where `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
+/// A count with its proof: where `proved`, exactly `above` eigenvalues of the exact pencil exceed
+/// the exact shift.
 struct CertifiedCount {
     Index above = 0;
     bool proved = false;
@@ -137,9 +140,10 @@ struct BoundedStiffness {
 template <class Pencil>
 class BoundedCarry;
 
-/// Across elements of a hanging chain, whose numbers have small relative errors and no mass or stiffness of which is
-/// negative. The bound follows the exact derivative dD'/dD = ((L + X)/p)^2, without which it would grow exponentially
-/// along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
+/// Across elements of a hanging chain, whose numbers have small relative errors and no mass or
+/// stiffness of which is negative. The bound follows the exact derivative dD'/dD = ((L + X)/p)^2,
+/// without which it would grow exponentially along the chain. D is carried by whichever of
+/// equations (1) and (2) has the smaller bound.
 template <Real S>
 class BoundedCarry<ElementPencil<S>> {
    public:
@@ -172,8 +176,7 @@ class BoundedCarry<ElementPencil<S>> {
         at.below = ldexp(at.below, step);
         at.error = ldexp(at.error, step) + tiny();
     }
-    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
-                                           State& at) const {
+    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift, State& at) const {
         using std::abs;
         const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
         const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
@@ -216,10 +219,11 @@ class BoundedCarry<ElementPencil<S>> {
     M stiffness_underflow_;
 };
 
-/// Across elements of any sign, each with a bound on its own errors. As a function of what it is made of, D' = L - B -
-/// (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and 1 - q =
-/// (D - A - X)/p; to that come the roundings of numerator, p and quotient.
-/// It proves as much of a hanging chain as the other, but takes 1.4 times as long (in double 4 times).
+/// Across elements of any sign, each with a bound on its own errors. As a function of what it is
+/// made of, D' = L - B - (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q
+/// in X, with q = (L + X)/p and 1 - q = (D - A - X)/p; to that come the roundings of numerator, p
+/// and quotient. It proves as much of a hanging chain as the other, but takes 1.4 times as long (in
+/// double 4 times).
 template <Real S>
 class BoundedCarry<SignedPencil<S>> {
    public:
@@ -242,7 +246,7 @@ class BoundedCarry<SignedPencil<S>> {
     }
     static Sizes sizes(const SignedElement<S>& e) {
         const M lower = size_of(e.lower), upper = size_of(e.upper), cross = size_of(e.cross);
-        return {size_of(e.stiffness), size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
+        return {size_of(e.stiffness),         size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
                 lower * upper + cross * cross};
     }
     static void begin(const SignedElement<S>& ground, const Shift& shift, State& at) {
@@ -250,8 +254,8 @@ class BoundedCarry<SignedPencil<S>> {
         const M size = a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
         const ElementError<M>& off = ground.error;
         at.below = ground.stiffness_at(shift.x) - ground.upper;
-        at.error = (M(1) + M(64) * epsilon<M>()) * (a * off.stiffness + b * off.spin + off.upper +
-                                                    M(5) * operation_error<S>() * size + underflow());
+        at.error = (M(1) + M(64) * epsilon<M>()) *
+                   (a * off.stiffness + b * off.spin + off.upper + M(5) * operation_error<S>() * size + underflow());
     }
     [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
                                            State& at) const {
@@ -278,9 +282,8 @@ class BoundedCarry<SignedPencil<S>> {
             const M q = C_size / least;
             const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
             const M slopes = q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
-            const M roundings =
-                M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
-                M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
+            const M roundings = M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
+                                M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
             const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
             at.error = inflate * (slopes + roundings + lost);
         }
@@ -298,11 +301,11 @@ class BoundedCarry<SignedPencil<S>> {
 
 }  // namespace detail
 
-/// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on the error of D, from
-/// rounding and from the entries' own error: `proved` when no pivot's sign is in doubt. S is usually wider than the
-/// scalar of the answer.
-/// Cost O(N): two shifts in double words of doubles take 140 ns a link, two in double 20 ns. Derivation:
-/// docs/theory/counts.md, "Proved counts".
+/// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on
+/// the error of D, from rounding and from the entries' own error: `proved` when no pivot's sign is
+/// in doubt. S is usually wider than the scalar of the answer. Cost O(N): two shifts in double
+/// words of doubles take 140 ns a link, two in double 20 ns. Derivation: docs/theory/counts.md,
+/// "Proved counts".
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {

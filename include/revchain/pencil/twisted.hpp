@@ -27,19 +27,20 @@ template <class M, class F, class G>
         return x < y ? one() : other();
 }
 
-/// Dynamic stiffness carried across an element, the ratio of the offset at the pin where it was known to that at the
-/// other, and one over the pivot.
+/// Dynamic stiffness carried across an element, the ratio of the offset at the pin where it was
+/// known to that at the other, and one over the pivot.
 template <class S>
 struct Across {
     S stiffness, ratio, inverse{};
 };
 
-/// Across an element at a number or pack of numbers, from `near` at one pin, by the one of equations (1) and (2) that
-/// rounds less; `near_mass` and `far_mass` are the element's own at the two pins. `Lumped`: it is a point mass.
+/// Across an element at a number or pack of numbers, from `near` at one pin, by the one of
+/// equations (1) and (2) that rounds less; `near_mass` and `far_mass` are the element's own at the
+/// two pins. `Lumped`: it is a point mass.
 ///
-/// The ratio is taken from its difference to 1 where that is small: the slope of a smooth mode is then not the
-/// difference of two rounded offsets. The difference in digits of Ratio: those of the narrower scalar are enough for
-/// offsets that are rounded to it in the end.
+/// The ratio is taken from its difference to 1 where that is small: the slope of a smooth mode is
+/// then not the difference of two rounded offsets. The difference in digits of Ratio: those of the
+/// narrower scalar are enough for offsets that are rounded to it in the end.
 template <class Ratio, bool Lumped = false, class E, class S, class Mass>
 [[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near, const Mass& near_mass,
                                                const Mass& far_mass) {
@@ -59,12 +60,10 @@ template <class Ratio, bool Lumped = false, class E, class S, class Mass>
         size(change), V(Lane<V>(0.5)), [&]() REVCHAIN_INLINED { return S(V(1)) + S(change); },
         [&]() REVCHAIN_INLINED { return coupling * inverse; });
     if constexpr (Lumped) {
-        result.stiffness = near_mass == Mass(0) ? stiffness * (near * inverse) - far
-                                                : stiffness * ((near - S(near_mass)) * inverse);
+        result.stiffness =
+            near_mass == Mass(0) ? stiffness * (near * inverse) - far : stiffness * ((near - S(near_mass)) * inverse);
     } else {
-        const auto mass = [&](const auto& x) REVCHAIN_INLINED {
-            return V(e.mass_size(static_cast<Lane<V>>(x)));
-        };
+        const auto mass = [&](const auto& x) REVCHAIN_INLINED { return V(e.mass_size(static_cast<Lane<V>>(x))); };
         const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass), over = size(inverse);
         const V of_coupling = V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
         const V of_weight = (k + far_size) * (size(near) * over) + e.resisted_size(k, over);
@@ -97,8 +96,9 @@ struct Crossing {
     T share{};
 };
 
-/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest is 1 in size, the free end positive.
-/// Crossings and the free end's sign are those of the exact ratios of neighbours: they outlast offsets that underflow.
+/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest is 1 in size, the
+/// free end positive. Crossings and the free end's sign are those of the exact ratios of
+/// neighbours: they outlast offsets that underflow.
 template <Real T>
 struct Eigenvector {
     Vector<T> offset;
@@ -126,8 +126,8 @@ Eigenvector<T> normalised(Vector<T> offset) {
     return result;
 }
 
-/// An eigenvector before it is rounded to the narrower scalar: divide the offsets by `largest`, whose sign makes the
-/// free end positive.
+/// An eigenvector before it is rounded to the narrower scalar: divide the offsets by `largest`,
+/// whose sign makes the free end positive.
 template <Real S>
 struct UnroundedEigenvector {
     std::vector<S> offset;
@@ -137,20 +137,22 @@ struct UnroundedEigenvector {
 
 namespace detail {
 
-/// Offsets of pins 0 ... n from a twisted factorisation, 1 at `pin`. Below it each is `down` times that of the pin
-/// above, and above it `up` times that of the pin below.
+/// Offsets of pins 0 ... n from a twisted factorisation, 1 at `pin`. Below it each is `down` times
+/// that of the pin above, and above it `up` times that of the pin below.
 template <class S>
 struct Twisted {
     std::vector<S> offset, down, up;
     Narrow<S> pin;
 };
 
-/// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation: dynamic stiffness D
-/// of what hangs below each pin, going up, and E of what holds it from above, going down; they balance best (|D + E|
-/// least) where the mode is largest, and from there the offsets follow outwards by ratios without cancellation.
-/// `rise(m, D)` returns D above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and
-/// the inverse ratio. Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
-/// meets at the lower pin of element m; `footing` is D at the lowest pin. S is a number, or a pack of numbers or double words with a mode in each lane.
+/// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation:
+/// dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from above,
+/// going down; they balance best (|D + E| least) where the mode is largest, and from there the
+/// offsets follow outwards by ratios without cancellation. `rise(m, D)` returns D above element m
+/// and the ratio of its lower offset to the upper; `sink(m, E)` E below it and the inverse ratio.
+/// Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
+/// meets at the lower pin of element m; `footing` is D at the lowest pin. S is a number, or a pack
+/// of numbers or double words with a mode in each lane.
 template <class S, class Rise, class Sink, class Forces>
 [[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
                                                  const Forces& forces, const S& footing = S{}) {
@@ -171,8 +173,8 @@ template <class S, class Rise, class Sink, class Forces>
     for (std::size_t m = n; m-- > 0;) {
         const Across<S> across = sink(m, above);
         above = across.stiffness, up[m] = across.ratio;
-        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the
-        // mode, and the ratios between them cancel.
+        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy
+        // one that sets the mode, and the ratios between them cancel.
         const V balance = abs(static_cast<V>(offset[m] + above)) / forces(m);
         pin = if_less(balance, least, number(m), pin);
         least = if_less(balance, least, balance, least);
@@ -185,13 +187,14 @@ template <class S, class Rise, class Sink, class Forces>
 
 }  // namespace detail
 
-/// Eigenvector of the pencil at an eigenvalue, by `detail::twisted`. The plain upward recurrence loses 3e-11 near the
-/// support at N = 1e5. Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028, carried over to elements.
-/// Cost: two passes, four numbers of S per link of scratch. Accuracy, of the largest offset, measured: with S a double
-/// word 3.5e-16 for all modes up to N = 1000 and 6e-17 for the slowest at N = 1e5 (tests/cpp/pencil/twisted.cpp); with
-/// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
-/// eigenvalue. An error e in `eigenvalue` adds e / gap.
-/// Ratio: what the ratios of neighbours are kept in. With S itself the slopes, too, are good to the digits of S.
+/// Eigenvector of the pencil at an eigenvalue, by `detail::twisted`. The plain upward recurrence
+/// loses 3e-11 near the support at N = 1e5. Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028,
+/// carried over to elements. Cost: two passes, four numbers of S per link of scratch. Accuracy, of
+/// the largest offset, measured: with S a double word 3.5e-16 for all modes up to N = 1000 and
+/// 6e-17 for the slowest at N = 1e5 (tests/cpp/pencil/twisted.cpp); with S = double 1.5e-15 / gap
+/// up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
+/// eigenvalue. An error e in `eigenvalue` adds e / gap. Ratio: what the ratios of neighbours are
+/// kept in. With S itself the slopes, too, are good to the digits of S.
 template <class Ratio, Real S, bool Spins, bool OwnErrors>
 UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
     using std::abs;
@@ -235,7 +238,8 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     return result;
 }
 
-/// Offsets of pins 0 ... N in the digits of S, the held pin last (0); the largest is 1 in size, the free end positive.
+/// Offsets of pins 0 ... N in the digits of S, the held pin last (0); the largest is 1 in size, the
+/// free end positive.
 template <Real S, bool Spins, bool OwnErrors>
 std::vector<S> twisted_vector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
     auto [offset, largest, crossings] = unrounded_eigenvector<S>(pencil, root);
@@ -256,9 +260,9 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
 
 namespace detail {
 
-/// A function (element, pin) that returns offsets brought to one unit for all elements where their own differ: forces
-/// are as offsets times weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is
-/// then of the order of 1.
+/// A function (element, pin) that returns offsets brought to one unit for all elements where their
+/// own differ: forces are as offsets times weights (`share` 1), energies as squares of offsets
+/// times weights (`share` 2). The largest is then of the order of 1.
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
 auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
     using std::frexp;
@@ -287,10 +291,11 @@ S mass_form(const E& e, const S& lower, const S& upper) {
     return lower * (e.lower * lower + (cross + cross)) + e.upper * upper * upper;
 }
 
-/// The root x of y^T Q(x) y = 0 in S, element by element, from offsets that may be in a narrower scalar: its error is
-/// the square of theirs, so that offsets good to 1e-13 give a root good to 1e-25. Of a hanging chain without spins it is
-/// y^T M y / y^T K y, both sums of positive terms; where the family is quadratic it is that next to `near`, by Newton's
-/// method. Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
+/// The root x of y^T Q(x) y = 0 in S, element by element, from offsets that may be in a narrower
+/// scalar: its error is the square of theirs, so that offsets good to 1e-13 give a root good to
+/// 1e-25. Of a hanging chain without spins it is y^T M y / y^T K y, both sums of positive terms;
+/// where the family is quadratic it is that next to `near`, by Newton's method. Preconditions:
+/// offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
 S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, const S& near = {}) {
     const auto offsets = detail::in_one_unit(pencil, offset, 2);
@@ -315,9 +320,10 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
     return x;
 }
 
-/// Backward error of a root and offsets: the largest force left unbalanced at a pin over the largest sum of the sizes of
-/// the terms that meet at a pin, max |Q(x) y| / max (|L| |y| + |M| |y|). Evaluated in S, so that what is reported is the
-/// error of the offsets and not of the evaluation. Cost: one pass.
+/// Backward error of a root and offsets: the largest force left unbalanced at a pin over the
+/// largest sum of the sizes of the terms that meet at a pin, max |Q(x) y| / max (|L| |y| + |M|
+/// |y|). Evaluated in S, so that what is reported is the error of the offsets and not of the
+/// evaluation. Cost: one pass.
 template <Real S, bool Spins, bool OwnErrors, Real X, Real T>
 T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& root, const Vector<T>& offset) {
     using std::abs;

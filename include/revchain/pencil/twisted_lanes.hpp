@@ -11,14 +11,15 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-/// Eigenvectors of several modes at once: twisted factorizations in plain arithmetic, one mode a lane, and one
-/// correction from forces left over that are evaluated in twice the digits.
+/// Eigenvectors of several modes at once: twisted factorizations in plain arithmetic, one mode a
+/// lane, and one correction from forces left over that are evaluated in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// How many modes are found at once.
 inline constexpr std::size_t shape_lanes = 8;
 
-/// Heights, or with spins x, of some modes: as exact as they are known, and those that belong to what is given out.
+/// Heights, or with spins x, of some modes: as exact as they are known, and those that belong to
+/// what is given out.
 template <std::floating_point T>
 struct RootsInLanes {
     std::array<DoubleWord<T>, shape_lanes> exact, rounded;
@@ -40,7 +41,8 @@ struct ShapesInLanes {
         offset.resize((links + 1) * shape_lanes);
         for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
     }
-    /// The first `pins` numbers of the first `count` lanes, as rows that are `stride` numbers apart.
+    /// The first `pins` numbers of the first `count` lanes, as rows that are `stride` numbers
+    /// apart.
     void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
         constexpr std::size_t tile = 8;
         std::size_t m = 0;
@@ -51,7 +53,8 @@ struct ShapesInLanes {
         for (; m < pins; ++m)
             for (std::size_t i = 0; i < count; ++i) rows[i * stride + m] = offset[m * shape_lanes + i];
     }
-    /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
+    /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held
+    /// pin left out.
     std::vector<Crossing<T>> crossings(std::size_t lane, const T* row) const {
         const std::size_t n = down.size() / shape_lanes;
         std::vector<Crossing<T>> crossed(n);
@@ -89,8 +92,8 @@ struct ShapesInLanes {
 /// Links whose scratch is kept from call to call, at most: 2.6 MB.
 inline constexpr std::size_t most_kept_links = 4096;
 
-/// f(scratch for so many links). The scratch is kept for the next call on the same thread: to give it back each time
-/// costs more than what is computed in it.
+/// f(scratch for so many links). The scratch is kept for the next call on the same thread: to give
+/// it back each time costs more than what is computed in it.
 template <std::floating_point T, class F>
 void with_shapes_in_lanes(std::size_t links, const F& f) {
     static thread_local ShapesInLanes<T> kept;
@@ -104,24 +107,23 @@ void with_shapes_in_lanes(std::size_t links, const F& f) {
 
 namespace detail {
 
-/// Vectors at some x in plain arithmetic, 1 at the pin where upper and lower part balance best: offsets below it are in
-/// `s.offset`, those above follow from `s.up`.
+/// Vectors at some x in plain arithmetic, 1 at the pin where upper and lower part balance best:
+/// offsets below it are in `s.offset`, those above follow from `s.up`.
 template <class V>
 struct TwistInLanes {
     V pin, side;  ///< and on which side of the axis the free end is
     V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
 };
 template <class Terms, bool Spins, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms,
-                                                               const ElementPencil<DoubleWord<T>, Spins>& pencil,
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                                const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
     constexpr bool lumped = Terms::lumped;
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above.
-    // The two take turns: each waits for its divisions.
+    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what
+    // holds it from above. The two take turns: each waits for its divisions.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);
@@ -167,7 +169,8 @@ template <class Terms, bool Spins, class V, class T>
     return {twist, side, negative};
 }
 
-/// Offset of pin m from those of `twisted_in_lanes`, called for one pin after the other; `last`: what it returned last.
+/// Offset of pin m from those of `twisted_in_lanes`, called for one pin after the other; `last`:
+/// what it returned last.
 template <class V, class T>
 [[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist, const V& last) {
     V offset = V::load(&s.offset[m * shape_lanes]);
@@ -266,10 +269,10 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// Shapes of the pencil at some roots, which the last one fills up, and if asked for their residuals. Accuracy as
-/// `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
-/// `eigenvector` can still do. Precondition: the pencil is in one unit.
-/// Cost: 5 ns a link and mode (AVX-512), residuals 2.
+/// Shapes of the pencil at some roots, which the last one fills up, and if asked for their
+/// residuals. Accuracy as `eigenvector` of a pencil in double words; `found` is false in a lane
+/// where the correction is not small, which `eigenvector` can still do. Precondition: the pencil is
+/// in one unit. Cost: 5 ns a link and mode (AVX-512), residuals 2.
 template <std::floating_point T, bool Spins>
 void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, const RootsInLanes<T>& roots,
                      bool residuals, ShapesInLanes<T>& shapes) {

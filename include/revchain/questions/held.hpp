@@ -47,7 +47,8 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
     return height;
 }
 
-/// The conical height times the tension at the upper end; without gravity, tension over speed squared.
+/// The conical height times the tension at the upper end; without gravity, tension over speed
+/// squared.
 inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                          const std::optional<double>& angular_speed) {
     const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
@@ -56,7 +57,8 @@ inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& h
     return product;
 }
 
-/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the speed.
+/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the
+/// speed.
 inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                         const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
@@ -139,8 +141,7 @@ REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const 
     return finite::held_shapes_under_tension(held.system(), supports, tension, height, wanted);
 }
 
-REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held,
-                                             const HeldCordShapesOptions& options) {
+REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options) {
     detail::require_half_waves(options.max_half_waves);
     const Wide<double> height = detail::height_asked(held.by(), options);
     const int most = options.max_half_waves;
@@ -149,8 +150,7 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held,
     return finite::held_cord_shapes_under_tension(held.system(), tension.high, height.high, most);
 }
 
-REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
-                                                 const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -174,8 +174,7 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     return result;
 }
 
-REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
-                                                     const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held.by());
     detail::require_positive(place, "max_step", options.max_step);
@@ -189,8 +188,7 @@ REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
     return result;
 }
 
-REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held,
-                                       const HeldOnBranchOptions& options) {
+REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
@@ -211,8 +209,7 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held,
     });
 }
 
-REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held,
-                                           const HeldOnBranchOptions& options) {
+REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options) {
     const auto at_height = [&](double span, const Wide<double>& height) {
         return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
     };
@@ -221,8 +218,7 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held,
     });
 }
 
-REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
-                                    const HeldModesOptions& options) {
+REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& options) {
     constexpr std::string_view place = "modes";
     detail::check(options);
     const detail::Threads used(place, options.threads);
@@ -254,11 +250,11 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held,
             detail::set_height(result, j, static_cast<double>(root.x), bound, taut.pencil.units.length_exponent,
                                options.rtol);
             if (options.certify)
-                detail::certify(result.certificate, j, result.conical_height[j], bound, range.first - 1 + j, available,
-                                [&](double lower, double upper) {
-                                    return std::array{roots.certified(taut.scaled(lower)),
-                                                      roots.certified(taut.scaled(upper))};
-                                });
+                detail::certify(
+                    result.certificate, j, result.conical_height[j], bound, range.first - 1 + j, available,
+                    [&](double lower, double upper) {
+                        return std::array{roots.certified(taut.scaled(lower)), roots.certified(taut.scaled(upper))};
+                    });
             found.push_back(root.x);
         }
     }

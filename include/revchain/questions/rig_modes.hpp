@@ -29,8 +29,7 @@ inline ModeRange numbered(const RigModesOptions& options, Index available) {
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
-                        Index available) {
+inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
     if (options.conical_height || options.angular_speed)
         return chosen(
             available, options,
@@ -61,7 +60,8 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pen
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
     modes.angular_speed[j] = static_cast<double>(speed);
-    // The margin is about what is given out; the other takes in half an ulp for each of the two roundings.
+    // The margin is about what is given out; the other takes in half an ulp for each of the two
+    // roundings.
     const double ulp = epsilon<double>(), few = 32 * operation_error<RigWord>();
     const double margin = root.margin * (1 + 4 * root.margin) + few;
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
@@ -161,7 +161,8 @@ inline bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// The mode of a height in the pencil's unit; the root of -g/height with a positive real part is the growth rate.
+/// The mode of a height in the pencil's unit; the root of -g/height with a positive real part is
+/// the growth rate.
 inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double relative_bound) {
     OtherMode mode;
     mode.conical_height = {std::ldexp(x.real(), rig.units.length_exponent),
@@ -187,8 +188,7 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
 }
 
 /// By counts.
-inline RigModes counted_modes(const Rig& rig, const RigRoots& roots,
-                              const RigModesOptions& options) {
+inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
@@ -213,8 +213,7 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots,
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots,
-                               const RigModesOptions& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;

@@ -75,7 +75,8 @@ class HeldChain {
     std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
         // Nearly straight and without gravity it has the shape y of a mode under a tension of 1, whose height is the
         // force along the axis.
-        const LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
+        const revchain::detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent),
+                                              .weightless = true};
         const auto taut = revchain::detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
         if (half_waves > taut.available.count) return {};
         const auto guess = static_cast<double>(weight_ * length_);

@@ -8,8 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The speed of a drive: height and, where elements have a stiffness that goes with the speed, height times speed.
-/// Each within two operations of what is meant.
+/// The speed of a drive: height and, where elements have a stiffness that goes with the speed,
+/// height times speed. Each within two operations of what is meant.
 struct Driving {
     Wide<double> height, spin;
 };
@@ -32,8 +32,8 @@ inline Interval<Wide<double>> rescaled(const Interval<Wide<double>>& x, int step
     return {ldexp(x.low, step), ldexp(x.high, step)};
 }
 
-/// How the offset of a pin follows from that of one above it: of the next, or of the next but one where the next is
-/// all but a node.
+/// How the offset of a pin follows from that of one above it: of the next, or of the next but one
+/// where the next is all but a node.
 struct Follows {
     Interval<Wide<double>> ratio;
     int pins = 1;
@@ -41,15 +41,16 @@ struct Follows {
 
 }  // namespace detail
 
-/// Offsets of the pins below the moved end, lowest first, by intervals of two words: for drives and strings that
-/// `driven_lanes` leaves in doubt. Dynamic stiffness D of all below a pin is carried up,
+/// Offsets of the pins below the moved end, lowest first, by intervals of two words: for drives and
+/// strings that `driven_lanes` leaves in doubt. Dynamic stiffness D of all below a pin is carried
+/// up,
 ///
 ///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p,
 ///
-/// and where p vanishes, the pin above being a node, its reciprocal C' = p / ((L - B) p - (L + X)^2) for one link. D
-/// enters each step once: intervals widen as the error itself grows. `end` is the offset of the moved end, 1, if that
-/// is a pin of the chain, else 0: errors are over the largest offset of a pin.
-/// Cost: about 1.5 microseconds for each element.
+/// and where p vanishes, the pin above being a node, its reciprocal C' = p / ((L - B) p - (L +
+/// X)^2) for one link. D enters each step once: intervals widen as the error itself grows. `end` is
+/// the offset of the moved end, 1, if that is a pin of the chain, else 0: errors are over the
+/// largest offset of a pin. Cost: about 1.5 microseconds for each element.
 template <class Offsets>
 Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset, double end = 1) {
     using S = Wide<double>;
@@ -75,8 +76,8 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;
             // p of the pin below times that of this one, of one sign whatever that of the small one
-            const I pair = earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) -
-                           detail::rescaled(earlier_square, step);
+            const I pair =
+                earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) - detail::rescaled(earlier_square, step);
             if (pair.negative()) ++result.negative;
             if (!pair.negative() || whole.may_vanish()) return result;
             const I force = coupling / whole;  // of what hangs below, over the offset of the pin above

@@ -42,7 +42,8 @@ struct DrivenWalk {
     typename V::Mask proved, negative, turned;
 };
 
-/// What a sharper bound needs of a pin: y over y above, one over the pivot, and the errors of the row itself and of D.
+/// What a sharper bound needs of a pin: y over y above, one over the pivot, and the errors of the
+/// row itself and of D.
 template <class V>
 struct DrivenRow {
     V ratio, inverse, row, below;
@@ -59,7 +60,8 @@ template <class V>
 }
 
 template <bool turning, bool fused, class V>
-[[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept, DrivenWalk<V>& w, DrivenRow<V>* row) {
+[[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept, DrivenWalk<V>& w,
+                                        DrivenRow<V>* row) {
     constexpr double unit = operation_error<Wide<double>>();
     const DoubleWord<V> k = everywhere<V>(e.stiffness), mass = everywhere<V>(e.lower);
     DoubleWord<V> stiffness = product<fused>(w.height, k);
@@ -106,14 +108,16 @@ template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
 inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 
-/// For the drives given (`driven_together`), what `driven` gives: one to a SIMD lane, in words of two doubles, with a
-/// running bound as that of `certified_count`. Units must be one for all elements. Undecided are drives next to a
-/// resonance, and those at which a pin is all but a node: `driven` is for them.
-/// `offset(lane, which, value)` for each pin wanted, highest first: value in two words, its relative error the bound.
-/// Cost: 8 to 20 ns for each link and drive with AVX-512, 26 to 40 ns with registers of two doubles (`bench_response`).
+/// For the drives given (`driven_together`), what `driven` gives: one to a SIMD lane, in words of
+/// two doubles, with a running bound as that of `certified_count`. Units must be one for all
+/// elements. Undecided are drives next to a resonance, and those at which a pin is all but a node:
+/// `driven` is for them. `offset(lane, which, value)` for each pin wanted, highest first: value in
+/// two words, its relative error the bound. Cost: 8 to 20 ns for each link and drive with AVX-512,
+/// 26 to 40 ns with registers of two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
-[[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
-                                                DrivenPins& wanted, Driven* result, const Offsets& offset) {
+[[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements,
+                                                const Driving* at, DrivenPins& wanted, Driven* result,
+                                                const Offsets& offset) {
     constexpr std::size_t P = 2, L = V::size;
     detail::DrivenWalk<V> walks[P];
     for (std::size_t p = 0; p < P; ++p) detail::start(walks[p], at + p * L);
@@ -161,15 +165,17 @@ template <bool turning, bool fused, class V, class Offsets>
         }
 }
 
-/// Sharper bounds for drives that `driven_lanes` decided, to the first order of the errors and, by what is known of
-/// ratios and pivots already, rigorously so. With G = (height K - M)^-1, the moved end held, whose diagonal g follows
-/// from the top down,  g = 1/p + (y/y')^2 g',  and r the error of each row beside its offset,
+/// Sharper bounds for drives that `driven_lanes` decided, to the first order of the errors and, by
+/// what is known of ratios and pivots already, rigorously so. With G = (height K - M)^-1, the moved
+/// end held, whose diagonal g follows from the top down,  g = 1/p + (y/y')^2 g',  and r the error
+/// of each row beside its offset,
 ///
 ///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i),
 ///
-/// E the error of D, which holds the rows below. The error of a coupling enters the row of its lower pin by the offset
-/// of the upper one. `end` as for `driven`. What `driven_lanes` adds up, errors of ratios, counts what happens to both
-/// sides of a node twice, without the signs. Cost: about that of `driven_lanes` and four numbers an element.
+/// E the error of D, which holds the rows below. The error of a coupling enters the row of its
+/// lower pin by the offset of the upper one. `end` as for `driven`. What `driven_lanes` adds up,
+/// errors of ratios, counts what happens to both sides of a node twice, without the signs. Cost:
+/// about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
 [[gnu::always_inline]] inline void sharpen(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
                                            Driven* result, std::vector<double>& scratch, double end = 1) {
