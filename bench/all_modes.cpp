@@ -121,7 +121,7 @@ void compare_engines(const support::Family& family, Index n, Index asked, std::o
                 1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
         }
     if (sink == 0) return;
-    const Chain<DoubleDouble> exact = revchain::converted<DoubleDouble>(chain);
+    const Chain<DoubleDouble> exact = revchain::detail::converted<DoubleDouble>(chain);
     std::vector<revchain::Modes<double>> found;
     for (const Engine& e : engines) found.push_back(ask(e, chain));
     std::vector<double> worst(engines.size());
