@@ -14,7 +14,7 @@
 ///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
 ///     e.methods[e.chosen].name;    // "continuous chain"
-///     e.text();                    // a table: every method with its error bound and its time, or why it cannot serve
+///     const std::string table = e.text();  // every method with its error bound and its time, or why it cannot serve
 namespace revchain::inline REVCHAIN_BUILD {
 
 class Rig;   // revchain/rig.hpp

@@ -22,7 +22,7 @@
 ///     m.angular_speed(9.80665)[0];   // 3.80868 rad/s, the slowest mode
 ///     m.conical_height[0];           // 0.67604 = g/n^2, in the unit of the lengths
 ///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
-///     m.shape(0);                    // offsets of the pins, free end first; computed now
+///     m.shape(0)[1];                 // offset of the second pin, free end first; shapes are computed now
 ///
 /// Greenhill (1908) section 8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung from a fixed
 /// point is the natural angular frequency of its plane swing.

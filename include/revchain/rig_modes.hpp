@@ -17,7 +17,7 @@
 ///     const auto m = revchain::modes(rig, {.count = 2});
 ///     m.forward.angular_speed[0];      // 3.72206 rad/s, the slowest mode
 ///     m.forward.speed_error_bound[0];  // its relative error is at most 2.3e-16: proved
-///     m.forward.shape(0);              // offsets of the pins, free end first
+///     m.forward.shape(0)[1];           // offset of the second pin, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to

@@ -13,6 +13,7 @@ from ends import G, Pins, polished, random_held, shapes_by_pins
 import revchain as rc
 from revchain import Support
 
+EPS = 2.0**-52
 ARMS = (Support(radius=0.3), Support(radius=0.7))
 EITHER_SIDE = (Support(radius=0.4), Support(radius=-0.5))
 SPRINGS = (Support(stiffness=150.0, mass=0.4), Support(stiffness=300.0))

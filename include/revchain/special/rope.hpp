@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/rope.hpp"
@@ -174,13 +172,10 @@ inline RopePoint SkippingRope::at_arc(double arc) const {
     if (!(arc >= 0 && arc <= length() * (1 + 1e-15)))
         detail::throw_invalid("analytic::SkippingRope::at_arc", "arc must lie between 0 and the length", arc);
     const double end = 2 * waves() * functions_.complete().K;
-    const auto off = [&](double argument) {
-        const RopePoint at = at_argument(argument);
-        return std::pair(at.arc - arc, quarter_ / functions_.complete().K * at.tension_ratio);
-    };
-    const auto last =
-        revchain::detail::newton_between(0.0, end * (1 + 4e-15), off, arc / length() * end, 0x1p-51);
-    RopePoint point = at_argument(std::min(last.from - last.step, end));
+    const auto off = [&](double argument) { return at_argument(argument).arc - arc; };
+    const revchain::detail::SignChange<double> within{{0, -arc}, {end, off(end)}};
+    const double argument = revchain::detail::zero_between(within, off);
+    RopePoint point = at_argument(std::isnan(argument) ? end : argument);
     point.arc = arc;
     return point;
 }
