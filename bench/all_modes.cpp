@@ -13,6 +13,7 @@
 #include "revchain/linear/assembly.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/pencil/spectrum/interpolated.hpp"
+#include "revchain/system/converted.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

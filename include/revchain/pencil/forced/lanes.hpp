@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "revchain/pencil/forced/elements.hpp"
+#include "revchain/simd/pack.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
