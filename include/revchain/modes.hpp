@@ -81,7 +81,7 @@ template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
     Vector<T> conical_height{};    ///< (k,) lambda, descending, in the chain's unit of length
-    Vector<T> error_bound{};       ///< (k,) relative to the exact height of the stored numbers; of a Held an estimate
+    Vector<T> error_bound{};       ///< (k,) relative to the exact height of the stored numbers
     Certificate<T> certificate{};  ///< empty unless asked for
     std::string method{};          ///< that found the heights
     Status status = Status::success;

@@ -119,6 +119,7 @@ T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& en
     if (a.value != T(0) && b.value != T(0) && (a.value < T(0)) == (b.value < T(0)))
         return std::numeric_limits<T>::quiet_NaN();
     T share = a.value / (a.value - b.value);  // of the way from a to b
+    if (!(share >= T(0))) share = T(0.5);     // an infinite value
     for (int round = 0; round < most_halvings<T>; ++round) {
         const ValueAt<T>& nearest = abs(a.value) < abs(b.value) ? a : b;
         const T width = b.x - a.x;

@@ -23,6 +23,8 @@ struct ElementError {
 };
 
 namespace detail {
+/// Two of one type would not share their place.
+template <int>
 struct Nothing {};
 }  // namespace detail
 
@@ -39,15 +41,12 @@ struct Nothing {};
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
     using M = Narrow<S>;
-    template <bool Has, class X>
-    using If = std::conditional_t<Has, X, detail::Nothing>;
-
     S stiffness{};                                 ///< k
     S lower{}, upper{}, cross{};                   ///< A, B, and X, of any sign
     S turning{};                                   ///< c, what the element resists turning with; or c W
     std::conditional_t<OwnErrors, S, M> weight{};  ///< W
-    [[no_unique_address]] If<Spins, S> spin{};     ///< s, of any sign
-    [[no_unique_address]] If<OwnErrors, ElementError<M>> error{};
+    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s, of any sign
+    [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>> error{};
 
     /// From its masses, where these are all there is.
     static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
@@ -241,12 +240,13 @@ bool vanishes(const S& x, const Narrow<S>& error) {
 }
 
 /// The same family with small relative errors. Returns nothing if the error of a number exceeds
-/// 1e-20 of its size, or the lowest pin is held. Precondition: every stiffness is positive, and no
-/// mass is negative; `Spins` says whether the family is quadratic.
+/// 1e-20 of its size, or the lowest pin is held or weights are in several units. Precondition:
+/// every stiffness is positive, and no mass is negative; `Spins` says whether the family is
+/// quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;
-    if (pencil.ground) return std::nullopt;
+    if (pencil.ground || !pencil.units.empty()) return std::nullopt;
     using M = Narrow<S>;
     const S zero(M(0));
     ElementPencil<S, Spins> result;

@@ -46,7 +46,8 @@ bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index
     const T infinity = std::numeric_limits<T>::infinity();
     const std::size_t count = roots.size();
     const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
-        return roots[j].root.high + T(side) * (reach[j] + roots[j].off) * (T(1) + T(0x1p-20));
+        const T far = (reach[j] + roots[j].off) * (T(1) + T(0x1p-20)), root = roots[j].root.high;
+        return root + T(side) * (far + T(2) * epsilon<T>() * root);  // the low word, and rounding
     };
     if (!(end(0, 1) < above && end(count - 1, -1) > below)) return false;
     struct Gap {           // above the interval of root j

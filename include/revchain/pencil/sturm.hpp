@@ -312,7 +312,10 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnE
     const detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>> carry(pencil);
     const auto state = detail::carried_up(carry, pencil, shifts);
     std::array<CertifiedCount, L> result;
-    for (std::size_t i = 0; i < L; ++i) result[i] = state[i].count;
+    for (std::size_t i = 0; i < L; ++i) {
+        result[i] = state[i].count;
+        if (OwnErrors && !pencil.units.empty()) result[i].proved = false;  // its carry knows one unit
+    }
     return result;
 }
 

@@ -189,7 +189,7 @@ template <class S, class Rise, class Sink, class Forces>
 
 /// Eigenvector of the pencil at an eigenvalue, by `detail::twisted`. The plain upward recurrence
 /// loses 3e-11 near the support at N = 1e5. Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028,
-/// carried over to elements. Cost: two passes, four numbers of S per link of scratch. Accuracy, of
+/// carried over to elements. Cost: two passes, three numbers of S per link of scratch. Accuracy, of
 /// the largest offset, measured: with S a double word 3.5e-16 for all modes up to N = 1000 and
 /// 6e-17 for the slowest at N = 1e5 (tests/cpp/pencil/twisted.cpp); with S = double 1.5e-15 / gap
 /// up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
