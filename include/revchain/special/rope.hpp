@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "revchain/numeric/zero_between.hpp"
 #include "revchain/rope.hpp"
 #include "revchain/special/incomplete_elliptic.hpp"
+#include "revchain/special/root_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
@@ -116,11 +116,9 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
         return detail::logarithm_of_ratio(r.*equation[0].ratio, r.*equation[1].ratio) - wanted;
     };
     constexpr double farthest = 340;  // kappa or kappa' = 1e-148
-    const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)},
-                                                      {farthest, off(farthest)}};
-    const double logarithm = revchain::detail::zero_between(within, off);
-    if (std::isnan(logarithm)) detail::throw_invalid(place, "no rope that double can hold has this form");
-    functions_ = JacobiFunctions(detail::rope_modulus(logarithm));
+    const auto logarithm = detail::root_between(off, -farthest, farthest);
+    if (!logarithm) detail::throw_invalid(place, "no rope that double can hold has this form");
+    functions_ = JacobiFunctions(detail::rope_modulus(*logarithm));
     const detail::RopeRatios r(modulus());
     quarter_ = equation[0].value / r.*equation[0].ratio;
     const double along = 2 * quarter_ * waves();
@@ -172,10 +170,8 @@ inline RopePoint SkippingRope::at_arc(double arc) const {
     if (!(arc >= 0 && arc <= length() * (1 + 1e-15)))
         detail::throw_invalid("analytic::SkippingRope::at_arc", "arc must lie between 0 and the length", arc);
     const double end = 2 * waves() * functions_.complete().K;
-    const auto off = [&](double argument) { return at_argument(argument).arc - arc; };
-    const revchain::detail::SignChange<double> within{{0, -arc}, {end, off(end)}};
-    const double argument = revchain::detail::zero_between(within, off);
-    RopePoint point = at_argument(std::isnan(argument) ? end : argument);
+    const auto off = [&](double u) { return at_argument(u).arc - arc; };
+    RopePoint point = at_argument(detail::root_between(off, 0.0, end).value_or(end));
     point.arc = arc;
     return point;
 }

@@ -317,7 +317,7 @@ def _of_cord_or_held(
         raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
     default = 10 if most is None else max(min(10, most - first + 1), 1)
     wanted = None if heights or speeds else count_of(place, count, default, each=24)
-    if isinstance(core, _core.HeldCord):
+    if not isinstance(core, _core.Held):
         of_cord = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress, gravity)
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, certify, progress, gravity)

@@ -329,7 +329,7 @@ class Modes(Result, Moving):
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
         first, certified = int(self.number[0]), self.certificate is not None
         if isinstance(self.system, Held):
-            held = cast(_core.Held, self.system._under(self.gravity))
+            held = cast("_core.Held", self.system._under(self.gravity))
             return _core.held_modes(held, first, len(self), None, None, self.rtol, certified, None, self.gravity)
         method = self.method if self.method in _core.METHODS else "auto"
         return _core.modes(
@@ -805,7 +805,7 @@ class CordModes(Modes):
             return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
         first = int(self.number[0])
         if isinstance(self.system, Held):
-            held = cast(_core.HeldCord, self.system._under(self.gravity))
+            held = cast("_core.HeldCord", self.system._under(self.gravity))
             return _core.held_modes(held, first, len(self), None, None, self.rtol, None, self.gravity)
         return _core.cord_modes(self.system._compiled, first, len(self), None, None, self.rtol)
 
