@@ -115,7 +115,7 @@ struct BranchOptions {
 /// is given, positive and finite, and for a height that is not below that of the mode.
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
-/// The same of a rig.
+/// Which branch of a rig `branch` follows, and how far: as `BranchOptions`, in one direction of rotation.
 struct RigBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> min_conical_height{};
@@ -182,7 +182,7 @@ struct Branches {
 /// 1.
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 
-/// The same of a rig.
+/// How far `branches` of a rig go: as `DiagramOptions`, in one direction of rotation.
 struct RigDiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
@@ -219,7 +219,7 @@ struct OnBranchOptions {
     std::optional<double> min_conical_height{};
 };
 
-/// The same of a rig.
+/// Which shapes of a rig on one branch are wanted: as `OnBranchOptions`, in one direction of rotation.
 struct RigOnBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> conical_height{};

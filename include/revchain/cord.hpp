@@ -64,6 +64,17 @@ struct CordModes {
     [[nodiscard]] Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
 };
 
+/// Which modes of a cord, hanging or held at both ends: as in `ModesOptions`, without a choice of method.
+struct CordModesOptions {
+    Index first = 1;
+    std::optional<Index> count{};
+    std::optional<HeightWindow<double>> conical_height{};
+    std::optional<SpeedWindow<double>> angular_speed{};
+    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and for what is held weightless
+    Progress* progress = nullptr;
+};
+
 /// The modes chosen by `options`: by `first` and `count` (absent: ten) or by a window of heights or speeds that holds
 /// finitely many.
 ///

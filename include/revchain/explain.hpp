@@ -46,8 +46,8 @@ struct ExplainOptions {
 /// some microseconds. Throws InvalidArgument as `modes` does.
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted, because there is no choice: the result of `modes` names its one method. Modes of a held
-/// chain are found by bisection; rigs and cords have one method for each kind.
+/// Deleted: modes of rigs, cords and held systems have one method for each kind of system, and
+/// nothing to choose. Call `modes` and read `RigModes::method`, `CordModes::method` or `Modes::method`.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

@@ -53,17 +53,6 @@ struct ModesOptions {
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Which modes of a cord, hanging or held at both ends: as in `ModesOptions`. There is one method.
-struct CordModesOptions {
-    Index first = 1;
-    std::optional<Index> count{};
-    std::optional<HeightWindow<double>> conical_height{};
-    std::optional<SpeedWindow<double>> angular_speed{};
-    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and for what is held weightless
-    Progress* progress = nullptr;
-};
-
 /// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them. For mode k,
 /// `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed `upper`; `count_modes` returns
 /// the same numbers. An end is 0 or infinite where no count could be proved.

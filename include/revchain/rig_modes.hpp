@@ -21,8 +21,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to
-/// each direction of rotation, a window of speeds to |n|; mode numbers beyond those available give
-/// no modes.
+/// each direction of rotation, a window of speeds to |n|. Mode numbers beyond those available give
+/// no modes, with momentum or without.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -41,9 +41,9 @@ struct WhirlModes {
     Index first = 1;
     Index available = 0;                 ///< number of modes in this direction, found or not
     Vector<double> conical_height{};     ///< (k,) lambda = g/n^2, descending, in the chain's unit of length
-    Vector<double> error_bound{};        ///< (k,) of it, relative to the exact one of the stored numbers; proved
+    Vector<double> error_bound{};        ///< (k,) of `conical_height`, relative to the exact one of the stored numbers
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
-    Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
+    Vector<double> speed_error_bound{};  ///< (k,) of `angular_speed`, relative
     Certificate<double> certificate{};   ///< of the conical heights, with counts in this direction; if asked for
 
     Index size() const noexcept { return conical_height.size(); }
@@ -103,7 +103,8 @@ struct RigModes {
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
 /// flywheels. The radius of a support that is carried round has no effect.
 ///
-/// Speeds are found to full accuracy, whatever `rtol`.
+/// Speeds are found to full accuracy, whatever `rtol`, and all bounds are proved, unless the rig is a plain chain: that
+/// is solved as a chain, to `rtol`.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
 /// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
@@ -112,8 +113,7 @@ struct RigModes {
 /// heights, or all speeds, are found at once (Ehrlich, Aberth), and proved in discs that hold one each: for at most
 /// 20,000 links and supports that yield.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
-/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains. A rig that is a plain chain
-/// is solved as a chain.
+/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains.
 /// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is positive and no mass is
 /// negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2, with momentum 0.3 (5000 links 7 s).
 /// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers

@@ -60,7 +60,8 @@ struct SteadyShapesOptions {
     Index threads = 1;                                    ///< 0: all processors
 };
 
-/// The same of a rig. Give `direction` with `conical_height`; an angular speed has its sign.
+/// Which shapes of a rig are wanted: as `SteadyShapesOptions`. `direction` goes with `conical_height`
+/// and is not read with `angular_speed`, whose sign is the direction.
 struct RigShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s, negative for the backward direction

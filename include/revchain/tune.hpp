@@ -78,10 +78,10 @@ struct Tuned {
 /// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
-/// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. In
-/// place of these, tune the chain of a rig, or use `momentum_for_speed` for a flywheel. Heights of
-/// a cord are proportional to its length: multiply that by the wanted height over that of `modes`.
-/// Change the system of a `Held` and call `modes` again.
+/// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. For a
+/// rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). Heights of a cord are
+/// proportional to its length: multiply the length by the wanted height over that of `modes`. For a
+/// `Held` change its system, make a new `Held` of it and call `modes` again.
 Tuned tune(const Rig& rig, const TuneOptions& options) = delete;
 Tuned tune(const Cord& cord, const TuneOptions& options) = delete;
 template <class System>

@@ -118,7 +118,7 @@ class CountedRoots {
     int side_;
 };
 
-/// Roots below this number, and above one over it, are not looked for.
+/// The least root that is searched for; the largest is one over it.
 inline RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
 /// How many roots exceed x, by the proved counts `count(x)`. A root within 2^20 roundings of x

@@ -86,8 +86,7 @@ inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::ep
 
 /// A root as a height given out.
 inline Height<double> rounded_height(const pencil::ProvedRoot<double>& proved) {
-    const double height = proved.root.high;
-    return {height, (proved.off / height + epsilon<double>() / 2) * (1 + 0x1p-30), proved.root};
+    return {proved.root.high, proved.bound(), proved.root};
 }
 
 /// To 2 ulp, eight at a time, and those which that does not prove one by one. Nothing where there is no one unit of

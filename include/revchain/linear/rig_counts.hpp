@@ -11,9 +11,7 @@
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A root as it is given out.
-inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) {
-    return {proved.root, (proved.off / proved.root.high + epsilon<double>() / 2) * (1 + 0x1p-30)};
-}
+inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) { return {proved.root, proved.bound()}; }
 /// How far a root may be from the exact one, relative, before it is rounded.
 inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double>::epsilon();
 
@@ -46,9 +44,8 @@ inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(const Rig& rig
 /// an ulp of what is given out. Nothing where that is not proved. `elements` is the pencil of `roots`.
 template <bool Spins>
 std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord, Spins>& elements,
-                                                            const CountedRoots& roots, const ModeRange& range,
-                                                            Index available, double guess,
-                                                            const std::function<void(Index)>& finished) {
+                                                     const CountedRoots& roots, const ModeRange& range, Index available,
+                                                     double guess, const std::function<void(Index)>& finished) {
     if (elements.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto counter = pencil::rounded<double>(elements);
@@ -60,8 +57,12 @@ std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil
     found.reserve(proved->size());
     for (const auto& root : *proved) {
         const Index j = range.first - 1 + static_cast<Index>(found.size());
-        found.push_back(std::isfinite(root.off) ? given_out(root)
-                                                : roots.refined(j, roots.brackets(j, 1, guess, {}).front()));
+        if (std::isfinite(root.off)) {
+            found.push_back(given_out(root));
+            continue;
+        }
+        const auto bracket = pencil::bisect(counter, j, 1, 2 * epsilon<double>(), guess).front();
+        found.push_back(roots.refined(j, bracket));
     }
     return found;
 }

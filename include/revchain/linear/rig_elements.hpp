@@ -61,7 +61,7 @@ inline std::optional<RigElement> support_element(const Support& support, const C
 
 namespace detail {
 
-/// What holds the lower end of a chain, too, and pulls it straight.
+/// A support at the lower end of a chain, and the tension there that pulls the chain straight.
 struct LowerEnd {
     Support support{};         ///< on the axis
     Wide<double> tension{};    ///< at this end, in the unit of the weights

@@ -14,8 +14,7 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// More halvings than a bracket of numbers in T can need.
 template <Real T>
-inline constexpr int most_halvings =
-    2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
 
 /// The last step of Newton's method. The zero is `from - step`, with more digits than T where that
 /// is subtracted in two words.
@@ -48,7 +47,7 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
     return {x, T(0)};
 }
 
-/// The same zero to the last digit of T, or to `enough` of itself.
+/// The zero that `newton_between` finds from the middle, to the last digit of T or to `enough` of itself.
 /// Cost: about six evaluations, and one for each halving where Newton's method fails.
 template <Real T, class F>
 T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() / T(2)) {
@@ -93,10 +92,8 @@ SignChange<T> sign_change_near(T guess, const F& value) {
     const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
     SignChange<T> found{at(guess), {}};
     found.high = found.low;
-    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i)
-        found = {found.high, at(found.high.x * T(2))};
-    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i)
-        found = {at(found.low.x / T(2)), found.low};
+    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i) found = {found.high, at(found.high.x * T(2))};
+    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i) found = {at(found.low.x / T(2)), found.low};
     return found;
 }
 
@@ -140,6 +137,20 @@ T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& en
                     (c.x - a.x) / (b.x - a.x) * (at_a / (at_c - at_a)) * (at_b / (at_c - at_b));
     }
     return a.x;
+}
+
+/// The state between two at which `off` of it vanishes, to 2e-16 of the way or within `enough`: `off` is `at_low` at
+/// the first and `at_high` at the second. `at(share)` returns the state at a share of the way, or nothing.
+template <class At, class Off>
+auto state_between(double at_low, double at_high, const At& at, const Off& off, double enough = 0) {
+    decltype(at(0.0)) found;
+    const auto value = [&](double share) {
+        found = at(share);
+        return found ? off(*found) : std::numeric_limits<double>::quiet_NaN();
+    };
+    const SignChange<double> ends{{0, at_low}, {1, at_high}};
+    zero_between(ends, value, {.width = 2e-16, .value = enough});
+    return found;
 }
 
 /// Two numbers of any kind between which something changes, brought together by halving, at most

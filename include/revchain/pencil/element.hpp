@@ -23,7 +23,7 @@ struct ElementError {
 };
 
 namespace detail {
-/// Two of one type would not share their place.
+/// An empty member. Two members of one empty type may not share an address: hence the number.
 template <int>
 struct Nothing {};
 }  // namespace detail
@@ -97,7 +97,7 @@ struct Element {
         else
             return (L - X(turning)) * (X(weight) * inverse);
     }
-    /// The sizes of the terms of `resisted_over`, from those of L and of one over the pivot.
+    /// Adds the sizes of the terms of `resisted_over`; L and `inverse` are sizes.
     template <class X>
     [[gnu::always_inline]] X resisted_size(const X& L, const X& inverse) const {
         const X resists(mass_size(static_cast<M>(turning))), heavy(mass_size(static_cast<M>(weight)));
@@ -164,6 +164,8 @@ template <class S>
 /// positive root x for each mode in one sense of rotation.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
+    static constexpr bool own_errors = OwnErrors;
+
     std::vector<Element<S, Spins, OwnErrors>> elements;
     /// With own errors: the element below the lowest pin, if it holds that pin to one that does not
     /// move; else the lowest pin is free.
@@ -239,10 +241,10 @@ bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// The same family with small relative errors. Returns nothing if the error of a number exceeds
-/// 1e-20 of its size, or the lowest pin is held or weights are in several units. Precondition:
-/// every stiffness is positive, and no mass is negative; `Spins` says whether the family is
-/// quadratic.
+/// Converts a pencil with own errors to one with small relative errors. Returns nothing if the
+/// error of a number exceeds 1e-20 of its size, or the lowest pin is held or weights are in several
+/// units. Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether
+/// the family is quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;

@@ -18,6 +18,9 @@ template <std::floating_point T>
 struct ProvedRoot {
     DoubleWord<T> root;
     T off;
+
+    /// Bound on the error of the root as it is given out, relative to it; `rounded` is that of rounding.
+    T bound(const T& rounded = epsilon<T>() / T(2)) const { return (off / root.high + rounded) * (T(1) + T(0x1p-30)); }
 };
 
 /// Calls f(first, count, scratch) for every eight of `count`, on `Threads::used()` threads.

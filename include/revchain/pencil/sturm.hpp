@@ -28,14 +28,14 @@ template <class Carry, class Pencil, class X, std::size_t L>
     std::array<typename Carry::State, L> state{};
     for (std::size_t i = 0; i < L; ++i) {
         at[i] = carry.at(shifts[i]);
-        if constexpr (!Carry::in_units)
+        if constexpr (Pencil::own_errors)
             if (pencil.ground) carry.begin(*pencil.ground, at[i], state[i]);
     }
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
         if constexpr (Carry::in_units)
             if (const int step = pencil.step_down(m); step != 0)
-                for (auto& each : state) carry.change_unit(each, step);
+                for (auto& each : state) each.change_unit(step);
         const auto sizes = carry.sizes(e);
         for (std::size_t i = 0; i < L; ++i) carry(e, sizes, at[i], state[i]);
     }
@@ -48,6 +48,10 @@ struct Counted {
     V below{};
     std::conditional_t<IsPack<V>, V, Index> negative{};
 
+    void change_unit(int step) {
+        using std::ldexp;
+        below = ldexp(below, step);
+    }
     [[gnu::always_inline]] void add(const V& pivot) {
         if constexpr (IsPack<V>)
             negative += if_less(pivot, V{}, V(1), V{});
@@ -66,10 +70,6 @@ struct PlainCarry {
 
     [[gnu::always_inline]] Shift at(const V& x) const { return pencil.factors(x); }
     [[gnu::always_inline]] static int sizes(const auto&) { return 0; }
-    static void change_unit(State& state, int step) {
-        using std::ldexp;
-        state.below = ldexp(state.below, step);
-    }
     [[gnu::always_inline]] static void begin(const auto& ground, const Shift& at, State& state) {
         state.below = ground.stiffness_at(at) - V(ground.upper);
     }
@@ -131,9 +131,18 @@ namespace detail {
 /// D below a pin at one shift, with a bound on its error and the negative pivots so far.
 template <Real S>
 struct BoundedStiffness {
+    using M = Narrow<S>;  // magnitudes and errors
     S below{};
-    Narrow<S> error{};
+    M error{};
     CertifiedCount count{0, true};
+
+    /// Twice the least pivot: more than what underflows.
+    static M tiny() { return M(2) * least_pivot<M>(); }
+    void change_unit(int step) {
+        using std::ldexp;
+        below = ldexp(below, step);
+        error = ldexp(error, step) + tiny();
+    }
 };
 
 /// Carries D and the bound on its error across elements.
@@ -171,11 +180,6 @@ class BoundedCarry<ElementPencil<S>> {
         return {static_cast<M>(e.lower), static_cast<M>(e.upper), turning,
                 abs(static_cast<M>(e.cross)) + M(2) * turning};
     }
-    static void change_unit(State& at, int step) {
-        using std::ldexp;
-        at.below = ldexp(at.below, step);
-        at.error = ldexp(at.error, step) + tiny();
-    }
     [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift, State& at) const {
         using std::abs;
         const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
@@ -212,7 +216,7 @@ class BoundedCarry<ElementPencil<S>> {
     }
 
    private:
-    static M tiny() { return M(2) * least_pivot<M>(); }
+    static M tiny() { return State::tiny(); }
     static M unit() { return operation_error<S>(); }
 
     M local_;  // stiffness times weight has both their errors
@@ -229,7 +233,7 @@ class BoundedCarry<SignedPencil<S>> {
    public:
     using M = Narrow<S>;
     using State = BoundedStiffness<S>;
-    static constexpr bool in_units = false;
+    static constexpr bool in_units = true;
     struct Shift {
         Factors<S> x;
         M stiffness_size, spin_size;
@@ -262,7 +266,7 @@ class BoundedCarry<SignedPencil<S>> {
         using std::abs;
         const M u = operation_error<S>();
         const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
-        const M tiny = M(2) * least_pivot<M>();
+        const M tiny = State::tiny();
         const ElementError<M>& off = e.error;
         const S L = e.stiffness_at(shift.x);
         const M a = shift.stiffness_size, b = shift.spin_size, L_size = a * of.stiffness + b * of.spin;
@@ -312,10 +316,7 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnE
     const detail::BoundedCarry<ElementPencil<S, Spins, OwnErrors>> carry(pencil);
     const auto state = detail::carried_up(carry, pencil, shifts);
     std::array<CertifiedCount, L> result;
-    for (std::size_t i = 0; i < L; ++i) {
-        result[i] = state[i].count;
-        if (OwnErrors && !pencil.units.empty()) result[i].proved = false;  // its carry knows one unit
-    }
+    for (std::size_t i = 0; i < L; ++i) result[i] = state[i].count;
     return result;
 }
 

@@ -267,17 +267,18 @@ template <Real S, bool Spins, bool OwnErrors, class Offsets>
 auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
     using std::frexp;
     using std::ldexp;
-    using T = std::decay_t<decltype(offset[0])>;
+    const auto* const at = offset.data();
+    using T = std::decay_t<decltype(*at)>;
     std::optional<int> largest;
     for (std::size_t m = 0; m < pencil.units.size(); ++m)
-        for (const T& y : {offset[static_cast<Index>(m)], offset[static_cast<Index>(m) + 1]}) {
+        for (const T& y : {at[m], at[m + 1]}) {
             if (y == T(0)) continue;
             int exponent = 0;
             frexp(y, &exponent);
             largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
         }
-    return [&pencil, &offset, share, unit = largest.value_or(0)](std::size_t element, Index pin) {
-        const T y = pencil.units.empty() ? offset[pin] : T(ldexp(offset[pin], pencil.units[element] / share - unit));
+    return [&pencil, at, share, unit = largest.value_or(0)](std::size_t element, std::size_t pin) {
+        const T y = pencil.units.empty() ? at[pin] : T(ldexp(at[pin], pencil.units[element] / share - unit));
         return S(static_cast<std::conditional_t<std::is_same_v<S, T>, S, Narrow<S>>>(y));
     };
 }
@@ -308,8 +309,7 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
         if constexpr (Spins) spin = spin + e.spin * square;
     };
     if (pencil.ground) add(*pencil.ground, zero, offsets(0, 0));
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
-        add(pencil.elements[m], offsets(m, static_cast<Index>(m)), offsets(m, static_cast<Index>(m) + 1));
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) add(pencil.elements[m], offsets(m, m), offsets(m, m + 1));
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
@@ -352,7 +352,7 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
     };
     if (pencil.ground) pass(*pencil.ground, S(M(0)), offsets(0, 0), true);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m)
-        pass(pencil.elements[m], offsets(m, static_cast<Index>(m)), offsets(m, static_cast<Index>(m) + 1), false);
+        pass(pencil.elements[m], offsets(m, m), offsets(m, m + 1), false);
     return largest > M(0) ? static_cast<T>(worst / largest) : T(0);
 }
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string_view>
 
+#include "revchain/numeric/zero_between.hpp"
 #include "revchain/rope.hpp"
 #include "revchain/special/incomplete_elliptic.hpp"
-#include "revchain/special/root_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
@@ -113,12 +113,17 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     const double wanted = detail::logarithm_of_ratio(equation[0].value, equation[1].value);
     const auto off = [&](double logarithm) {
         const detail::RopeRatios r(detail::rope_modulus(logarithm));
-        return detail::logarithm_of_ratio(r.*equation[0].ratio, r.*equation[1].ratio) - wanted;
+        const double first = r.*equation[0].ratio, second = r.*equation[1].ratio;
+        // near the zero one logarithm of all four, without the rounding of two large ones
+        const double a = first / equation[0].value, b = second / equation[1].value, quotient = a / b;
+        if (std::isnormal(a) && std::isnormal(b) && quotient > 0.5 && quotient < 2) return std::log(quotient);
+        return detail::logarithm_of_ratio(first, second) - wanted;
     };
     constexpr double farthest = 340;  // kappa or kappa' = 1e-148
-    const auto logarithm = detail::root_between(off, -farthest, farthest);
-    if (!logarithm) detail::throw_invalid(place, "no rope that double can hold has this form");
-    functions_ = JacobiFunctions(detail::rope_modulus(*logarithm));
+    const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)}, {farthest, off(farthest)}};
+    const double logarithm = revchain::detail::zero_between(within, off);
+    if (std::isnan(logarithm)) detail::throw_invalid(place, "no rope that double can hold has this form");
+    functions_ = JacobiFunctions(detail::rope_modulus(logarithm));
     const detail::RopeRatios r(modulus());
     quarter_ = equation[0].value / r.*equation[0].ratio;
     const double along = 2 * quarter_ * waves();
@@ -171,7 +176,9 @@ inline RopePoint SkippingRope::at_arc(double arc) const {
         detail::throw_invalid("analytic::SkippingRope::at_arc", "arc must lie between 0 and the length", arc);
     const double end = 2 * waves() * functions_.complete().K;
     const auto off = [&](double u) { return at_argument(u).arc - arc; };
-    RopePoint point = at_argument(detail::root_between(off, 0.0, end).value_or(end));
+    const revchain::detail::SignChange<double> within{{0, -arc}, {end, off(end)}};
+    const double u = revchain::detail::zero_between(within, off);
+    RopePoint point = at_argument(std::isnan(u) ? end : u);
     point.arc = arc;
     return point;
 }

@@ -179,3 +179,18 @@ TEST_CASE("roots eight at a time: roots that lie close together are left open, n
     }
     CHECK(open < 5);
 }
+
+// The intervals of the first two share one root; their high words are neighbours and their low words half way between.
+TEST_CASE("two quotients either side of one root prove nothing of a third", "[linalg]") {
+    using Root = revchain::pencil::ProvedRoot<double>;
+    const revchain::DoubleWord<double> upper(1 + 0x1p-52, -0x1p-53 + 0x1p-80), lower(1.0, 0x1p-53 - 0x1p-80);
+    std::vector<Root> roots{{upper, 0.0}, {lower, 0.0}, {revchain::DoubleWord<double>(0.5), 0.0}};
+    const std::vector<double> reach{0x1p-75, 0x1p-75, 5e-10};
+    const auto exact = [](double x) {  // 1 + 2^-53 and 0.5 +- 5e-10
+        const revchain::Index above = (x <= 1) + (x < 0.5 + 5e-10) + (x < 0.5 - 5e-10);
+        return revchain::pencil::CertifiedCount{above, true};
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    const bool proved = revchain::pencil::prove(roots, reach, 0, 0.0, infinity, 1e-15, exact);
+    CHECK((!proved || roots[2].off >= 5e-10));
+}

@@ -202,3 +202,28 @@ TEST_CASE("errors of the entries withdraw a proof where they could change the co
     pencil.elements[0].error.lower = std::nan("");
     CHECK(!revchain::pencil::certified_count<S, 1>(pencil, {S(3.0)})[0].proved);
 }
+
+TEST_CASE("elements of any sign in several units are counted as in one", "[linalg]") {
+    Random random(82);
+    int proved = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto pencil = random_pencil(random, 8, i % 2 == 0);
+        auto in_units = pencil;  // the lowest three are in units of 2^-40, the next three of 2^-7
+        in_units.units = {-40, -40, -40, -7, -7, -7, 0, 0};
+        for (std::size_t m = 0; m < 8; ++m) {
+            const auto scaled = [&](const S& x) { return ldexp(x, -in_units.units[m]); };
+            const auto& e = pencil.elements[m];
+            in_units.elements[m] = SignedElement<S>::of(scaled(e.stiffness), scaled(e.spin), scaled(e.lower),
+                                                        scaled(e.upper), scaled(e.cross));
+        }
+        const S shift(random.log_between(1e-3, 1e3));
+        const auto one = revchain::pencil::certified_count<S, 1>(pencil, {shift})[0];
+        const auto several = revchain::pencil::certified_count<S, 1>(in_units, {shift})[0];
+        const double rough = static_cast<double>(shift);
+        const auto plain = revchain::pencil::count_above<double, 1>(revchain::pencil::rounded<double>(in_units), {rough});
+        REQUIRE((one.above == several.above && several.proved == one.proved));
+        if (one.proved) REQUIRE(plain[0] == one.above);
+        proved += one.proved;
+    }
+    CHECK(proved > 190);
+}

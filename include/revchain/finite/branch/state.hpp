@@ -26,7 +26,7 @@ struct BranchPoint {
 struct BranchSystem;
 struct BranchOnset;
 
-/// What a branch keeps of how it was followed, behind its accessors.
+/// How a branch was followed: its system, its points and the onset it began at. Accessors of `Branch` read it.
 struct BranchTrace {
     std::shared_ptr<const BranchSystem> system;
     std::vector<BranchPoint> points;

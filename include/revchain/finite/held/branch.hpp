@@ -36,13 +36,8 @@ std::optional<HeldState> fold_between(System& held, const HeldState& from, const
     };
     const double at_low = turning(from), at_high = turning(to);
     if (!(at_low * at_high < 0)) return {};
-    std::optional<HeldState> best;
-    const auto at = [&](double share) {
-        best = held.curve().across_chord(from, to, share);
-        return best ? turning(*best) : std::numeric_limits<double>::quiet_NaN();
-    };
-    zero_between(revchain::detail::SignChange<double>{{0, at_low}, {1, at_high}}, at, {.width = 2e-16});
-    return best;
+    const auto at = [&](double share) { return held.curve().across_chord(from, to, share); };
+    return revchain::detail::state_between(at_low, at_high, at, turning);
 }
 
 /// The branch that begins with a state, for heights from its own on. `describe(state, is_fold)` returns a shape.

@@ -119,11 +119,8 @@ class HeldCurve {
             const auto there = shooter_->kept();
             const double here = off(state);
             if (here * was < 0) {
-                const auto at = [&](double share) {
-                    met = across_chord(before, state, share);
-                    return met ? off(*met) : std::numeric_limits<double>::quiet_NaN();
-                };
-                zero_between(revchain::detail::SignChange<double>{{0, was}, {1, here}}, at, {.width = 2e-16});
+                const auto at = [&](double share) { return across_chord(before, state, share); };
+                met = revchain::detail::state_between(was, here, at, off);
                 if (met) return false;
                 shooter_->keep(there);
             }
@@ -158,13 +155,9 @@ class HeldCurve {
     /// The state between two at which the top tension is as wanted.
     template <class Visit>
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
-        std::optional<Tense> best;
-        const auto at = [&](double share) {
-            best = at_share(a, b, share, wanted);
-            return best ? best->off : std::numeric_limits<double>::quiet_NaN();
-        };
-        zero_between(revchain::detail::SignChange<double>{{0, a.off}, {1, b.off}}, at,
-                     {.width = 2e-16, .value = 1e-16 * wanted});
+        const auto at = [&](double share) { return at_share(a, b, share, wanted); };
+        const auto off = [](const Tense& x) { return x.off; };
+        const auto best = revchain::detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
         if (best) visit(best->state);
     }
     /// A state between two on the other side of the tension wanted, where it is nearest to it.

@@ -43,7 +43,7 @@ struct DrivenWalk {
     typename V::Mask proved, negative, turned;
 };
 
-/// What a sharper bound needs of a pin: y over y above, one over the pivot, and the errors of the
+/// Four numbers of a pin that the sharper bound is made of: y over y above, one over the pivot, and the errors of the
 /// row itself and of D.
 template <class V>
 struct DrivenRow {

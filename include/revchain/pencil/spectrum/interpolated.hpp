@@ -167,7 +167,7 @@ class Candidates {
     /// at the first one, joined at any pin near where the mode seems to live, at last anywhere.
     void refine_roots() {
         for (int round = 0; round < 3; ++round) {
-            // What will be proved, were counts where intervals meet as they should be.
+            // The bounds that `proved` will give if counts between intervals are as expected.
             const double infinity = std::numeric_limits<double>::infinity();
             const auto foreseen = roots_between(-infinity, infinity, [&](double x) {
                 const auto below = std::lower_bound(starts_.begin(), starts_.end(), 1 / x);
@@ -194,8 +194,7 @@ class Candidates {
 
     /// The candidates' roots as `prove` leaves them.
     template <class Count>
-    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above,
-                                                                 const Count& count) const {
+    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above, const Count& count) const {
         std::vector<ProvedRoot<double>> roots;
         std::vector<double> reach;
         for (const Candidate& c : all_) {
@@ -206,29 +205,30 @@ class Candidates {
         return roots;
     }
 
-    /// What no vector says anything of is left to counts, and then what is not apart from
-    /// neighbours.
+    /// Proves the roots: those of which no vector says anything, and those whose intervals meet others, by counts.
     std::optional<std::vector<Certified<double>>> proved(Index first, Index last) {
+        std::vector<std::optional<Certified<double>>> sure(all_.size());
         for (std::size_t i = 0; i < all_.size(); ++i) {
             Candidate& c = all_[i];
             if (std::isfinite(c.residual)) continue;
             const Index j = begin_ + static_cast<Index>(i);
-            const Certified<double> sure = counted(j, j + 1, c.root.root.high).front();
-            c.root = {sure.unrounded, sure.error_bound * sure.eigenvalue};
+            sure[i] = counted(j, j + 1, c.root.root.high).front();
+            const double bound = sure[i]->error_bound;  // relative to the exact eigenvalue
+            c.root = {sure[i]->unrounded, bound < 1 ? bound / (1 - bound) * sure[i]->eigenvalue : bound};
             c.residual = 0;
         }
-        const auto roots = roots_between(bottom_, top_, [&](double x) {
-            return certified_count<S, 1>(wide_, {S(x)})[0];
-        });
+        const auto roots =
+            roots_between(bottom_, top_, [&](double x) { return certified_count<S, 1>(wide_, {S(x)})[0]; });
         if (!roots) return std::nullopt;
         std::vector<Certified<double>> result;
         for (Index j = first; j < last; ++j) {
-            const auto& [root, off] = (*roots)[static_cast<std::size_t>(j - begin_)];
-            const double rounded = fine_ || root.low != 0 ? epsilon<double>() / 2 : 0.0;
-            if (std::isfinite(off))
-                result.push_back({root.high, (off / root.high + rounded) * (1 + 0x1p-30), root});
+            const auto i = static_cast<std::size_t>(j - begin_);
+            const ProvedRoot<double>& found = (*roots)[i];
+            const double rounded = fine_ || found.root.low != 0 ? epsilon<double>() / 2 : 0.0;
+            if (std::isfinite(found.off))
+                result.push_back({found.root.high, found.bound(rounded), found.root});
             else
-                result.push_back(counted(j, j + 1, root.high).front());
+                result.push_back(sure[i] ? *sure[i] : counted(j, j + 1, found.root.high).front());
         }
         return result;
     }
