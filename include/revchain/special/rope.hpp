@@ -110,20 +110,20 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     add(lengths.sag, 1, &detail::RopeRatios::sag);
     add(lengths.strength, 1, &detail::RopeRatios::strength);
     add(lengths.length, half, &detail::RopeRatios::length);
+    constexpr double farthest = 340;  // ln(kappa/kappa'), either way: kappa or kappa' = 1e-148
     const double wanted = detail::logarithm_of_ratio(equation[0].value, equation[1].value);
-    const auto off = [&](double logarithm) {
-        const detail::RopeRatios r(detail::rope_modulus(logarithm));
-        const double first = r.*equation[0].ratio, second = r.*equation[1].ratio;
-        // near the zero one logarithm of all four, without the rounding of two large ones
-        const double a = first / equation[0].value, b = second / equation[1].value, quotient = a / b;
-        if (std::isnormal(a) && std::isnormal(b) && quotient > 0.5 && quotient < 2) return std::log(quotient);
-        return detail::logarithm_of_ratio(first, second) - wanted;
-    };
-    constexpr double farthest = 340;  // kappa or kappa' = 1e-148
-    const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)}, {farthest, off(farthest)}};
-    const double logarithm = revchain::detail::zero_between(within, off);
-    if (std::isnan(logarithm)) detail::throw_invalid(place, "no rope that double can hold has this form");
-    functions_ = JacobiFunctions(detail::rope_modulus(logarithm));
+    if (lengths.sag && lengths.strength && std::abs(wanted) < farthest) {  // sag / strength = 2 kappa/kappa'
+        functions_ = JacobiFunctions(EllipticModulus::of_ratio(*lengths.sag, 2 * *lengths.strength));
+    } else {
+        const auto off = [&](double logarithm) {
+            const detail::RopeRatios r(detail::rope_modulus(logarithm));
+            return detail::logarithm_of_ratio(r.*equation[0].ratio, r.*equation[1].ratio) - wanted;
+        };
+        const revchain::detail::SignChange<double> within{{-farthest, off(-farthest)}, {farthest, off(farthest)}};
+        const double logarithm = revchain::detail::zero_between(within, off);
+        if (std::isnan(logarithm)) detail::throw_invalid(place, "no rope that double can hold has this form");
+        functions_ = JacobiFunctions(detail::rope_modulus(logarithm));
+    }
     const detail::RopeRatios r(modulus());
     quarter_ = equation[0].value / r.*equation[0].ratio;
     const double along = 2 * quarter_ * waves();
