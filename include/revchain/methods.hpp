@@ -20,7 +20,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace methods {
-/// All of them. `modes` takes the one that is expected to be the cheapest. A program compiles the methods that it names.
+/// All methods: `modes` takes the one that is expected to be the cheapest. A program compiles the methods it names.
 inline constexpr auto all = std::tuple_cat(within_tolerance, many_modes, long_chains);
 }  // namespace methods
 
@@ -35,4 +35,4 @@ template <Real T, class... Models>
 
 }  // namespace revchain
 
-#include "revchain/questions/modes_by_methods.hpp"
+#include "revchain/questions/methods.hpp"

@@ -219,8 +219,8 @@ bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const 
     return in_range;
 }
 
-/// Shapes of `heights`, of the modes from number `first` on, in the units of the chain's pencils, by condensation. Absent
-/// where blocks do not pay, where weights need several units, and where offsets leave the range of T.
+/// Shapes at `heights` (in the units of the chain's pencils) of the modes from number `first` on, by condensation.
+/// Absent where blocks do not pay, where weights need several units, and where offsets leave the range of T.
 template <std::floating_point T>
 std::optional<ModeShapes<T>> condensed_shapes(const Chain<T>& chain, Index first, const Heights<T>& heights,
                                               Progress* progress) {

@@ -72,8 +72,8 @@ struct Bisection {
         revchain::detail::LazyCounter<double> assembled(chain);
         auto options = detail::options_for(question);
         if (!counts_pay(kind, question)) options.rtol.reset();
-        return detail::answered(chain, revchain::detail::heights_by_bisection(
-                                           chain, assembled, detail::range_of(question), options));
+        return detail::answered(
+            chain, revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question), options));
     }
 
    private:

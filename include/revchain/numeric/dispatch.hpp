@@ -38,7 +38,8 @@ using OwnRegisters = Registers<16, own_fused>;
 #if defined(REVCHAIN_SEVERAL_TARGETS)
 inline constexpr std::size_t lanes_at_once = most_doubles;
 #else
-inline constexpr std::size_t lanes_at_once = OwnRegisters::doubles == most_doubles ? most_doubles : 2 * OwnRegisters::doubles;
+inline constexpr std::size_t lanes_at_once =
+    OwnRegisters::doubles == most_doubles ? most_doubles : 2 * OwnRegisters::doubles;
 #endif
 
 template <class F>

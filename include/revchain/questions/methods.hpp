@@ -29,10 +29,14 @@ inline models::Question question_of(const ModeRange& range, const std::optional<
 /// The name of a method in `Modes::method`.
 inline std::string_view name_of(ModesMethod method) {
     switch (method) {
-        case ModesMethod::condensed: return models::Condensed::name;
-        case ModesMethod::aberth: return models::Aberth::name;
-        case ModesMethod::interpolated: return models::Interpolated::name;
-        default: return models::Bisection::name;
+        case ModesMethod::condensed:
+            return models::Condensed::name;
+        case ModesMethod::aberth:
+            return models::Aberth::name;
+        case ModesMethod::interpolated:
+            return models::Interpolated::name;
+        default:
+            return models::Bisection::name;
     }
 }
 
@@ -48,8 +52,7 @@ models::Solution solved(const Chain<double>& chain, const ModeRange& range, cons
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
-                                                    const models::Answer& answer) {
+inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
@@ -89,10 +92,10 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    ShapesBehind::of(result) = LazyModeShapes<double>(
-        [chain, first = range.first, answer = std::move(found.answer), loose, methods,
-         condense = options.method != ModesMethod::bisection,
-         threads = options.threads](Index from, Index count, bool details, Progress* progress) {
+    ShapesBehind::of(result) =
+        LazyModeShapes<double>([chain, first = range.first, answer = std::move(found.answer), loose, methods,
+                                condense = options.method != ModesMethod::bisection,
+                                threads = options.threads](Index from, Index count, bool details, Progress* progress) {
             const Threads used("modes", threads);
             const Heights<double> all = heights_in_units(chain, answer);
             const Heights<double> some(all.begin() + from, all.begin() + from + count);
