@@ -49,6 +49,9 @@ grep -q 'revchain::for_[a-z0-9_]*::Chain' symbols || fail 'the consumer of the c
 if grep -qE 'revchain::for_[a-z0-9_]*::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols; then
   fail 'a program of plain chains carries what chains can be rigged with'
 fi
+if grep -qE 'revchain::for_[a-z0-9_]*::.*([Aa]berth|[Ii]nterpolat|[Cc]ondens|models::)' symbols; then
+  fail 'a program that includes modes.hpp alone carries methods that it did not ask for'
+fi
 
 say 'find_package(revchain COMPONENTS compiled)'
 refuses "the component 'compiled' was not installed" 'revchain REQUIRED COMPONENTS compiled'
