@@ -92,10 +92,11 @@ RIGGING = {"rig.hpp", "system/edit.hpp"}
 # lives until the end of the file that includes them; its prefix keeps it apart from a user's. All others are undefined at
 # the end of their header.
 MACROS_THAT_STAY = {
-    "REVCHAIN_BUILD",  # every header opens its namespace with it; the next five are its parts
+    "REVCHAIN_BUILD",  # every header opens its namespace with it; the next six are its parts
     "REVCHAIN_BUILD_SET",
     "REVCHAIN_BUILD_FMA",
     "REVCHAIN_BUILD_KIND",
+    "REVCHAIN_BUILD_LIBRARY",
     "REVCHAIN_JOIN",
     "REVCHAIN_JOINED",
     "REVCHAIN_INLINE",  # before definitions of public functions

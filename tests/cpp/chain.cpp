@@ -142,3 +142,9 @@ TEST_CASE("lengths too far apart are refused", "[chain]") {
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e-160}}), ContainsSubstring("radius of gyration is too far"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e160}}), ContainsSubstring("radius of gyration is too far"));
 }
+
+TEST_CASE("links are written by name where the chain is made", "[chain]") {
+    const Chain chain({{.weight = 1.0, .length = 2.0, .centroid = 2.0}, {.weight = 3.0, .length = 4.0}});
+    CHECK(chain.link(0) == revchain::plummet(1.0, 2.0));
+    CHECK(chain.link(1) == revchain::Link<double>{3.0, 4.0, 0.0, 0.0});
+}

@@ -116,6 +116,14 @@ quietly "${CXX:-c++}" -std=c++20 "$here"/light/main.cpp $(pkg-config --cflags --
 quietly "${CXX:-c++}" -std=c++20 "$here"/analytic/*.cpp $(pkg-config --cflags --libs revchain-analytic) -o with_pkg_config
 ./with_pkg_config
 
+say 'C++17 is refused in one line'
+# shellcheck disable=SC2046
+if "${CXX:-c++}" -std=c++17 -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags-only-I revchain) 2>log; then
+  fail 'compiled as C++17'
+fi
+grep -q 'error.*revchain needs C++20' log || { cat log; fail 'C++17: no message'; }
+[[ $(grep -c 'error' log) -le 4 ]] || { cat log; fail 'C++17: more errors than one message'; }
+
 say '-ffast-math is refused'
 # shellcheck disable=SC2046
 if "${CXX:-c++}" -std=c++20 -ffast-math -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags revchain) 2>log; then
