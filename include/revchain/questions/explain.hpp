@@ -60,6 +60,10 @@ REVCHAIN_INLINE std::string Explanation::text() const {
         row.erase(row.find_last_not_of(' ') + 1);
         result += row + '\n';
     }
+#if !defined(REVCHAIN_COMPILED)
+    if (chosen < methods.size() && methods[chosen].name != models::Bisection::name)
+        result += "include <revchain/methods.hpp> and call modes(chain, options, revchain::methods::all)\n";
+#endif
     return result;
 }
 
