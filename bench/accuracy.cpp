@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
@@ -26,7 +27,7 @@ int main() {
             const auto chain = family.make(n);
             const Index count = n > 3000 ? 10 : chain.mode_count();
             const double start = cpu_ms();
-            const auto m = revchain::modes(chain, {.count = count});
+            const auto m = revchain::modes(chain, {.count = count}, revchain::methods::all);
             const double time = cpu_ms() - start;
             const support::Truth truth(chain);
             const Index step = n == 1000 ? 17 : n == 3000 ? 101 : n > 3000 ? 3 : 1;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/cuttings.hpp"
 
@@ -83,7 +84,7 @@ std::vector<std::vector<Row>> measure(const Cutting& cutting, Index largest) {
         if (size < cutting.smallest) continue;
         const auto chain = cutting.make(size);
         const Index count = std::min<Index>(10, chain.mode_count());
-        const auto m = revchain::modes(chain, {.count = count});
+        const auto m = revchain::modes(chain, {.count = count}, revchain::methods::all);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const Zero zero = support::bessel_zeros<long double>[i];
             if (zero.mode > count) continue;

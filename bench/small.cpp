@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lapack_names.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
@@ -94,7 +95,7 @@ int main() {
             double together = 0, error = 0, peer_error = 0, bound = 0, peer[most]{};
             const std::size_t sample = n > 30 ? 3 : n > 16 ? 20 : 200;
             for (std::size_t i = 0; i < all.size(); ++i) {
-                const auto modes = revchain::modes(chains[i], options);
+                const auto modes = revchain::modes(chains[i], options, revchain::methods::all);
                 together += modes.method == "aberth" ? 1.0 / count : 0;
                 bound = std::max(bound, modes.error_bound.maxCoeff());
                 if (i >= sample) continue;
@@ -118,10 +119,12 @@ int main() {
             std::vector<double> chain, modes, spectrum, other;
             for (int round = 0; round < 11; ++round) {
                 chain.push_back(microseconds([&](std::size_t i) { return Chain<double>(all[i]).total_length(); }));
-                modes.push_back(
-                    microseconds([&](std::size_t i) { return revchain::modes(chains[i], options).conical_height[0]; }));
-                spectrum.push_back(microseconds(
-                    [&](std::size_t i) { return revchain::modes(chains[i], by_interpolation).conical_height[0]; }));
+                modes.push_back(microseconds([&](std::size_t i) {
+                    return revchain::modes(chains[i], options, revchain::methods::all).conical_height[0];
+                }));
+                spectrum.push_back(microseconds([&](std::size_t i) {
+                    return revchain::modes(chains[i], by_interpolation, revchain::methods::all).conical_height[0];
+                }));
                 other.push_back(microseconds([&](std::size_t i) {
                     lapack(rods, all[i], peer);
                     return peer[0];

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "revchain/batch.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/response.hpp"
 #include "revchain/steady_shapes.hpp"
@@ -56,12 +57,16 @@ int main(int argc, char** argv) {
     std::printf("question,ms by one thread,ms by %td,ratio\n", threads);
 
     const auto many = plummets(3000);
-    report("all heights of 3000 plummets", threads, repetitions,
-           [&](Index t) { (void)revchain::modes(many, {.count = revchain::all_modes, .threads = t}); });
-    report("100 heights of 3000 plummets by bisection", threads, repetitions, [&](Index t) {
-        (void)revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection});
+    report("all heights of 3000 plummets", threads, repetitions, [&](Index t) {
+        (void)revchain::modes(many, {.count = revchain::all_modes, .threads = t}, revchain::methods::all);
     });
-    const auto modes_of_many = [&](Index t) { return revchain::modes(many, {.count = 100, .threads = t}); };
+    report("100 heights of 3000 plummets by bisection", threads, repetitions, [&](Index t) {
+        (void)revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection},
+                              revchain::methods::all);
+    });
+    const auto modes_of_many = [&](Index t) {
+        return revchain::modes(many, {.count = 100, .threads = t}, revchain::methods::all);
+    };
     const revchain::Modes<double> found[]{modes_of_many(1), modes_of_many(threads)};
     report("shapes of 100 modes of 3000 plummets", threads, repetitions,
            [&](Index t) { revchain::detail::ShapesBehind::of(found[t == 1 ? 0 : 1]).some(0, 100, false, nullptr); });

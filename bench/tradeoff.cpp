@@ -21,6 +21,7 @@
 #include <random>
 
 #include "dense_model.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "timing.hpp"
 #include "tradeoff/height_truth.hpp"
@@ -79,7 +80,7 @@ double error_of(const Answer& answer, const std::vector<Quad>& truth, double& sh
 }
 
 std::vector<Quad> truth_of(const Chain<double>& chain, Index count) {
-    const Modes<double> near = modes(chain, {.count = count});
+    const Modes<double> near = modes(chain, {.count = count}, revchain::methods::all);
     std::vector<Quad> truth;
     const auto find = [&](const auto& heights) {
         for (Index j = 0; j < count; ++j)

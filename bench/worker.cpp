@@ -205,8 +205,9 @@ std::string check() {
             const std::size_t few = std::min<std::size_t>(size, 10);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).newton(few, newton);
             if (kind != 'D' && kind != 'E') bench::Direct(raw).two_points(few, two_points);
-            const auto all =
-                revchain::modes(bench::library_chain<double>(raw), {.count = revchain::all_modes}).conical_height;
+            const auto all = revchain::modes(bench::library_chain<double>(raw), {.count = revchain::all_modes},
+                                             revchain::methods::all)
+                                 .conical_height;
             for (std::size_t j = 0; j<size; j += size> 40 && j >= 10 ? 29 : 1) {
                 const double guess = all[static_cast<revchain::Index>(j)];
                 const support::Quad h = reference.height(static_cast<revchain::Index>(j), support::Quad(guess) / 2,

@@ -50,6 +50,7 @@ PUBLIC = {
     "conical_pendulum.hpp": "system",
     "count.hpp": "linear",
     "modes.hpp": "questions",
+    "methods.hpp": "questions",
     "batch.hpp": "questions",
     "recurrence.hpp": "linear",
     "response.hpp": "questions",
@@ -85,16 +86,17 @@ FURTHER = {  # more files that define what a header declares
 }
 MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
-PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
+PLAIN = {"chain.hpp", "modes.hpp", "methods.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
 RIGGING = {"rig.hpp", "system/edit.hpp"}
 # Macros that outlive the header that defines them. C++ gives a macro no scope, so that one which several headers use
 # lives until the end of the file that includes them; its prefix keeps it apart from a user's. All others are undefined at
 # the end of their header.
 MACROS_THAT_STAY = {
-    "REVCHAIN_BUILD",  # every header opens its namespace with it; the next five are its parts
+    "REVCHAIN_BUILD",  # every header opens its namespace with it; the next six are its parts
     "REVCHAIN_BUILD_SET",
     "REVCHAIN_BUILD_FMA",
     "REVCHAIN_BUILD_KIND",
+    "REVCHAIN_BUILD_LIBRARY",
     "REVCHAIN_JOIN",
     "REVCHAIN_JOINED",
     "REVCHAIN_INLINE",  # before definitions of public functions

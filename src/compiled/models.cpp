@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/models/for_modes.hpp"
+#include "revchain/methods.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::models::detail {
 template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&, const Question&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/questions/modes.hpp"
+#include "modes_by_all_methods.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);

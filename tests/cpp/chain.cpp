@@ -101,7 +101,7 @@ TEST_CASE("a wrong chain is refused, naming the link and the value", "[chain]") 
                       ContainsSubstring("links[1]: weight") && ContainsSubstring("-2"));
     CHECK_THROWS_WITH(Chain(Links{plummet(0.0, 1.0), plummet(1.0, 1.0)}),
                       ContainsSubstring("lowest link must have weight"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1e308, 1.0), plummet(1e308, 1.0)}),
+    CHECK_THROWS_WITH(Chain(Links{plummet(1e308, 1.0), plummet(1.1e308, 1.0)}),
                       ContainsSubstring("links[1]: the weights add up to infinity"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1e308), plummet(1.0, 1e308)}), ContainsSubstring("lengths add up"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, infinity, 0.0}}), ContainsSubstring("centroid"));
@@ -141,4 +141,25 @@ TEST_CASE("lengths too far apart are refused", "[chain]") {
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1e-80, 1.0}}), ContainsSubstring("lengths span"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e-160}}), ContainsSubstring("radius of gyration is too far"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e160}}), ContainsSubstring("radius of gyration is too far"));
+}
+
+TEST_CASE("links are written by name where the chain is made", "[chain]") {
+    const Chain chain({{.weight = 1.0, .length = 2.0, .centroid = 2.0}, {.weight = 3.0, .length = 4.0}});
+    CHECK(chain.link(0) == revchain::plummet(1.0, 2.0));
+    CHECK(chain.link(1) == revchain::Link<double>{3.0, 4.0, 0.0, 0.0});
+}
+
+TEST_CASE("links that are all the same are stored once", "[chain]") {
+    const Chain equal(std::vector<revchain::Link<double>>(1000, revchain::uniform_rod(2.0, 0.25)));
+    CHECK(equal.weight().is_scalar());
+    CHECK(equal.gyration_ratio().is_scalar());
+    CHECK(equal == Chain::uniform_rods(1000, 250.0, 2000.0));
+    CHECK_THROWS_WITH(Chain(std::vector{plummet(1e308, 1.0), plummet(1e308, 1.0)}),
+                      ContainsSubstring("the weights add up to infinity"));
+    std::vector<revchain::Link<double>> links(1000, revchain::uniform_rod(2.0, 0.25));
+    links.back().centroid = 0.1;
+    const Chain unlike(links);
+    CHECK(unlike.weight().stored() == 1000);
+    CHECK(unlike.link(999).centroid == 0.1);
+    CHECK(unlike.link(998).centroid == 0.125);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/modes.hpp"
+#include "revchain/methods.hpp"
 
 #include <cfenv>
 
@@ -201,7 +202,7 @@ TEST_CASE("a stiffer-minded count: mode numbers by counting, for long pendulum l
 
 TEST_CASE("what was asked is what comes", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(7);
-    const auto all = revchain::modes(chain, {.count = revchain::all_modes});
+    const auto all = revchain::modes(chain, {.count = revchain::all_modes}, revchain::methods::all);
     CHECK(all.size() == 7);
     CHECK(all.method == "aberth");
     const auto some = revchain::modes(chain, {.count = 3});

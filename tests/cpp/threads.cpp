@@ -4,6 +4,7 @@
 #include <random>
 
 #include "revchain/batch.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/questions/modes.hpp"
@@ -46,12 +47,12 @@ bool same(const revchain::Modes<T>& x, const revchain::Modes<T>& y) {
 template <class T>
 void check_modes(const Chain<T>& chain, revchain::ModesOptions<T> options, const std::string& method) {
     options.certify = true;
-    const auto one = revchain::modes(chain, options);
+    const auto one = revchain::modes(chain, options, revchain::methods::all);
     CHECK(one.method == method);
     for (const Index threads : several) {
         options.threads = threads;
         CAPTURE(chain.size(), method, threads);
-        CHECK(same(one, revchain::modes(chain, options)));
+        CHECK(same(one, revchain::modes(chain, options, revchain::methods::all)));
     }
 }
 

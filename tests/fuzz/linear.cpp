@@ -3,6 +3,7 @@
 #include "revchain/batch.hpp"
 #include "revchain/buffer.hpp"
 #include "revchain/count.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/response.hpp"
 #include "revchain/sensitivity.hpp"
@@ -20,7 +21,7 @@ void modes(fuzz::Random& random, const revchain::Chain<double>& chain) {
     using revchain::ModesMethod;
     options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::condensed,
                                   ModesMethod::aberth, ModesMethod::interpolated});
-    const auto found = revchain::modes(chain, options);
+    const auto found = revchain::modes(chain, options, revchain::methods::all);
     for (revchain::Index j = 0; j < found.size(); ++j)
         fuzz::expect_number(found.conical_height[j] + found.error_bound[j]);
     if (random.one_in(3)) (void)revchain::sensitivity(chain, found);

@@ -49,6 +49,9 @@ grep -q 'revchain::for_[a-z0-9_]*::Chain' symbols || fail 'the consumer of the c
 if grep -qE 'revchain::for_[a-z0-9_]*::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols; then
   fail 'a program of plain chains carries what chains can be rigged with'
 fi
+if grep -qE 'revchain::for_[a-z0-9_]*::.*([Aa]berth|[Ii]nterpolat|[Cc]ondens|models::)' symbols; then
+  fail 'a program that includes modes.hpp alone carries methods that it did not ask for'
+fi
 
 say 'find_package(revchain COMPONENTS compiled)'
 refuses "the component 'compiled' was not installed" 'revchain REQUIRED COMPONENTS compiled'
@@ -112,6 +115,14 @@ quietly "${CXX:-c++}" -std=c++20 "$here"/light/main.cpp $(pkg-config --cflags --
 # shellcheck disable=SC2046
 quietly "${CXX:-c++}" -std=c++20 "$here"/analytic/*.cpp $(pkg-config --cflags --libs revchain-analytic) -o with_pkg_config
 ./with_pkg_config
+
+say 'C++17 is refused in one line'
+# shellcheck disable=SC2046
+if "${CXX:-c++}" -std=c++17 -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags-only-I revchain) 2>log; then
+  fail 'compiled as C++17'
+fi
+grep -q 'error.*revchain needs C++20' log || { cat log; fail 'C++17: no message'; }
+[[ $(grep -c 'error' log) -le 4 ]] || { cat log; fail 'C++17: more errors than one message'; }
 
 say '-ffast-math is refused'
 # shellcheck disable=SC2046

@@ -52,7 +52,7 @@ template <class S, class W>
 template <class Where>
 [[gnu::always_inline]] inline void assemble_in_packs(Where, const Chain<double>& chain,
                                                      AssembledChain<double>& result) {
-    using V = Pack<double, Where::doubles, 8 / Where::doubles>;
+    using V = Pack<double, Where::doubles, lanes_at_once / Where::doubles>;
     using Words = DoubleWord<V>;
     using Numbers = std::array<double, V::size>;
     // In two steps: a power of two that scales the largest numbers to 1 may itself be below the normal ones.

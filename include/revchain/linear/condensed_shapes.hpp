@@ -2,46 +2,12 @@
 #pragma once
 
 #include "revchain/linear/condensed_heights.hpp"
-#include "revchain/linear/lazy_mode_shapes.hpp"
-#include "revchain/pencil/twisted.hpp"
+#include "revchain/linear/mode_shapes.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
-
-/// Distances of the lower pins of links from the free end, along the chain.
-template <Real T>
-std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
-    std::vector<Wide<T>> places;
-    places.reserve(static_cast<std::size_t>(chain.size()));
-    Wide<T> below(T(0));
-    for (Index m = 0; m < chain.size(); ++m) places.push_back(below), below = below + Wide<T>(chain.length()[m]);
-    return places;
-}
-
-/// Distances of the crossings from the free end, along the chain.
-template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
-                const std::vector<pencil::Crossing<T>>& crossings) {
-    Vector<T> found(static_cast<Index>(crossings.size()));
-    Index i = 0;
-    for (const pencil::Crossing<T>& crossing : crossings)
-        found[i++] = static_cast<T>(places[static_cast<std::size_t>(crossing.element)] +
-                                    T(crossing.share * chain.length()[crossing.element]));
-    return found;
-}
-template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
-    Vector<T> found(static_cast<Index>(crossings.size()));
-    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
-    Index m = 0, i = 0;
-    for (const pencil::Crossing<T>& crossing : crossings) {
-        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
-        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
-    }
-    return found;
-}
 
 /// Some neighbouring links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
 template <class T>
@@ -251,6 +217,23 @@ bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const 
         if (!shapes_in_packs(shapes, chain, condensed, heights, begin, end, progress)) in_range = false;
     });
     return in_range;
+}
+
+/// Shapes at `heights` (in the units of the chain's pencils) of the modes from number `first` on, by condensation.
+/// Absent where blocks do not pay, where weights need several units, and where offsets leave the range of T.
+template <std::floating_point T>
+std::optional<ModeShapes<T>> condensed_shapes(const Chain<T>& chain, Index first, const Heights<T>& heights,
+                                              Progress* progress) {
+    constexpr auto most_for_lanes = static_cast<Index>(pencil::most_kept_links);  // up to here lanes beat blocks
+    const auto count = static_cast<Index>(heights.size());
+    if (chain.size() <= most_for_lanes || !condensation_pays(chain, {first, count}) || !chain.has_one_weight_unit() ||
+        std::abs(chain.units().weight_exponent) > std::numeric_limits<T>::max_exponent / 2)
+        return std::nullopt;
+    const T unit = std::ldexp(T(1), chain.units().length_exponent) / LinkColumns<T>(chain).unit_length;
+    const auto condensed = condensed_chain(chain, T(0.95) * heights.back().eigenvalue * unit);
+    ModeShapes<T> shapes = room_for_shapes(chain, count);
+    if (!shapes_by_condensation(shapes, chain, condensed, heights, progress)) return std::nullopt;
+    return shapes;
 }
 
 }  // namespace revchain::detail

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "revchain/linear/condensed_shapes.hpp"
+#include "revchain/linear/lazy_mode_shapes.hpp"
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/large_memory.hpp"
@@ -13,6 +13,39 @@
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
 namespace revchain::inline REVCHAIN_BUILD::detail {
+
+/// Distances of the lower pins of links from the free end, along the chain.
+template <Real T>
+std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
+    std::vector<Wide<T>> places;
+    places.reserve(static_cast<std::size_t>(chain.size()));
+    Wide<T> below(T(0));
+    for (Index m = 0; m < chain.size(); ++m) places.push_back(below), below = below + Wide<T>(chain.length()[m]);
+    return places;
+}
+
+/// Distances of the crossings from the free end, along the chain.
+template <Real T>
+Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
+                const std::vector<pencil::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Index i = 0;
+    for (const pencil::Crossing<T>& crossing : crossings)
+        found[i++] = static_cast<T>(places[static_cast<std::size_t>(crossing.element)] +
+                                    T(crossing.share * chain.length()[crossing.element]));
+    return found;
+}
+template <Real T>
+Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
+    Index m = 0, i = 0;
+    for (const pencil::Crossing<T>& crossing : crossings) {
+        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
+        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
+    }
+    return found;
+}
 
 template <Real T>
 ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details = true) {
@@ -69,11 +102,9 @@ void shapes_in_eights(ModeShapes<T>& shapes, const pencil::ElementPencil<DoubleW
 template <Real T>
 class ShapeFinder {
    public:
-    /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else
-    /// shapes are found in `Wide<T>` at the height before it was rounded. `condense`: whether a
-    /// long chain may be condensed first.
-    ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
-        : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
+    /// `loose`: T suffices at the height given; else shapes are found in `Wide<T>` at the height before it was rounded.
+    ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose)
+        : chain_(chain), height_(std::move(height)), loose_(loose) {}
 
     /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals
     /// and nodes.
@@ -81,15 +112,6 @@ class ShapeFinder {
         if (count == 0) return room_for_shapes(chain_, 0);
         const auto begin = height_.begin() + from;
         const Heights<T> height(begin, begin + count);
-        if constexpr (std::is_same_v<T, double>)
-            if (condense_ && chain_.size() > most_for_lanes && condensation_pays(chain_, {first_ + from, count}) &&
-                chain_.has_one_weight_unit() &&
-                std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
-                const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
-                const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
-                ModeShapes<T> shapes = room_for_shapes(chain_, count);
-                if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
-            }
         ModeShapes<T> shapes = room_for_shapes(chain_, count, details);
         const Pencils<T> pencils(chain_);
         if constexpr (std::is_same_v<T, double>)
@@ -107,8 +129,6 @@ class ShapeFinder {
     }
 
    private:
-    static constexpr Index most_for_lanes = static_cast<Index>(pencil::most_kept_links);  // where they beat blocks
-
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
         if (loose_)
             set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
@@ -136,9 +156,8 @@ class ShapeFinder {
     }
 
     Chain<T> chain_;
-    Index first_;
     Heights<T> height_;
-    bool loose_, condense_;
+    bool loose_;
 };
 
 }  // namespace revchain::detail

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "revchain/linear/plain_pencil.hpp"
-#include "revchain/models/numerical.hpp"
+#include "revchain/models/bisection.hpp"
 #include "revchain/numeric/zero_of_j0.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/grouped.hpp"

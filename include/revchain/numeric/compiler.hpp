@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#if defined(__cplusplus) && __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "revchain needs C++20: compile with -std=c++20"
+#include "no C++20"  // an error that ends the compilation, before thousands of others
+#endif
+
 // Compiler extensions that the library uses, and replacements for compilers without them. (Unknown pragmas and
 // attributes with a namespace, such as [[gnu::always_inline]], are standard: compilers ignore them.)
 
@@ -54,9 +59,15 @@
 #else
 #define REVCHAIN_BUILD_KIND
 #endif
-#define REVCHAIN_JOINED(set, fma, kind) for_##set##fma##kind
-#define REVCHAIN_JOIN(set, fma, kind) REVCHAIN_JOINED(set, fma, kind)
-#define REVCHAIN_BUILD REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND)
+#if defined(REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
+#define REVCHAIN_BUILD_LIBRARY _compiled
+#else
+#define REVCHAIN_BUILD_LIBRARY
+#endif
+#define REVCHAIN_JOINED(set, fma, kind, library) for_##set##fma##kind##library
+#define REVCHAIN_JOIN(set, fma, kind, library) REVCHAIN_JOINED(set, fma, kind, library)
+#define REVCHAIN_BUILD \
+    REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND, REVCHAIN_BUILD_LIBRARY)
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 

@@ -5,8 +5,9 @@
 #include <atomic>
 #include <chrono>
 #include <concepts>
+#include <condition_variable>
 #include <exception>
-#include <future>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -39,23 +40,22 @@ class Threads {
     Index before_;
 };
 
-/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads. Ranges begin at
-/// multiples of `chunk`; with one thread, or one chunk, there is one range and no thread is started. Results do not
-/// depend on the number of threads if f treats each chunk by itself.
-/// The exception thrown first reaches the caller, after all threads have ended: the others stop at their next `look`.
-/// The caller calls `look` at least every 50 ms, if f does.
-/// Cost: 50 microseconds for each thread started.
-template <std::integral I, class F>
-void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
-    const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
-    if (threads <= 1) {
-        if (count > 0) f(I(0), count);
-        return;
-    }
-    const I range = std::max<I>(1, chunks / (8 * threads)) * chunk;
-    std::atomic<I> next = 0;
+/// A function f(begin, end) by reference: threads are started by one function, whatever they compute.
+struct RangeFunction {
+    const void* function;
+    void (*call)(const void* function, Index begin, Index end);
+    void operator()(Index begin, Index end) const { call(function, begin, end); }
+};
+
+/// `parallel_for` on several threads.
+inline void on_threads(Index threads, Index count, Index chunk, const RangeFunction& f) {
+    const Index chunks = (count + chunk - 1) / chunk, range = std::max<Index>(1, chunks / (8 * threads)) * chunk;
+    std::atomic<Index> next = 0;
     std::atomic<bool> stop = false;
     std::exception_ptr thrown;
+    std::mutex mutex;  // of `running`
+    std::condition_variable ended;
+    Index running = 0;
     const auto attempt = [&](const auto& work) {
         try {
             work();
@@ -65,7 +65,7 @@ void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
     };
     const auto ranges = [&] {
         while (!stop) {
-            const I begin = next.fetch_add(range);
+            const Index begin = next.fetch_add(range);
             if (begin >= count) return;
             f(begin, std::min(begin + range, count));
         }
@@ -74,20 +74,48 @@ void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
         const FloatingPointStateGuard quiet;
         abandoned = &stop;
         attempt(ranges);
-        abandoned = nullptr;  // the thread may serve others after this
+        const std::scoped_lock lock(mutex);
+        --running;
+        ended.notify_one();
     };
-    std::vector<std::future<void>> helpers;  // their destructors wait
+    std::vector<std::thread> helpers;
     attempt([&] {
         try {
-            for (I t = 1; t < threads; ++t) helpers.push_back(std::async(std::launch::async, helper));
+            for (Index t = 1; t < threads; ++t) {
+                const std::scoped_lock lock(mutex);
+                helpers.emplace_back(helper);
+                ++running;
+            }
         } catch (const std::system_error&) {
         }  // no more threads: those there are do the work
         ranges();
-        for (const auto& each : helpers)
-            while (each.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) look();
+        for (std::unique_lock lock(mutex); running > 0;) {
+            ended.wait_for(lock, std::chrono::milliseconds(50));
+            lock.unlock();
+            look();
+            lock.lock();
+        }
     });
-    helpers.clear();
+    for (std::thread& each : helpers) each.join();
     if (thrown) std::rethrow_exception(thrown);
+}
+
+/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads. Ranges begin at
+/// multiples of `chunk`; with one thread, or one chunk, there is one range and no thread is started. Results do not
+/// depend on the number of threads if f treats each chunk by itself.
+/// The exception thrown first reaches the caller, after all threads have ended: the others stop at their next `look`.
+/// The caller calls `look` at least every 50 ms, if f does.
+/// Cost: 50 microseconds for each thread started.
+template <std::integral I, class F>
+void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
+    const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
+    if (threads > 1)
+        on_threads(static_cast<Index>(threads), static_cast<Index>(count), static_cast<Index>(chunk),
+                   {&f, [](const void* function, Index begin, Index end) {
+                        (*static_cast<const F*>(function))(static_cast<I>(begin), static_cast<I>(end));
+                    }});
+    else if (count > 0)
+        f(I(0), count);
 }
 
 }  // namespace revchain::detail

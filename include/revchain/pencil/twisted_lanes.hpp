@@ -16,7 +16,7 @@
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// How many modes are found at once.
-inline constexpr std::size_t shape_lanes = 8;
+inline constexpr std::size_t shape_lanes = revchain::detail::lanes_at_once;
 
 /// Heights, or with spins x, of some modes: as exact as they are known, and those that belong to
 /// what is given out.

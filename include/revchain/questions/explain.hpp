@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "revchain/explain.hpp"
-#include "revchain/models/for_modes.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/mode_range.hpp"
 
@@ -60,13 +60,17 @@ REVCHAIN_INLINE std::string Explanation::text() const {
         row.erase(row.find_last_not_of(' ') + 1);
         result += row + '\n';
     }
+#if !defined(REVCHAIN_COMPILED)
+    if (chosen < methods.size() && methods[chosen].name != models::Bisection::name)
+        result += "include <revchain/methods.hpp> and call modes(chain, options, revchain::methods::all)\n";
+#endif
     return result;
 }
 
 REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ExplainOptions& options) {
     detail::check(options);
     const ModeRange range = detail::numbered_range(chain.mode_count(), options);
-    const auto choice = select(models::for_modes, chain, models::question_of(range, options.rtol));
+    const auto choice = select(detail::with_bisection(methods::all), chain, detail::question_of(range, options.rtol));
     return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
 }
 

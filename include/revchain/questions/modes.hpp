@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "revchain/linear/mode_shapes.hpp"
-#include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/mode_range.hpp"
@@ -68,73 +67,11 @@ void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
     });
 }
 
-/// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
-                                                    const models::Answer& answer) {
-    const int exponent = -chain.units().length_exponent;
-    std::vector<Height<double>> heights;
-    heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
-    for (Index j = 0; j < answer.conical_height.size(); ++j) {
-        const Wide<double> height = answer.unrounded.empty()
-                                        ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
-                                        : answer.unrounded[static_cast<std::size_t>(j)];
-        heights.push_back({static_cast<double>(height), answer.error_bound[j], height});
-    }
-    return heights;
-}
-
-/// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
-/// a template, so that only a program that asks for modes compiles the models.
-template <std::same_as<double> T>
-models::Solution solved(const Chain<T>& chain, const ModeRange& range,
-                        const ModesOptions<T>& options) {
-    const models::Question question = models::question_of(range, options.rtol, options.progress);
-    if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
-    const models::ChainKind kind(chain);
-    const auto by = [&](const auto& model) {
-        return models::Solution{models::detail::answer_by(model, chain, kind, question), model.name, Status::success};
-    };
-    models::Solution found{models::Answer::none(), {}, Status::success};
-    if (options.method == ModesMethod::aberth) found = by(models::Aberth{});
-    if (options.method == ModesMethod::interpolated) found = by(models::Interpolated{});
-    if (options.method == ModesMethod::condensed) found = by(models::Condensed{});
-    return found.answer.found ? found : by(models::Bisection{});
-}
-
-/// A chain of doubles: every method is open.
-template <std::same_as<double> T>
-Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) {
-    LazyCounter<T> assembled(chain);
-    const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes<T>(range, options.certify);
-    result.method = "bisection";
-    if (range.count == 0) {
-        ShapesBehind::of(result) = LazyModeShapes<T>(room_for_shapes(chain, 0));
-        return result;
-    }
-    models::Solution found = solved(chain, range, options);
-    result.method = found.model;
-    for (Index j = 0; j < range.count; ++j)
-        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
-    const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    ShapesBehind::of(result) =
-        LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
-                           condense = options.method != ModesMethod::bisection,
-                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
-            const Threads used("modes", threads);
-            return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
-                                                                                                  progress);
-        });
-    if (options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
-    advance(options.progress, 1.0);
-    return result;
-}
-
 /// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half an ulp of float to
-/// the bound. A template, so that a program without floats does not compile it.
-template <std::same_as<float> T>
-Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) {
-    const double half_ulp = 0.50001 * static_cast<double>(epsilon<float>());
+/// the bound. `in_double(wide, asked)` returns the modes in double.
+template <std::same_as<float> T, class InDouble>
+Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options, const InDouble& in_double) {
+    const double half_ulp = 0.50001 * static_cast<double>(epsilon<T>());
     const Chain<double> wide = converted<double>(chain);
     ModesOptions<double> asked{.first = options.first, .count = options.count};
     if (options.conical_height) asked.conical_height = {options.conical_height->low, options.conical_height->high};
@@ -144,38 +81,38 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     asked.threads = options.threads;
     asked.progress = options.progress;
     asked.method = options.method;
-    const Modes<double> fine = modes(wide, asked);
+    const Modes<double> fine = in_double(wide, asked);
 
-    Modes<float> result = room_for_modes<float>(fine.range(), options.certify);
+    Modes<T> result = room_for_modes<T>(fine.range(), options.certify);
     result.method = fine.method;
     for (Index j = 0; j < fine.size(); ++j) {
-        const float height = static_cast<float>(fine.conical_height[j]);
+        const T height = static_cast<T>(fine.conical_height[j]);
         const double off = std::abs(static_cast<double>(height) - fine.conical_height[j]) / fine.conical_height[j];
         const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
                                                                  : std::numeric_limits<double>::infinity();
-        set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),
+        set_height(result, j, height, std::nextafter(static_cast<T>(bound), std::numeric_limits<T>::infinity()),
                    0, options.rtol);
     }
     if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
-    const Vector<float> heights = result.conical_height;
+    const Vector<T> heights = result.conical_height;
     ShapesBehind::of(result) =
-        LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
+        LazyModeShapes<T>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
             const ModeShapes<double> found = ShapesBehind::of(fine).some(first, count, details, progress);
-            ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
+            ModeShapes<T> shapes{found.offset.template cast<T>(), Vector<T>(details ? count : 0), {}};
             if (count == 0 || !details) return shapes;
             const Pencils<double> own(wide);
             for (Index j = 0; j < count; ++j) {
-                const Vector<double> offset = shapes.offset.row(j).transpose().cast<double>();
+                const Vector<double> offset = shapes.offset.row(j).transpose().template cast<double>();
                 const double height = own.scaled(static_cast<double>(heights[first + j]));
-                shapes.residual[j] = static_cast<float>(pencil::relative_residual(own.rounded(), height, offset));
-                shapes.nodes.push_back(found.nodes[static_cast<std::size_t>(j)].cast<float>());
+                shapes.residual[j] = static_cast<T>(pencil::relative_residual(own.rounded(), height, offset));
+                shapes.nodes.push_back(found.nodes[static_cast<std::size_t>(j)].template cast<T>());
             }
             return shapes;
         });
     return result;
 }
 
-/// Every other scalar: by bisection in T itself.
+/// By bisection in T itself.
 template <Real T>
 Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) {
     LazyCounter<T> assembled(chain);
@@ -191,7 +128,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     }
     if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
     ShapesBehind::of(result) =
-        LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
+        LazyModeShapes<T>([finder = ShapeFinder<T>(chain, std::move(found), is_loose(chain, stage)),
                            threads = options.threads](Index from, Index count, bool details, Progress* progress) {
             const Threads used("modes", threads);
             return finder(from, count, details, progress);
@@ -199,21 +136,31 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     return result;
 }
 
-}  // namespace detail
-
+/// Modes by bisection. Throws InvalidArgument for a method that needs an include of its own.
 template <Real T>
-Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
+Modes<T> modes_by_bisection(const Chain<T>& chain, const ModesOptions<T>& options) {
     static_assert(
         !std::is_same_v<T, DoubleWord<double>> && !std::is_same_v<T, DoubleWord<long double>>,
         "a double word is the working arithmetic of a narrower scalar; as a scalar of its own take DoubleDouble");
-    detail::check(options);
-    const detail::Threads threads("modes", options.threads);
+    check(options);
+    const Threads threads("modes", options.threads);
     if constexpr (std::is_same_v<T, float>)
-        return detail::modes_in_double(chain, options);
-    else if constexpr (std::is_same_v<T, double>)
-        return detail::modes_by_models(chain, options);
+        return modes_in_double(chain, options, modes_in_scalar<double>);
     else
-        return detail::modes_in_scalar(chain, options);
+        return modes_in_scalar(chain, options);
 }
+
+}  // namespace detail
+
+#if !defined(REVCHAIN_COMPILED)  // the library answers with all methods
+template <Real T>
+Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
+    if (options.method != ModesMethod::automatic && options.method != ModesMethod::bisection)
+        detail::throw_invalid("modes",
+                              "this method needs an include: write #include <revchain/methods.hpp> and "
+                              "modes(chain, options, revchain::methods::all)");
+    return detail::modes_by_bisection(chain, options);
+}
+#endif
 
 }  // namespace revchain

@@ -19,7 +19,7 @@ struct Link {
     /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. It replaces the pendulum length l =
     /// h + rho^2/h because h = 0 is allowed. It is a ratio, so that no unit of length takes it out of the range of T.
     /// It has twice the digits, so that results belong to the given numbers to some 1e-31, not to rounded ones.
-    Wide<T> gyration_ratio{};
+    Wide<T> gyration_ratio{T(0)};
 
     friend bool operator==(const Link&, const Link&) = default;
 };

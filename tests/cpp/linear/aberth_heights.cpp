@@ -2,6 +2,7 @@
 #include "revchain/linear/aberth_heights.hpp"
 
 #include "revchain/linear/rig_counts.hpp"
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -187,20 +188,22 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
     for (const int kind : {0, 1}) {
         const Chain<double> chain = random_chain(random, 10, kind);
         const auto fast = revchain::modes(
-            chain, {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
-        const auto best = revchain::modes(chain, {.count = revchain::all_modes});
+            chain, {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth},
+            revchain::methods::all);
+        const auto best = revchain::modes(chain, {.count = revchain::all_modes}, revchain::methods::all);
         CHECK(fast.method == "aberth");
-        CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}).method == "aberth");
-        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "aberth");
+        CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}, revchain::methods::all).method ==
+              "aberth");
+        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}, revchain::methods::all).method == "aberth");
         CHECK(best.method == "aberth");
         for (Index j = 0; j < 10; ++j) {
             CHECK(std::abs(fast.conical_height[j] / best.conical_height[j] - 1) <= fast.error_bound[j]);
             CHECK((fast.shapes().row(j) - best.shapes().row(j)).cwiseAbs().maxCoeff() < 1e-12);
         }
     }
-    const auto other =
-        revchain::modes(support::families().back().make(5),
-                        {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
+    const auto other = revchain::modes(
+        support::families().back().make(5),
+        {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth}, revchain::methods::all);
     CHECK(other.method != "aberth");
     CHECK(other.status == revchain::Status::success);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/linear/condensed_heights.hpp"
 
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -112,7 +113,7 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     ModesOptions<double> options;
     options.count = 10;
     options.certify = true;
-    const auto found = modes(chain, options);
+    const auto found = modes(chain, options, revchain::methods::all);
     CHECK(found.method == "condensed");
     CHECK(found.status == Status::success);
     for (Index j = 0; j < 10; ++j) {
@@ -133,7 +134,7 @@ TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[condens
     const auto chain = Chain<double>(size, 1.0, 1.0, 1.0, Wide<double>(0.0));
     ModesOptions<double> options;
     options.count = 3;
-    const auto found = modes(chain, options);
+    const auto found = modes(chain, options, revchain::methods::all);
     CHECK(found.method == "condensed");
     for (Index k = 0; k < 3; ++k) {
         const long double zero = j[k], v = 4.0L * static_cast<long double>(size) + 2;
@@ -165,7 +166,7 @@ TEST_CASE("Condensed heights scale exactly with units that are powers of two", "
         ModesOptions<double> options;
         options.count = 8;
         options.method = revchain::ModesMethod::condensed;
-        const auto found = modes(Chain<double>(scaled), options);
+        const auto found = modes(Chain<double>(scaled), options, revchain::methods::all);
         CHECK(found.method == "condensed");
         return Vector<double>(
             found.conical_height.unaryExpr([=](double x) { return std::ldexp(x, -length_exponent); }));
@@ -182,7 +183,7 @@ TEST_CASE("A tolerance below what double holds is not met, and the bounds say so
     ModesOptions<double> options;
     options.count = 3;
     options.rtol = 1e-16;
-    const auto found = modes(chain, options);
+    const auto found = modes(chain, options, revchain::methods::all);
     CHECK(found.status == Status::tolerance_not_met);
     CHECK((found.error_bound.array() <= 0x1.0001p-51).all());
 }
@@ -194,9 +195,9 @@ TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensat
         ModesOptions<double> options;
         options.count = 9;  // not a multiple of a pack
         options.method = revchain::ModesMethod::condensed;
-        const auto fast = modes(chain, options);
+        const auto fast = modes(chain, options, revchain::methods::all);
         options.method = revchain::ModesMethod::bisection;
-        const auto sure = modes(chain, options);
+        const auto sure = modes(chain, options, revchain::methods::all);
         INFO(family.name << ", " << size << " links");
         REQUIRE(fast.method == "condensed");
         REQUIRE(sure.method == "bisection");

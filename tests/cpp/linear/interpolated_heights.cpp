@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // Many heights to the last digit at once.
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -29,8 +30,9 @@ TEST_CASE("many heights at once are those one by one", "[linear]") {
     for (const auto& family : support::families()) {
         for (const Index n : {12, 33, 150}) {
             const auto chain = family.make(n);
-            const auto all = modes(chain, {.count = revchain::all_modes});
-            const auto sure = modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection});
+            const auto all = modes(chain, {.count = revchain::all_modes}, revchain::methods::all);
+            const auto sure =
+                modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection}, revchain::methods::all);
             CAPTURE(family.name, n, all.method);
             CHECK(all.status == revchain::Status::success);
             CHECK(all.error_bound.maxCoeff() <= 2.0001 * ulp);
@@ -42,7 +44,7 @@ TEST_CASE("many heights at once are those one by one", "[linear]") {
 
 TEST_CASE("what is taken where", "[linear]") {
     const auto method = [](Index n, Index count, std::optional<double> rtol = {}) {
-        return modes(Chain<double>::uniform_rods(n), {.count = count, .rtol = rtol}).method;
+        return modes(Chain<double>::uniform_rods(n), {.count = count, .rtol = rtol}, revchain::methods::all).method;
     };
     CHECK(method(1, 1) == "aberth");
     CHECK(method(12, 12) == "aberth");
@@ -54,16 +56,18 @@ TEST_CASE("what is taken where", "[linear]") {
     CHECK(method(1000, 4) == "bisection");
     CHECK(method(1000, 200) == "interpolated");
     CHECK(method(1000, 600, 1e-13) == "interpolated");
-    CHECK(modes(support::families()[7].make(40), {.count = revchain::all_modes}).method == "bisection");
+    CHECK(modes(support::families()[7].make(40), {.count = revchain::all_modes}, revchain::methods::all).method ==
+          "bisection");
 }
 
 TEST_CASE("units do not matter to many heights", "[linear]") {
     for (const auto& family : support::families()) {
         const auto chain = family.make(40);
-        const auto one = modes(chain, {.count = revchain::all_modes});
+        const auto one = modes(chain, {.count = revchain::all_modes}, revchain::methods::all);
         for (const double weight : {0x1p-80, 0x1p7, 0x1p300}) {
             for (const double length : {0x1p-60, 0x1p3, 0x1p200}) {
-                const auto other = modes(scaled(chain, weight, length), {.count = revchain::all_modes});
+                const auto other =
+                    modes(scaled(chain, weight, length), {.count = revchain::all_modes}, revchain::methods::all);
                 CAPTURE(family.name, weight, length);
                 CHECK(other.conical_height == (one.conical_height * length).eval());
                 CHECK(other.error_bound == one.error_bound);
@@ -75,8 +79,9 @@ TEST_CASE("units do not matter to many heights", "[linear]") {
 TEST_CASE("shapes of many modes are as good as one by one", "[linear]") {
     for (const auto& family : support::families()) {
         const auto chain = family.make(60);
-        const auto all = modes(chain, {.count = revchain::all_modes});
-        const auto sure = modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection});
+        const auto all = modes(chain, {.count = revchain::all_modes}, revchain::methods::all);
+        const auto sure =
+            modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection}, revchain::methods::all);
         CAPTURE(family.name, all.method);
         CHECK((all.shapes() - sure.shapes()).cwiseAbs().maxCoeff() <= 2.3e-16);
         for (std::size_t j = 0; j < all.nodes().size(); ++j) {
@@ -90,20 +95,23 @@ TEST_CASE("shapes of many modes are as good as one by one", "[linear]") {
 TEST_CASE("tolerances between those of double and of two words", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(200);
     for (double rtol = 2 * ulp; rtol < 1e-9; rtol *= 1.7) {
-        const auto m = modes(chain, {.count = revchain::all_modes, .rtol = rtol});
+        const auto m = modes(chain, {.count = revchain::all_modes, .rtol = rtol}, revchain::methods::all);
         CAPTURE(rtol);
         CHECK(m.method == "interpolated");
         CHECK(m.status == revchain::Status::success);
         CHECK(m.error_bound.maxCoeff() <= rtol);
     }
-    CHECK(modes(chain, {.count = revchain::all_modes, .rtol = 1e-17}).status == revchain::Status::tolerance_not_met);
+    CHECK(modes(chain, {.count = revchain::all_modes, .rtol = 1e-17}, revchain::methods::all).status ==
+          revchain::Status::tolerance_not_met);
 }
 
 TEST_CASE("many heights can be watched and stopped", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(200);
     revchain::Progress progress;
-    REQUIRE(modes(chain, {.count = revchain::all_modes, .progress = &progress}).method == "interpolated");
+    REQUIRE(modes(chain, {.count = revchain::all_modes, .progress = &progress}, revchain::methods::all).method ==
+            "interpolated");
     CHECK(progress.fraction() == 1.0);
     progress.cancel();
-    CHECK_THROWS_AS(modes(chain, {.count = revchain::all_modes, .progress = &progress}), revchain::Cancelled);
+    CHECK_THROWS_AS(modes(chain, {.count = revchain::all_modes, .progress = &progress}, revchain::methods::all),
+                    revchain::Cancelled);
 }

@@ -288,8 +288,8 @@ TEST_CASE("a tolerance costs no more than none") {
         const Question full{first, count}, loose{first, count, rtol};
         CAPTURE(size, first, count, rtol);
         // of no model, as predicted
-        const auto exactly = select(models::for_modes, kind, full).estimates;
-        const auto loosely = select(models::for_modes, kind, loose).estimates;
+        const auto exactly = select(revchain::detail::with_bisection(revchain::methods::all), kind, full).estimates;
+        const auto loosely = select(revchain::detail::with_bisection(revchain::methods::all), kind, loose).estimates;
         for (std::size_t m = 0; m < exactly.size(); ++m)
             if (exactly[m].fit.applies && exactly[m].error_bound <= models::detail::full_accuracy) {
                 CAPTURE(exactly[m].name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/pencil/twisted.hpp"
 
+#include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -90,7 +91,7 @@ TEST_CASE("the Rayleigh quotient squares the error of the shape", "[linalg]") {
 TEST_CASE("a shape of 1e5 links is smooth to the last pin", "[linalg]") {
     const auto chain = revchain::Chain<double>::uniform_plummets(100'000);
     const auto m = revchain::modes(chain, {.count = 3, .method = revchain::ModesMethod::bisection});
-    const auto from_blocks = revchain::modes(chain, {.count = 3});
+    const auto from_blocks = revchain::modes(chain, {.count = 3}, revchain::methods::all);
     CHECK(from_blocks.method == "condensed");
     const Truth truth(chain);
     for (Index j = 0; j < 3; ++j) {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <tuple>
+
+#include "revchain/linear/condensed_shapes.hpp"
+#include "revchain/models/bisection.hpp"
+#include "revchain/models/select.hpp"
+
+/// The method for a few of the slowest modes of a long chain, as a model. Its bounds are proved.
+namespace revchain::inline REVCHAIN_BUILD::models {
+
+/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that weigh next
+/// to nothing beside what hangs below them join one by one.
+struct Condensed {
+    static constexpr std::string_view name = "condensed";
+    static constexpr bool is_proved = true;
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size < 256) return Fit::no("fewer than 256 links");
+        if (question.last() > kind.size / 8) return Fit::no("more than an eighth of the modes");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return detail::full_accuracy; }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double count = detail::real(question.count), skipped = detail::real(question.first - 1);
+        // Long pendulums are not condensed. Light links above leave little to condense. Light links below, and modes of
+        // high number, have short waves, so there are many blocks.
+        const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) +
+               detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums + 3e-7 * detail::real(kind.light) +
+               2e-5 * std::max(0.0, kind.growth) +
+               few *
+                   (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
+    }
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
+        auto found =
+            revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
+        return found ? detail::answered(chain, std::move(found->found)) : Answer::none();
+    }
+    /// Shapes of modes found by any method; absent where lanes are faster.
+    template <std::same_as<double> T>
+    static std::optional<revchain::detail::ModeShapes<T>> shapes(const Chain<T>& chain, Index first,
+                                                                 const revchain::detail::Heights<T>& heights,
+                                                                 Progress* progress) {
+        return revchain::detail::condensed_shapes(chain, first, heights, progress);
+    }
+};
+
+}  // namespace revchain::models
+
+namespace revchain::inline REVCHAIN_BUILD::methods {
+
+/// The method for a few of the slowest modes of a chain of hundreds of links and more.
+inline constexpr std::tuple<models::Condensed> long_chains{};
+
+}  // namespace revchain::methods
+
+#if defined(REVCHAIN_COMPILED)
+namespace revchain::inline REVCHAIN_BUILD::models::detail {
+extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
+}  // namespace revchain::models::detail
+#endif
