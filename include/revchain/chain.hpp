@@ -13,32 +13,33 @@
 
 /// A chain of rigid links that hangs from a firm point on the axis.
 ///
-///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),       // the lowest link first: weight, length
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),     // weight, length; lowest link first
 ///                                          revchain::uniform_rod(2.0, 0.3)});
-///     chain.total_length();                                                   // 0.8 m
-///     chain.mode_count();                                                     // 2 whirl speeds
-///     const auto rods = revchain::Chain<double>::uniform_rods(120, 0.36);     // a watch chain
-///     rods.link(0).length;                                                    // 0.003 m
+///     chain.total_length();                                                 // 0.8 m
+///     chain.mode_count();                                                   // 2 whirl speeds
+///     const auto rods = revchain::Chain<double>::uniform_rods(120, 0.36);   // a watch chain
+///     rods.link(0).length;                                                  // 0.003 m
 ///
-/// `plummet`, `uniform_rod` and `compound_pendulum` (system/link.hpp) make links. Lengths may be in any unit, and so
-/// may weights: speeds depend on their ratios alone. Numbers are kept exactly as given. Greenhill (1908) section 8.
+/// `plummet`, `uniform_rod` and `compound_pendulum` make links. Lengths and weights may be in any
+/// unit: speeds depend on ratios of weights only. Numbers are stored exactly as given. Greenhill
+/// (1908) §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by them is exact, and
-/// keeps every recursion in range whatever the user's units.
+/// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by
+/// them is exact and prevents overflow in any units.
 struct ChainUnits {
     int weight_exponent = 0;
     int length_exponent = 0;
 };
 
-/// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0 is the free end, pin
-/// `size()` the support. A chain is checked once, by its constructor, and is immutable.
+/// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0
+/// is the free end, pin `size()` the support. The constructor checks it; a chain is immutable.
 ///
-/// Throws InvalidArgument, naming the link (counted from 0, lowest first), for: no links; numbers that are not finite;
-/// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
-/// than hang (W h + a S <= 0, S the weight hung below it); lengths, centroids or radii of gyration too far apart for T
-/// (2^(max_exponent/4): 1e77 in double).
-/// Cost O(N) once; memory one number per stored number.
+/// Throws InvalidArgument, naming the link (from 0, lowest first), for: no links; numbers not
+/// finite; lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a
+/// link that would stand, not hang (W h + a S <= 0, S the weight below it); lengths, centroids or
+/// radii of gyration too far apart for T (2^(max_exponent/4): 1e77 in double). Cost O(N) once;
+/// memory one number per stored number.
 template <Real T>
 class Chain {
    public:
@@ -46,7 +47,7 @@ class Chain {
         : Chain(static_cast<Index>(links.size()), column(links, &Link<T>::weight), column(links, &Link<T>::length),
                 column(links, &Link<T>::centroid), column(links, &Link<T>::gyration_ratio)) {}
 
-    /// `size` links from columns, each of `size` numbers or one.
+    /// `size` links from columns of `size` numbers or one.
     Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio)
         : size_(size),
           weight_(std::move(weight)),
@@ -66,11 +67,12 @@ class Chain {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
 
-    /// `count` straight links of equal length, cut from a cord whose line density is proportional to x^exponent, x from
-    /// the free end. Exponent 0 gives `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at
-    /// the free end. Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
-    /// Also throws InvalidArgument for an exponent not above -1 or above 1000, and if the weight of the lowest link is
-    /// too small for T. Accuracy and cost: system/tapered_links.hpp.
+    /// `count` straight links of equal length, cut from a cord whose line density is proportional
+    /// to x^exponent, x from the free end. Exponent 0 gives `uniform_rods`, 1 a cord that thickens
+    /// upwards; towards -1 the mass is near the free end. Greenhill (1908) §4. `length` and
+    /// `weight` are those of the whole chain. Also throws InvalidArgument for an exponent not above
+    /// -1 or above 1000, and if the weight of the lowest link is too small for T. Accuracy and
+    /// cost: system/tapered_links.hpp.
     [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
         if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
@@ -88,14 +90,14 @@ class Chain {
         chain.taper_ = exponent;
         return chain;
     }
-    /// Returns this chain with `taper` set to the exponent from which `tapered` made its links. Links that were read
-    /// from a file have lost it. Throws InvalidArgument where a link is not one that `tapered` makes, to 4 ulp.
-    /// Cost: that of `tapered`.
+    /// Returns this chain with `taper` set to the exponent from which `tapered` made its links, as
+    /// after reading them from a file. Throws InvalidArgument where a link is not one that
+    /// `tapered` makes, to 4 ulp. Cost: that of `tapered`.
     [[nodiscard]] Chain as_tapered(double exponent) const;
     /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
-    /// The exponent of the line density of a chain that `tapered` or `as_tapered` made; no value for other chains.
+    /// The exponent of a chain that `tapered` or `as_tapered` made; no value for other chains.
     std::optional<double> taper() const noexcept { return taper_; }
 
     Index size() const noexcept { return size_; }
@@ -105,12 +107,14 @@ class Chain {
     const Column<T>& centroid() const noexcept { return centroid_; }
     const Column<Wide<T>>& gyration_ratio() const noexcept { return gyration_ratio_; }
 
-    /// The number of finite conical heights: N, less one for each coordinate that carries no inertia.
+    /// The number of finite conical heights: N, less one for each coordinate that carries no
+    /// inertia.
     Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
-    /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14 operations of a double
-    /// word (measured: 0.27), and of one operation where one weight serves all links. Cost: O(1) where m is a multiple
-    /// of `segment_size`, else O(segment_size) (70 ns in double).
+    /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14
+    /// operations of a double word (measured: 0.27), and of one operation if all weights are one
+    /// number. Cost: O(1) where m is a multiple of `segment_size`, else O(segment_size) (70 ns in
+    /// double).
     [[nodiscard]] Wide<T> weight_below(Index m) const {
         const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
         if (weight_.is_scalar()) return detail::times(weight_[0], m);
@@ -118,8 +122,8 @@ class Chain {
         const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
         return rest == 0 ? below : below + detail::summary(weight_.data() + whole * detail::segment_size, rest).sum;
     }
-    /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
-    /// serves all links.
+    /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all links; empty if all
+    /// weights are one number.
     const std::vector<Wide<T>>& partial_weights() const {
         static const std::vector<Wide<T>> none;
         return partial_weights_ ? *partial_weights_ : none;
@@ -165,7 +169,7 @@ class Chain {
     void check_each_link() const;
     void check_that_links_hang(const detail::Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
-    /// The number of links that a check has to read: one where one number of each kind serves all.
+    /// The number of links that a check reads: one if all links are the same.
     Index distinct_links() const {
         const bool uniform =
             weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_ratio_.is_scalar();
@@ -189,7 +193,7 @@ class Chain {
 
 namespace detail {
 
-/// The least |x| that is not 0 in a column, whose least x is given.
+/// The least |x| that is not 0 in a column with the least x `given`.
 template <Real T>
 T least_size(const Column<T>& column, const T& given) {
     using std::abs;
@@ -208,7 +212,8 @@ template <Real T>
 Chain<T> Chain<T>::as_tapered(double exponent) const {
     using std::abs;
     const Chain cut = tapered(size_, total_length_, exponent, total_weight_);
-    // Where there are no words to spare, the weights found from above carry a rounding of every link.
+    // Where there are no words to spare, the weights found from above carry a rounding of every
+    // link.
     const T ulps = std::is_same_v<Wide<T>, T> ? T(4) + T(2) * T(size_) : T(4);
     const auto near = [&](const T& x, const T& y) {
         return abs(x - y) <= ulps * epsilon<T>() * abs(y) + ulps * std::numeric_limits<T>::denorm_min();
@@ -226,7 +231,7 @@ Chain<T> Chain<T>::as_tapered(double exponent) const {
     return chain;
 }
 
-/// One pass over each column in loops that compilers vectorise. Links are read one by one only if that finds a fault.
+/// One vectorised pass over each column. Links are read one by one only if it finds a fault.
 template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
@@ -284,7 +289,8 @@ void Chain<T>::check() {
                               "(radius of gyration / length)^2",
                               largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
-    // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of its own.
+    // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of
+    // its own.
     const bool all_hold = weights.least > T(0) && (centroids.least > T(0) || all_turn);
     mode_count_ = all_hold || distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
 }
@@ -338,9 +344,9 @@ void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const 
     }
 }
 
-/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from the support down. `free` says
-/// whether the pin reached so far can move without inertia.
-/// A massless thread between two rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
+/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from the support
+/// down. `free` is true if the current pin can move without inertia. A massless thread between two
+/// rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
 template <Real T>
 Index Chain<T>::inertialess_coordinates() const {
     bool free = false;  // the support does not move

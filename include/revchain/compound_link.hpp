@@ -15,8 +15,8 @@
 ///     const auto s = revchain::swung_link(bar, 0.4);          // at the speed with a conical height of 0.4
 ///     s.inclination;                                          // 0.927328 rad
 ///
-/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a centroid that is not
-/// positive, a radius of gyration that is negative, and numbers that are not finite.
+/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a
+/// centroid that is not positive, a negative radius of gyration, and numbers that are not finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>
@@ -37,18 +37,18 @@ struct CompoundLink {
     T centroid;            ///< h > 0, distance of the centre of gravity from the pin
     T radius_of_gyration;  ///< k >= 0, about the centre of gravity; 0 for a plummet
 
-    /// l = h + k^2/h, the length of the equivalent simple pendulum; also the distance of the centre of oscillation from
-    /// the pin. Accuracy: 1.5 ulp.
+    /// l = h + k^2/h, the length of the equivalent simple pendulum and the distance of the centre
+    /// of oscillation from the pin. Accuracy: 1.5 ulp.
     [[nodiscard]] T pendulum_length() const {
         using std::isfinite;
         const T length = static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. A link hung by its centre of
-    /// oscillation has h and k^2/h exchanged, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation; it and h are
+    /// exchanged for a link hung by its centre of oscillation, §6.
     T square_over_centroid() const { return static_cast<T>(detail::squares_over_centroid(*this).value()); }
-    /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the
-    /// rest is at the pin. §6. Accuracy: 2 ulp.
+    /// h/l, the share of the weight at the centre of oscillation if two particles replace the link
+    /// (Maxwell), the other at the pin. §6. Accuracy: 2 ulp.
     [[nodiscard]] T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 
@@ -62,8 +62,8 @@ void check(std::string_view place, const CompoundLink<T>& link) {
                       link.radius_of_gyration);
 }
 
-/// Pendulum length of `link` minus that of `other`. Accuracy: 1 ulp for built-in scalars even where the two nearly
-/// agree, for centroids above 1e-140 of the lengths.
+/// Pendulum length of `link` minus that of `other`. Accuracy: 1 ulp for built-in scalars, also
+/// where both nearly agree, for centroids above 1e-140 of the lengths.
 template <std::floating_point T>
 T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other) {
     using S = Wide<T>;
@@ -104,16 +104,17 @@ template <Real T>
 struct SwungLink {
     T inclination;           ///< to the vertical, 0 ... pi/2
     T reaction;              ///< force at the axle over the weight
-    T reaction_inclination;  ///< of the line of that force to the vertical; it meets the vertical through the centre of
-                             ///< gravity at E, at the level of the centre of oscillation L
-    T condition;  ///< relative change of the inclination per relative change of the data; 0 if it is vertical
+    /// of the line of that force to the vertical; it meets the vertical through the centre of
+    /// gravity at E, at the level of the centre of oscillation L
+    T reaction_inclination;
+    T condition;  ///< relative change of inclination per relative change of data; 0 if vertical
 };
 
-/// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle carries the weight W
-/// downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
-/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is there
-/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination.
-/// Also throws InvalidArgument for a height that is not positive and finite. O(1).
+/// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle
+/// carries the weight W downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
+/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is
+/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Also throws
+/// InvalidArgument for a height that is not positive and finite.
 template <Real T>
 [[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     using std::abs, std::asin, std::atan, std::hypot, std::sqrt;

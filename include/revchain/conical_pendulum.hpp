@@ -10,23 +10,25 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
-/// The conical pendulum, and one plummet that is free, held by a second thread, or carried round a circle.
+/// The conical pendulum, and one plummet that is free, held by a second thread, or carried round a
+/// circle.
 ///
 ///     namespace pendulum = revchain::conical_pendulum;
 ///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s: a conical pendulum 0.5 m high
 ///     pendulum::height_from_period(2.0);                     // 0.993621 m: one revolution in 2 s
-///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the speed of the first line
+///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the first speed
 ///     p.inclination;                                         // 1.0472 rad: 60 degrees
 ///     p.tension;                                             // 2 times the weight
 ///
-/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g / lambda); lambda
-/// is the conical height of that speed. Gravity g enters the library in `revchain::conical_pendulum` only; everything
-/// else is a length or a ratio of weights. Units: any consistent set, angles in rad. All functions are O(1) and throw
-/// InvalidArgument unless every argument is positive and finite.
+/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
+/// / lambda); lambda is the conical height of that speed. Gravity g enters the library in
+/// `revchain::conical_pendulum` only; everything else is a length or a ratio of weights. Units: any
+/// consistent set, angles in rad. All functions are O(1) and throw InvalidArgument unless every
+/// argument is positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation about the axis: that of positive or that of negative angular speeds.
-/// Chains and cords whirl alike in both directions, rigs with flywheels do not.
+/// Direction of rotation about the axis: positive or negative angular speed. It matters to rigs
+/// with flywheels only.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
@@ -81,7 +83,7 @@ template <Real T>
     return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
-/// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing to and fro. §1 (4)
+/// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing. §1 (4)
 template <Real T>
 [[nodiscard]] T gravity(const T& length, const T& period) {
     detail::require_positive("conical_pendulum::gravity", "length", length, "period", period);
@@ -89,8 +91,8 @@ template <Real T>
     return length / radian / radian;
 }
 
-/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2). The 39.1396 inches of London in 1824 give
-/// 386.29 inches/s^2; §1 (6) prints 386.28. §1 (5)-(6)
+/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2), §1 (5)-(6). The 39.1396
+/// inches of London in 1824 give 386.29 inches/s^2; §1 (6) prints 386.28.
 template <Real T>
 [[nodiscard]] T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
@@ -117,8 +119,8 @@ void require_one_speed(std::string_view place, const Options& options) {
         throw_invalid(place, "give either conical_height or angular_speed");
 }
 
-/// The conical height that options give, or that of the angular speed they give.
-/// Throws InvalidArgument unless they give exactly one of the two, positive and finite.
+/// The conical height that options give directly or by the angular speed. Throws InvalidArgument
+/// unless exactly one is given, positive and finite.
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
     require_one_speed(place, options);
@@ -128,8 +130,8 @@ double height_given(std::string_view place, const Options& options) {
     return height;
 }
 
-/// Throws InvalidArgument: at the speed or the height that options give, mode `mode` has not left the vertical, which
-/// it does at the height `critical`. The message is in the quantity that was given.
+/// Throws InvalidArgument: at the speed or height given, `mode` has not left the vertical, which it
+/// does at the height `critical`. The message names the quantity that was given.
 template <class Options>
 [[noreturn]] void throw_too_slow(std::string_view place, Index mode, double critical, double height,
                                  const Options& options) {
@@ -152,9 +154,10 @@ struct InclinedPendulum {
     T tension;
 };
 
-/// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination) = height / length.
-/// It hangs straight down where height >= length. For a compound link, `length` is its pendulum length, and `tension`
-/// is not the force at its pin (`swung_link`). §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
+/// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination)
+/// = height / length. It hangs straight down if height >= length. For a compound link `length` is
+/// its pendulum length, and `tension` is not the force at its pin (`swung_link`). §1 (1), §6 (1).
+/// Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
 [[nodiscard]] InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin, std::sqrt;
@@ -171,17 +174,18 @@ template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
+    /// if false, that thread is slack, its tension is 0, and the plummet circles on the other one
     bool upper_taut,
         lower_taut;  ///< else that thread is slack, its tension 0, and the plummet circles on the other one
 };
 
-/// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
-/// the polygon KN, NP, PC', C'K of §1. With D the depth where both are straight, the lower thread is slack where
-/// height >= D, and the upper one where height <= D - distance; the plummet is then a conical pendulum on the other.
-/// The plummet takes the place within reach of both threads where depth + radius^2/(2 height) is largest; this function
-/// has one maximum there.
-/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
-/// Also throws InvalidArgument unless the three lengths form a triangle.
+/// The plummet held by threads from two points of the axis, the lower one `distance` below the
+/// upper one; equations of the polygon KN, NP, PC', C'K of §1. Let D be the depth with both threads
+/// straight. The lower thread is slack if height >= D, the upper one if height <= D - distance; the
+/// plummet is then a conical pendulum on the other. It is within reach of both threads where depth
+/// + radius^2/(2 height) has its one maximum. Accuracy: 3 ulp; a depth or tension that is a small
+/// difference of two terms has an error of 1e-29 of the larger one. Also throws InvalidArgument
+/// unless the three lengths form a triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height) {
@@ -198,7 +202,8 @@ template <Real T>
     if (!(slack >= T(0))) detail::throw_invalid(place, "distance must make a triangle with the two threads", distance);
     // Roots first: a product of two lengths may leave the range.
     const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance are differences.
+    // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance
+    // are differences.
     using S = Wide<T>;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
@@ -218,17 +223,17 @@ template <Real T>
     return {radius, static_cast<T>(depth), upper, lower, true, true};
 }
 
-/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the plummet's thread hangs from
-/// an arm of length `arm` and is adjusted until the arm is perpendicular to the vertical plane through the axis and the
-/// plummet. §1 (8). Accuracy: 0.5 ulp.
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the
+/// plummet's thread hangs from an arm of length `arm` and is adjusted until the arm is
+/// perpendicular to the vertical plane through the axis and the plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 [[nodiscard]] T air_resistance(const T& arm, const T& height) {
     detail::require_positive("air_resistance", "arm", arm, "height", height);
     return arm / height;
 }
 
-/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 + radius^2).
-/// Accuracy: 2 ulp.
+/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2
+/// + radius^2). Accuracy: 2 ulp.
 template <Real T>
 [[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -236,26 +241,27 @@ template <Real T>
     return hypot(hypot(arm, height), radius);
 }
 
-/// Offset of a plummet over the offset of its support, which is carried round a circle or to and fro, while the thread
-/// is nearly vertical: lambda / (lambda - l). Negative where lambda < l, infinite at resonance. §1 (9).
-/// Accuracy: 1.1 ulp for lambda and l as given.
+/// Offset of a plummet over that of its support, which is carried round a circle or to and fro with
+/// a nearly vertical thread: lambda / (lambda - l), negative for lambda < l, infinite at resonance.
+/// §1 (9). Accuracy: 1.1 ulp for lambda and l as given.
 template <Real T>
 [[nodiscard]] T carried_response(const T& length, const T& height) {
     detail::require_positive("carried_response", "length", length, "height", height);
     return height / (height - length);
 }
 
-/// Steady inclinations of the thread, ascending, positive outwards. The first `count` entries are used.
+/// Steady inclinations of the thread, ascending, positive outwards. The first `count` entries are
+/// used.
 template <Real T>
 struct CarriedInclinations {
     std::array<T, 3> inclination{};
     int count = 0;
 };
 
-/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of radius b:
-/// lambda tan d = b + l sin d, §1 (9). There is always one outwards. There are two more inwards where lambda < l and
-/// b^(2/3) <= l^(2/3) - lambda^(2/3); one of these two is unstable.
-/// Accuracy: 4 ulp, times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
+/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
+/// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
+/// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); one of these is unstable. Accuracy: 4 ulp,
+/// times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
 /// Cost: a microsecond. Also throws InvalidArgument where the tangent of an inclination overflows.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
@@ -263,8 +269,9 @@ template <Real T>
     using std::atan, std::cbrt, std::sqrt;
     constexpr std::string_view place = "carried_inclinations";
     detail::require_positive(place, "length", length, "height", height, "radius", radius);
-    // The zeros in t = tan d of  t (lambda - cos d) - b  in units of l. It is convex for t > 0 with the slope
-    // lambda - cos^3 d. Near resonance lambda - cos d = gap + (1 - cos d),  gap = lambda - l, keeps its digits.
+    // The zeros in t = tan d of  t (lambda - cos d) - b  in units of l. It is convex for t > 0 with
+    // the slope lambda - cos^3 d. Near resonance lambda - cos d = gap + (1 - cos d),  gap = lambda
+    // - l, keeps its digits.
     const T gap = (height - length) / length, lacking = (length - radius) / length;
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1

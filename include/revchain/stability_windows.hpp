@@ -27,18 +27,19 @@ struct StabilityWindow {
 struct StabilityWindowsOptions {
     StabilityFrame frame = StabilityFrame::free;
     double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
-    int samples = 8;          ///< equal parts of the step between two points; a verdict at each end of a part
+    int samples = 8;  ///< equal parts of the step between two points; verdicts at their ends
 };
 
-/// Returns the parts of a branch with one verdict each, in the order of the arc. They cover the branch from its first
-/// point off the vertical to its end.
+/// Returns the parts of a branch with one verdict each, in the order of the arc, from the first
+/// point off the vertical to the end.
 ///
-/// Method: `stability` at every point of the branch and at `samples - 1` places between two points. Where the verdict
-/// changes, the step is halved until it is as short as `tolerance`; what is undecided within it, between two verdicts,
-/// is the edge. A window shorter than the distance of two places can be missed: the result is not proved.
-/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
-/// some (4 N)^3 for every place.
-/// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples` below 1.
+/// Method: `stability` at every point of the branch and at `samples - 1` points between two. Where
+/// the verdict changes, the step is halved until it is as short as `tolerance`; an undecided part
+/// between two verdicts counts as the edge. A window shorter than the distance of two samples can
+/// be missed: the result is not proved.
+/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the
+/// critical height). Cost: some (4 N)^3 a sample. Throws InvalidArgument if the numbers of links
+/// differ, for a tolerance not above 0 and for `samples` below 1.
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});
 
