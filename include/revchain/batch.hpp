@@ -10,12 +10,12 @@
 
 /// Conical heights of many small chains at once.
 ///
-///     const double weight[] = {1.0, 2.0, 1.0, 1.5, 0.5, 1.0};    // two chains of three plummets, lowest first
-///     const double length = 0.2;                                 // m, of every link
+///     const double weight[] = {1.0, 2.0, 1.0, 1.5, 0.5, 1.0}; // two chains, lowest plummet first
+///     const double length = 0.2;                               // m, of every link
 ///     const revchain::ChainBatch<double> batch{
 ///         .chains = 2, .size = 3, .weight = {weight, 3, 1}, .length = {&length}};
-///     const auto heights = revchain::conical_heights(batch);     // a row for each chain, slowest mode first
-///     heights(1, 0);                                             // 0.518978 m
+///     const auto heights = revchain::conical_heights(batch);   // a row for each chain
+///     heights(1, 0);                      // 0.518978 m: the slowest mode of the second chain
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// One quantity of all links of all chains: link m (lowest first) of chain c has data[c
@@ -26,7 +26,7 @@ struct BatchColumn {
     Index chain_stride = 0;
     Index link_stride = 0;
 
-    const T& operator()(Index chain, Index link) const { return data[chain * chain_stride + link * link_stride]; }
+    const T& operator()(Index chain, Index m) const { return data[chain * chain_stride + m * link_stride]; }
 };
 
 /// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give
@@ -40,7 +40,7 @@ struct ChainBatch {
     std::optional<BatchColumn<T>> centroid{};
     std::optional<BatchColumn<T>> pendulum_length{};
     std::optional<BatchColumn<T>> radius_of_gyration{};
-    std::vector<Index> shape{};  ///< axes of the array of chains, last fastest; names a chain in messages
+    std::vector<Index> shape{};  ///< axes of the array of chains, last fastest; for messages
 };
 
 struct BatchOptions {
@@ -78,7 +78,8 @@ template <Real T>
 namespace revchain::inline REVCHAIN_BUILD {
 extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 extern template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
-extern template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);
+extern template Table<long double> conical_heights(const ChainBatch<long double>&,
+                                                   const BatchOptions&);
 }  // namespace revchain
 #else
 #include "revchain/questions/batch.hpp"

@@ -19,10 +19,10 @@
 ///     second.end == revchain::BranchEnd::height;   // true: it was followed to that speed
 ///     second.tip_radius[second.size() - 1];        // 0.524717 m there, from the axis
 ///     const auto all = revchain::branches(chain, {.max_angular_speed = 15.0});
-///     all.branches.size();                         // 4 branches: those of three modes, and an isolated one
+///     all.branches.size();                         // 4: of three modes, and an isolated one
 ///     all.complete;                                // true: proved, there are no others
 ///     const auto shape = revchain::steady_shape(chain, {.mode = 1, .tip_radius = 2.0});
-///     shape.angular_speed();                       // 2.34160 rad/s: the free end goes 2 m from the axis
+///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at a
 /// fold and pass one speed several times. An isolated branch begins in a fold and never reaches the
@@ -35,25 +35,26 @@ class Cord;
 
 /// Why a branch ends.
 enum class BranchEnd {
-    height,  ///< at the conical height given
+    height,    ///< at the conical height given
     vertical,  ///< back at the straight chain
-    closed,  ///< at its first point
-    budget,  ///< after `max_points` points
-    stuck,  ///< no step passes every check
+    closed,    ///< at its first point
+    budget,    ///< after `max_points` points
+    stuck,     ///< no step passes every check
     slow,  ///< on the way to rest, at a tenth of the first critical speed, or of a slower one given
     slack,  ///< flywheels make the effective tension of a link 0: it becomes horizontal
     loose,  ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
 };
 [[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
-    constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
+    constexpr std::string_view names[]{"height", "vertical", "closed", "budget",
+                                       "stuck",  "slow",     "slack",  "loose"};
     return names[static_cast<std::size_t>(end)];
 }
 
 /// How a branch begins.
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
-    rest,  ///< at rest: the support is off the axis, and the rig starts to turn
-    fold,  ///< isolated: at a fold, where two shapes appear together, or it is closed
+    rest,      ///< at rest: the support is off the axis, and the rig starts to turn
+    fold,      ///< isolated: at a fold, where two shapes appear together, or it is closed
 };
 [[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
@@ -68,14 +69,15 @@ struct Branch {
     BranchBirth birth = BranchBirth::vertical;
     /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free
     /// end; `top_tension`: magnitude of the reaction at the support; the others as in SteadyShape.
-    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
-        effective_energy;
+    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
+        moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< number of sign changes of the offsets, plus 1
     std::vector<std::size_t> folds;  ///< points where the conical height has a local extreme
     BranchEnd end = BranchEnd::budget;
 
     std::size_t size() const noexcept { return arc.size(); }
-    double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
+    double angular_speed(std::size_t point,
+                         double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point, balanced in double-double. Its bound is proved; at a fold it is an
@@ -158,7 +160,7 @@ struct Branches {
     /// true if every branch ends at that height or is closed, and at every height of `looked_at`
     /// the branches pass each shape of the proved list once, and no other shape
     bool consistent = false;
-    bool complete = false;  ///< consistent, and proved: no branch is missing, at any height
+    bool complete = false;          ///< consistent, and proved: no branch is missing, at any height
     std::vector<double> looked_at;  ///< conical heights of those lists, descending
     std::string remark;             ///< what may be missing
 };

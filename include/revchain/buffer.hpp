@@ -9,8 +9,8 @@
 /// Two railway carriages, coupled by a spring, that run against a buffer stop: one blow, two or
 /// more.
 ///
-///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6,
-///                                          .coupling_stiffness = 0.5e6, .speed = 2.0});
+///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .speed = 2.0,
+///                                          .buffer_stiffness = 2e6, .coupling_stiffness = 0.5e6});
 ///     impact.blows().size();      // 2 blows
 ///     impact.blows()[0].end;      // 0.397384 s
 ///     impact(0.1).buffer_force;   // 337373 N at 0.1 s
@@ -68,7 +68,7 @@ class BufferImpact {
     Phase freedom(double start, const CarriageState& from) const;
 
     Carriages given_;
-    std::array<double, 2> frequency_{}, ratio_{};  // in contact: offset of the rear carriage over that of the front one
+    std::array<double, 2> frequency_{}, ratio_{};  // in contact; ratio: rear over front
     std::vector<Phase> phases_;                    // contact, freedom, contact, ..., freedom
     std::vector<Blow> blows_;
 };

@@ -10,9 +10,9 @@
 
 /// One rigid link of any form that hangs by a pin, and its whirl round an axis through the pin.
 ///
-///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1 hung by its end
+///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1
 ///     bar.pendulum_length();                                  // 0.666695
-///     const auto s = revchain::swung_link(bar, 0.4);          // at the speed with a conical height of 0.4
+///     const auto s = revchain::swung_link(bar, 0.4);          // conical height 0.4
 ///     s.inclination;                                          // 0.927328 rad
 ///
 /// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a
@@ -41,8 +41,9 @@ struct CompoundLink {
     /// of oscillation from the pin. Accuracy: 1.5 ulp.
     [[nodiscard]] T pendulum_length() const {
         using std::isfinite;
-        const T length = static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
-        return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
+        const T length =
+            static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
+        return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
     /// k^2/h, the distance from the centre of gravity to the centre of oscillation; it and h are
     /// exchanged for a link hung by its centre of oscillation, §6.
@@ -68,15 +69,20 @@ template <std::floating_point T>
 T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other) {
     using S = Wide<T>;
     if constexpr (std::is_same_v<T, float>) {
-        return static_cast<T>(pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
-                                                  CompoundLink<double>{other.centroid, other.radius_of_gyration}));
+        return static_cast<T>(
+            pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
+                                CompoundLink<double>{other.centroid, other.radius_of_gyration}));
     } else {
         int power = 0;
         std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
-        const T h = std::ldexp(link.centroid, -power), k = std::ldexp(link.radius_of_gyration, -power);
-        const T h0 = std::ldexp(other.centroid, -power), k0 = std::ldexp(other.radius_of_gyration, -power);
-        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
-        if (std::abs(static_cast<T>(whole)) > T(0x1p-20)) return std::ldexp(static_cast<T>(whole), power);
+        const T h = std::ldexp(link.centroid, -power),
+                k = std::ldexp(link.radius_of_gyration, -power);
+        const T h0 = std::ldexp(other.centroid, -power),
+                k0 = std::ldexp(other.radius_of_gyration, -power);
+        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() -
+                        CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
+        if (std::abs(static_cast<T>(whole)) > T(0x1p-20))
+            return std::ldexp(static_cast<T>(whole), power);
         // h h0 times the difference is a sum of products of three numbers, each exactly four words.
         std::array<T, 16> terms;
         std::size_t size = 0;
@@ -102,8 +108,8 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
 /// A link at a steady inclination, hung from an axle on the axis.
 template <Real T>
 struct SwungLink {
-    T inclination;           ///< to the vertical, 0 ... pi/2
-    T reaction;              ///< force at the axle over the weight
+    T inclination;  ///< to the vertical, 0 ... pi/2
+    T reaction;     ///< force at the axle over the weight
     /// of the line of that force to the vertical; it meets the vertical through the centre of
     /// gravity at E, at the level of the centre of oscillation L
     T reaction_inclination;
@@ -122,9 +128,10 @@ template <Real T>
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
     const auto squares = detail::squares_over_centroid(link);
-    const T longer = height <= h
-                         ? static_cast<T>(squares.plus(h - height).over(length).root().value())
-                         : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
+    const T longer =
+        height <= h
+            ? static_cast<T>(squares.plus(h - height).over(length).root().value())
+            : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));
     const T sine = longer * sqrt(T(1) + height / length), outwards = h / height * sine;

@@ -14,7 +14,7 @@
 /// circle.
 ///
 ///     namespace pendulum = revchain::conical_pendulum;
-///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s: a conical pendulum 0.5 m high
+///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s, 0.5 m high
 ///     pendulum::height_from_period(2.0);                     // 0.993621 m: one revolution in 2 s
 ///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the first speed
 ///     p.inclination;                                         // 1.0472 rad: 60 degrees
@@ -35,20 +35,22 @@ enum class Rotation { forward, backward };
 /// Accuracy: 2.1 ulp, measured against 34 digits in tests/cpp/conical_pendulum.cpp.
 namespace conical_pendulum {
 
-inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact by convention (3rd CGPM, 1901)
+inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact (3rd CGPM, 1901)
 
 /// n = sqrt(g / lambda), rad/s. §1 (1)
 template <Real T>
 [[nodiscard]] T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
-    detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity", gravity);
+    detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity",
+                             gravity);
     return sqrt(gravity) / sqrt(height);  // not sqrt(g / lambda): the quotient may leave the range
 }
 
 /// lambda = g / n^2. §1 (1)
 template <Real T>
 [[nodiscard]] T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity", gravity);
+    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity",
+                             gravity);
     return gravity / angular_speed / angular_speed;
 }
 
@@ -63,7 +65,8 @@ template <Real T>
 /// lambda = g T^2 / (4 pi^2). §1 (1)
 template <Real T>
 [[nodiscard]] T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity", gravity);
+    detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity",
+                             gravity);
     const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
 }
@@ -78,8 +81,8 @@ template <Real T>
 template <Real T>
 [[nodiscard]] T height_from_revolutions_per_second(const T& revolutions,
                                                    const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
-                             revolutions);
+    detail::require_positive("conical_pendulum::height_from_revolutions_per_second",
+                             "revolutions per second", revolutions);
     return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
@@ -102,8 +105,8 @@ template <Real T>
 /// lambda = L T^2 / 4 from the length L of the seconds pendulum; needs no g. §1 (7)
 template <Real T>
 [[nodiscard]] T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
-    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum", seconds_pendulum,
-                             "period", period);
+    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum",
+                             seconds_pendulum, "period", period);
     const T half = period / T(2);
     return seconds_pendulum * half * half;
 }
@@ -124,9 +127,11 @@ void require_one_speed(std::string_view place, const Options& options) {
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
     require_one_speed(place, options);
-    const double height = options.conical_height ? *options.conical_height
-                                                 : conical_pendulum::height(*options.angular_speed, options.gravity);
-    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);
+    const double height = options.conical_height
+                              ? *options.conical_height
+                              : conical_pendulum::height(*options.angular_speed, options.gravity);
+    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2",
+                     height);
     return height;
 }
 
@@ -165,7 +170,8 @@ template <Real T>
     if (!(height < length)) return {T(0), T(0), length, T(1)};
     // Half angles: the arc cosine of a ratio near 1 would lose half the digits.
     const T ratio = height / length, half_sine = sqrt((length - height) / length / T(2));
-    return {T(2) * asin(half_sine), length * (sqrt((length - height) / length) * sqrt(T(1) + ratio)), height,
+    return {T(2) * asin(half_sine),
+            length * (sqrt((length - height) / length) * sqrt(T(1) + ratio)), height,
             length / height};
 }
 
@@ -174,25 +180,24 @@ template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
-    /// if false, that thread is slack, its tension is 0, and the plummet circles on the other one
-    bool upper_taut,
-        lower_taut;  ///< else that thread is slack, its tension 0, and the plummet circles on the other one
+    /// If false, that thread is slack, its tension is 0, and the plummet circles on the other one
+    bool upper_taut, lower_taut;
 };
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the
 /// upper one; equations of the polygon KN, NP, PC', C'K of §1. Let D be the depth with both threads
 /// straight. The lower thread is slack if height >= D, the upper one if height <= D - distance; the
-/// plummet is then a conical pendulum on the other. It is within reach of both threads where depth
-/// + radius^2/(2 height) has its one maximum. Accuracy: 3 ulp; a depth or tension that is a small
-/// difference of two terms has an error of 1e-29 of the larger one. Also throws InvalidArgument
-/// unless the three lengths form a triangle.
+/// plummet is then a conical pendulum on the other. Of the points within reach of both threads it
+/// takes the one with the largest depth + radius^2/(2 height), which is unique. Accuracy: 3 ulp; a
+/// depth or tension that is a small difference of two terms has an error of 1e-29 of the larger
+/// one. Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height) {
     using std::frexp, std::ldexp, std::sqrt;
     constexpr std::string_view place = "held_plummet";
-    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread, "distance", distance,
-                             "height", height);
+    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread,
+                             "distance", distance, "height", height);
     // Kahan's order of the sides, for the area of a thin triangle.
     T a = upper_thread, b = lower_thread, c = distance;
     if (a < b) std::swap(a, b);
@@ -201,15 +206,19 @@ template <Real T>
     const T slack = c - (a - b);
     if (!(slack >= T(0))) detail::throw_invalid(place, "distance must make a triangle with the two threads", distance);
     // Roots first: a product of two lengths may leave the range.
-    const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
+    const T radius =
+        sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
     // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance
     // are differences.
     using S = Wide<T>;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
-    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)), x(height);
-    const S rise = ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
-    const S along = rise * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
+    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)),
+        x(height);
+    const S rise =
+        ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
+    const S along = rise * (u + l), depth = ldexp(d + along, unit - 1),
+            above_lower = ldexp(along - d, unit - 1);
     if (x >= depth) {
         const InclinedPendulum<T> hung = inclined_pendulum(upper_thread, height);
         return {hung.radius, hung.depth, hung.tension, T(0), true, false};
@@ -276,21 +285,26 @@ template <Real T>
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
     if (!(farthest <= std::numeric_limits<T>::max() / T(2)) || !(c > T(0)))
-        detail::throw_invalid(place, "height must be larger, else the tangent of an inclination overflows", height);
+        detail::throw_invalid(
+            place, "height must be larger, else the tangent of an inclination overflows", height);
     const auto function = [&](const T& t) {
-        const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant, versed = t / (secant + T(1)) * (t / secant);
+        const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant,
+                versed = t / (secant + T(1)) * (t / secant);
         const T slope = c - cosine * cosine * cosine;
         // far inwards l sin d is nearly l: the difference of the two is added instead
         if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
         if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
-        return std::pair<T, T>(t * (gap + versed) - r, gap + versed * (T(1) + cosine + cosine * cosine));
+        return std::pair<T, T>(t * (gap + versed) - r,
+                               gap + versed * (T(1) + cosine + cosine * cosine));
     };
     const auto negative = [&](const T& t) {  // where the function falls
         const auto [value, slope] = function(t);
         return std::pair<T, T>(-value, -slope);
     };
     CarriedInclinations<T> result;
-    const auto add = [&](const T& t) { result.inclination[static_cast<std::size_t>(result.count++)] = atan(t); };
+    const auto add = [&](const T& t) {
+        result.inclination[static_cast<std::size_t>(result.count++)] = atan(t);
+    };
     T turn(0);  // slope 0 at |t| = sqrt(c^(-2/3) - 1): a maximum on the inner side
     if (gap < T(0)) {
         const T root = cbrt(c);

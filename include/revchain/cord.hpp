@@ -23,7 +23,7 @@
 ///     m.vertical_points(2)[0];             // 0.0705798 m: the lower point that is vertical
 ///     const auto shapes = revchain::steady_shapes(cord, {.angular_speed = 20.0});
 ///     shapes.shapes.size();                // 2 shapes at finite amplitude: all there are
-///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});   // thicker at the top
+///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});
 ///
 /// Arc lengths are measured from the free end. `CordOptions` has the weight, the density (a power
 /// of the arc length, or a function of it) and a tip weight. `steady_shapes` and its results are
@@ -38,8 +38,8 @@ struct CordModes {
     Cord cord;
     Index first = 1;                  ///< number of the slowest mode here
     Vector<double> conical_height{};  ///< (k,) lambda, descending, in the unit of the length
-    Vector<double> error_bound{};  ///< (k,) relative; measured to hold (see `modes`)
-    std::string method{};  ///< that found the heights
+    Vector<double> error_bound{};     ///< (k,) relative; measured to hold (see `modes`)
+    std::string method{};             ///< that found the heights
     Status status = Status::success;  ///< whether `rtol` is met
     std::optional<HeldBy> held{};     ///< absent: the cord hangs
 
@@ -73,7 +73,7 @@ struct CordModesOptions {
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
     std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and if weightless
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows, and if weightless
     Progress* progress = nullptr;
 };
 
@@ -116,15 +116,16 @@ struct CordModesOptions {
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it
-    Vector<double> weight;  ///< of the cord without its tip; its distribution is constant
+    Vector<double> weight;      ///< of the cord without its tip; its distribution is constant
     Vector<double> tip_weight;  ///< 0 for a cord held at both ends
-    Vector<double> exponent;  ///< of the density, at constant weight; NaN for a density function
+    Vector<double> exponent;    ///< of the density, at constant weight; NaN for a density function
     Vector<double> tension;     ///< at the upper end; 0 for a cord that hangs
 };
 
 /// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of
 /// the weight below a point, tip included, changes
-///     lambda = integral of y^2 dV / I    by    - integral of dV y' (2 y + lambda y') / I,    I = integral of V y'^2.
+///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
+/// where I = integral of V y'^2.
 /// Heights are proportional to the length; otherwise they depend only on ratios of weights (and
 /// tension). Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800
 /// offsets and slopes a mode; held at both ends two slopes, or 16 for each half wave.
@@ -211,7 +212,7 @@ struct CordSwingOptions {
     CordStart offset{};           ///< at time 0
     CordStart velocity{};         ///< at time 0
     std::vector<double> time{};   ///< of either sign, in any order
-    Vector<double> arc_length{};  ///< ascending, 0 (the free end) ... length; empty: 101 equally spaced
+    Vector<double> arc_length{};  ///< ascending, 0 (free end) ... length; empty: 101, equal steps
     Index count = 40;             ///< of the slowest modes that are superposed
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;
@@ -220,14 +221,14 @@ struct CordSwingOptions {
 /// A cord swinging in a plane with small amplitude: the sum of its modes, each at its own
 /// frequency.
 struct CordSwing {
-    Vector<double> arc_length;  ///< (n) of the offsets
-    Table<double> offset, velocity;  ///< (times, n) sums of `count` modes
-    Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
-    Vector<double> energy;  ///< (k,) of each mode, weight times length; constant
+    Vector<double> arc_length;         ///< (n) of the offsets
+    Table<double> offset, velocity;    ///< (times, n) sums of `count` modes
+    Vector<double> angular_frequency;  ///< (k,) w = sqrt(g / lambda), ascending
+    Vector<double> energy;             ///< (k,) of each mode, weight times length; constant
     Table<double> shape;               ///< (k, n) of each mode, 1 at the free end
-    Vector<double> cosine, sine;  ///< (k,) offset = sum of shape (cosine cos + sine sin)(frequency t)
-    double energy_left_out = 0;  ///< of the start, in all other modes
-    Vector<double> error_estimate;     ///< (n) of an offset at any time, from the modes up to number 2 k
+    Vector<double> cosine, sine;       ///< (k,) offset = sum of shape (cosine cos wt + sine sin wt)
+    double energy_left_out = 0;        ///< of the start, in all other modes
+    Vector<double> error_estimate;     ///< (n) of an offset at any time, from modes up to 2 k
 };
 
 /// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.

@@ -98,7 +98,8 @@ class LazyCounter;
 template <Real T>
 class ModeCounter {
    public:
-    explicit ModeCounter(const Chain<T>& chain) : mode_count_(chain.mode_count()), pencils_(chain) {}
+    explicit ModeCounter(const Chain<T>& chain)
+        : mode_count_(chain.mode_count()), pencils_(chain) {}
 
     /// The number of conical heights that exceed `height`. Throws InvalidArgument unless it is
     /// positive and finite.
@@ -119,14 +120,16 @@ class ModeCounter {
     /// The modes whose heights lie in the window. Adjacent windows share no mode and miss none.
     /// Throws InvalidArgument unless 0 <= low < high.
     [[nodiscard]] ModeRange within(const HeightWindow<T>& window) const {
-        return detail::modes_within(window, mode_count_, [&](const T& height) { return above_height(height); });
+        return detail::modes_within(window, mode_count_,
+                                    [&](const T& height) { return above_height(height); });
     }
 
     /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
     [[nodiscard]] ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         detail::require_positive("modes", "gravity", gravity);
-        return detail::modes_within(window, mode_count_, [&](const T& speed) { return below_speed(speed, gravity); });
+        return detail::modes_within(window, mode_count_,
+                                    [&](const T& speed) { return below_speed(speed, gravity); });
     }
 
    private:
@@ -172,8 +175,8 @@ class LazyCounter {
 /// The speed below which modes are counted. Give either `conical_height` or `angular_speed`.
 template <Real T>
 struct CountOptions {
-    std::optional<T> conical_height{};                  ///< modes whose conical height exceeds it
-    std::optional<T> angular_speed{};                   ///< rad/s: modes whose whirl speed lies below it
+    std::optional<T> conical_height{};                  ///< modes with a larger one
+    std::optional<T> angular_speed{};                   ///< rad/s: modes slower than it
     T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
 };
 

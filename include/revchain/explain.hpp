@@ -24,9 +24,9 @@ class Held;  // revchain/held.hpp
 
 /// The methods for some modes, with their predicted properties, and the one chosen.
 struct Explanation {
-    std::vector<Estimate> methods;  ///< name, whether it applies, error bound (relative), cost (seconds)
+    std::vector<Estimate> methods;  ///< name, fit, error bound (relative), cost (seconds)
     std::size_t chosen = 0;         ///< index into `methods`
-    bool meets_tolerance = false;  ///< false: none does; `chosen` is the most accurate
+    bool meets_tolerance = false;   ///< false: none does; `chosen` is the most accurate
 
     /// A table in plain text; the method chosen is marked. Each line ends with a newline.
     [[nodiscard]] std::string text() const;
@@ -34,7 +34,7 @@ struct Explanation {
 
 /// The modes wanted, and how accurately: as in `ModesOptions`.
 struct ExplainOptions {
-    Index first = 1;  ///< from 1 for the slowest
+    Index first = 1;               ///< from 1 for the slowest
     std::optional<Index> count{};  ///< or `all_modes`; absent: 10, or all if fewer
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };

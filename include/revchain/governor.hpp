@@ -20,11 +20,11 @@ namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.
 struct Governor {
-    double angular_speed;        ///< n of the axis; 0 for a plain pendulum
-    double pendulum_length;      ///< l > 0, about the hinge
-    double gravity;              ///< g; negative if the axis is upside down
-    double angle;                ///< theta at time 0
-    double angle_rate = 0;       ///< theta' at time 0
+    double angular_speed;    ///< n of the axis; 0 for a plain pendulum
+    double pendulum_length;  ///< l > 0, about the hinge
+    double gravity;          ///< g; negative if the axis is upside down
+    double angle;            ///< theta at time 0
+    double angle_rate = 0;   ///< theta' at time 0
     /// 0 ... 1: moment of inertia about the link's own line over that about the hinge
     double axial_inertia = 0.0;
 };
@@ -34,7 +34,7 @@ enum class GovernorRegime {
     rest,         ///< an equilibrium, also the relative equilibrium at cos theta = lambda / l
     aside,        ///< between two angles on one side: dn
     asymptotic,   ///< towards an equilibrium that is never reached: sech, sinh
-    through,  ///< to and fro through the lowest point (highest if gravity is negative): cn
+    through,      ///< to and fro through the lowest point (highest if gravity is negative): cn
     revolutions,  ///< round and round: tn
 };
 
@@ -93,8 +93,8 @@ class GovernorMotion {
 
     GovernorRegime regime_ = GovernorRegime::rest;
     Form form_ = Form::constant;
-    bool upside_down_ = false;            // angles are counted from the top, so that gravity pulls downwards
-    double turns_ = 0;                    // whole turns between the angle given and the one computed
+    bool upside_down_ = false;            // angles from the top: gravity is positive
+    double turns_ = 0;                    // whole turns from the angle computed to the one given
     double angle_ = 0;                    // given
     double rate_ = 0, phase_ = 0;         // u = phase + rate t
     double opposite_ = 0, adjacent_ = 1;  // tan(theta/2): their ratio times cn, dn or tn

@@ -21,7 +21,8 @@
 ///
 /// In a circular wave every pin runs round the line with the speed n, an angle theta behind its
 /// neighbour; n is positive in the direction of rotation of a wheel with positive momentum:
-///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
+///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),
+///     X = W (h (a - h) - rho^2)/a^2.
 /// All functions are O(1). They throw InvalidArgument unless weight, length, tension and gravity
 /// are positive and all numbers finite, and for a negative radius of gyration.
 namespace revchain::inline REVCHAIN_BUILD {
@@ -32,7 +33,7 @@ struct GyrostaticString {
     T weight;                ///< W > 0, of a link with its wheel
     T length;                ///< a > 0, from pin to pin
     T tension;               ///< T > 0
-    T momentum;  ///< H, of a wheel about its link: force x length x time, of any sign
+    T momentum;              ///< H, of a wheel about its link: force x length x time, of any sign
     T centroid;              ///< h, from one of the pins
     T radius_of_gyration{};  ///< rho >= 0, across the link, about the centre of gravity
     T gravity = T(conical_pendulum::standard_gravity);  ///< turns weight into mass
@@ -59,19 +60,22 @@ T share_across(const GyrostaticString<T>& s) {
 template <Real T>
 void check(std::string_view place, const GyrostaticString<T>& s) {
     using std::isfinite;
-    require_positive(place, "weight", s.weight, "length", s.length, "tension", s.tension, "gravity", s.gravity);
+    require_positive(place, "weight", s.weight, "length", s.length, "tension", s.tension, "gravity",
+                     s.gravity);
     require_finite(place, "momentum", s.momentum, "centroid", s.centroid);
     require_not_negative(place, "radius of gyration", s.radius_of_gyration);
     if (!isfinite(share_across(s)))
         throw_invalid(place,
-                      "length must not be so small that centroid or radius of gyration over it, squared, overflow",
+                      "length must not be so small that centroid or radius of gyration over it, "
+                      "squared, overflow",
                       s.length);
 }
 
 /// n H/a^2 over the inertia W n^2/g.
 template <Real T>
 Product<T> spin_ratio(const GyrostaticString<T>& s, const T& n) {
-    return Product<T>::of(s.momentum).over(s.length).over(s.length).over(s.weight).times(s.gravity).over(n);
+    const T a = s.length;
+    return Product<T>::of(s.momentum).over(a).over(a).over(s.weight).times(s.gravity).over(n);
 }
 
 /// sin^2 and cos^2 of half the phase; one of them is negative if the wave does not propagate.
@@ -96,7 +100,8 @@ template <Real T>
     detail::require_finite("link_phase", "angular speed", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
     if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
-    if (cosine.fraction < T(0)) return {detail::pi<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
+    if (cosine.fraction < T(0))
+        return {detail::pi<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
     return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
 }
 
@@ -118,7 +123,8 @@ template <Real T>
     const P q = B.plus(B.times(B).plus(A.times(C).times(T(4))).root()).over(T(2));
     const T slower = C.over(q).times(chord).value();
     const T faster = B.fraction > T(0) ? q.over(A).times(chord).value() : slower;
-    return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
+    return string.momentum < T(0) ? std::array<T, 2>{slower, -faster}
+                                  : std::array<T, 2>{faster, -slower};
 }
 
 /// Angle by which the plane of a vibration to and fro turns from link to link, positive in the
@@ -138,7 +144,8 @@ template <Real T>
         if (square.fraction < T(0)) return std::numeric_limits<T>::quiet_NaN();
     if (string.momentum == T(0)) return T(0);
     // the difference of sin^2 of both halves, in which the tension cancels
-    const auto difference = detail::spin_ratio(string, angular_speed).times(T(8)).times(ahead).times(back);
+    const auto difference =
+        detail::spin_ratio(string, angular_speed).times(T(8)).times(ahead).times(back);
     const auto sum = back.times(ahead_rest).root().plus(ahead.times(back_rest).root());
     return asin(difference.over(sum).value());
 }

@@ -18,11 +18,12 @@
 /// string of weights.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(40, 1.0);
-///     const auto shapes = revchain::steady_shapes(revchain::Held(rods, {.span = 0.5}), {.angular_speed = 10.0});
+///     const revchain::Held held(rods, {.span = 0.5});
+///     const auto shapes = revchain::steady_shapes(held, {.angular_speed = 10.0});
 ///     shapes.shapes[0].offset.maxCoeff();   // 0.391553 m: the largest distance from the axis
 ///     shapes.shapes[0].error_bound;         // of every inclination, rad: proved
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
-///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
+///     m.angular_speed()[0];                 // 31.8773 rad/s: the straight chain begins to whirl
 ///
 /// Links and arrays begin at the lower end. `modes` and `count_modes` treat a straight chain,
 /// `steady_shapes` and `branches` shapes at finite amplitude, `stability` (stability.hpp) their
@@ -31,7 +32,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// How the two ends are held. Give either `span` or `tension`.
 struct HeldBy {
-    std::optional<double> span{};  ///< distance of the two ends along the axis, less than the length
+    std::optional<double> span{};  ///< distance of the ends along the axis, less than the length
     /// at the upper end, in the unit of the weights; without gravity, newtons
     std::optional<Wide<double>> tension{};
     /// no gravity: weights are masses; shapes at a span between firm ends do not depend on speed
@@ -62,10 +63,11 @@ class Held {
    public:
     Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) {
         if (by.span.has_value() == by.tension.has_value())
-            detail::throw_invalid("Held", std::string("give either span or tension, got ") +
-                                              (by.span ? "both: span " + detail::in_digits(*by.span) + ", tension " +
-                                                             detail::in_digits(by.tension->high)
-                                                       : "neither"));
+            detail::throw_invalid(
+                "Held", std::string("give either span or tension, got ") +
+                            (by.span ? "both: span " + detail::in_digits(*by.span) + ", tension " +
+                                           detail::in_digits(by.tension->high)
+                                     : "neither"));
         if (by.tension) detail::require_positive("Held", "tension", by.tension->high);
         if (by.span) detail::require_positive("Held", "span", *by.span);
         if (by.span && !(*by.span < length()))
@@ -77,9 +79,10 @@ class Held {
                 "Held", "the ends must be nearer to each other than the length " + detail::in_digits(length()), apart);
         if constexpr (std::is_same_v<System, Cord>)
             if (!system_.is_uniform() || system_.tip_weight() != 0)
-                detail::throw_invalid("Held",
-                                      "a held cord must be uniform and without tip weight; for others cut it "
-                                      "into links, as Chain::tapered does");
+                detail::throw_invalid(
+                    "Held",
+                    "a held cord must be uniform and without tip weight; for others cut it "
+                    "into links, as Chain::tapered does");
     }
 
     const System& system() const noexcept { return system_; }
@@ -119,9 +122,9 @@ struct HeldShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
-    int max_half_waves = 1;                               ///< largest number of half waves to look for
-    bool prove = true;  ///< whether error bounds and completeness are proved
-    long budget = 300'000;  ///< link evaluations in the proof of completeness, 1 to 2 microseconds each
+    int max_half_waves = 1;                               ///< largest number of half waves
+    bool prove = true;      ///< whether error bounds and completeness are proved
+    long budget = 300'000;  ///< link evaluations of that, 1 to 2 microseconds each
 };
 
 /// As `HeldShapesOptions`, for a cord, whose shapes are not proved.
@@ -185,7 +188,7 @@ struct HeldModesOptions {
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
     std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows, and if weightless
     bool certify = false;
     Index threads = 1;  ///< 0: all processors
     Progress* progress = nullptr;
@@ -214,7 +217,8 @@ struct HeldModesOptions {
 /// The number of modes slower than a speed, proved as for a rig. Cost: 0.5 microseconds a link.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
 /// as `modes`.
-[[nodiscard]] Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
+[[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
+                                const CountOptions<double>& options);
 
 /// How far branches go. Give either `min_conical_height` or `max_angular_speed`.
 struct HeldDiagramOptions {

@@ -7,7 +7,7 @@
 /// vibrating string.
 ///
 ///     revchain::hoop::tension(20.0);   // 40.7886 m of rim weigh as much as the tension at 20 m/s
-///     revchain::hoop::speed(10000.0);  // 313.156 m/s: a rim with a breaking length of 10 km bursts
+///     revchain::hoop::speed(10000.0);  // 313.156 m/s bursts a rim with a breaking length of 10 km
 ///
 /// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that has this weight.
 /// Units: any consistent set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument
@@ -34,7 +34,7 @@ template <Real T>
 template <Real T>
 struct WaveSpeeds {
     T standing;  ///< of the wave against the rim: 0, it stands still in space
-    T running;  ///< of the wave with the rim: twice its speed
+    T running;   ///< of the wave with the rim: twice its speed
 };
 
 /// Speeds of the waves on a rim that runs with `speed`. §5, after (6)

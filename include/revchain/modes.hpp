@@ -16,13 +16,13 @@
 
 /// Whirl modes of small amplitude: speeds, shapes and nodes, each speed with a proved bound.
 ///
-///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),        // the lowest link first
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),  // the lowest link first
 ///                                          revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain, {.count = 2});
 ///     m.angular_speed(9.80665)[0];   // 3.80868 rad/s, the slowest mode
 ///     m.conical_height[0];           // 0.67604 = g/n^2, in the unit of the lengths
 ///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
-///     m.shape(0)[1];                 // offset of the second pin, free end first; shapes are computed now
+///     m.shape(0)[1];                 // offset of the second pin, free end first
 ///
 /// Greenhill (1908) §8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung
 /// from a fixed point is the natural angular frequency of its plane swing.
@@ -30,10 +30,10 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// How conical heights are found.
 enum class ModesMethod {
-    automatic,  ///< the cheapest that meets the tolerance; see explain.hpp
-    bisection,  ///< bisection on counts of modes: any chain, any modes, any tolerance
-    condensed,  ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
-    aberth,  ///< all modes of a small chain at once (Ehrlich and Aberth)
+    automatic,     ///< the cheapest that meets the tolerance; see explain.hpp
+    bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
+    condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
+    aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
     interpolated,  ///< for many modes: interpolates the characteristic polynomial
 };
 
@@ -41,15 +41,15 @@ enum class ModesMethod {
 /// both.
 template <Real T>
 struct ModesOptions {
-    Index first = 1;                                  ///< number of the first mode, from 1 for the slowest
-    std::optional<Index> count{};                     ///< how many, or `all_modes`; absent: 10, or all if fewer
+    Index first = 1;                                  ///< from 1 for the slowest
+    std::optional<Index> count{};                     ///< or `all_modes`; absent: 10, or fewer
     std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
     std::optional<T> rtol{};  ///< relative tolerance of conical heights; absent: full accuracy
-    bool certify = false;  ///< also return `Certificate`
+    bool certify = false;     ///< also return `Certificate`
     T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed
-    Index threads = 1;                                  ///< for heights and shapes; 0: all processors
-    Progress* progress = nullptr;  ///< read and cancelled from another thread
+    Index threads = 1;                                  ///< 0: all processors
+    Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that does not apply is replaced by bisection; `Modes::method` names the one used.
     ModesMethod method = ModesMethod::automatic;
 };
@@ -73,7 +73,7 @@ struct Modes {
     Vector<T> conical_height{};    ///< (k,) lambda, descending, in the chain's unit of length
     Vector<T> error_bound{};       ///< (k,) relative to the exact height of the stored numbers
     Certificate<T> certificate{};  ///< empty unless asked for
-    std::string method{};  ///< the one used
+    std::string method{};          ///< the one used
     Status status = Status::success;
 
     Index size() const noexcept { return conical_height.size(); }
@@ -83,9 +83,9 @@ struct Modes {
     /// Thread-safe.
     const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
     /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
-    const Vector<T>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
+    const Vector<T>& residual() const { return details().residual; }
     /// k lists: distances from the free end at which the mode crosses the axis
-    const std::vector<Vector<T>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
+    const std::vector<Vector<T>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
@@ -96,12 +96,16 @@ struct Modes {
     [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::period<T>);
     }
-    Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
+    Vector<T> revolutions_per_second(
+        const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::revolutions_per_second<T>);
     }
 
    private:
     friend detail::ShapesBehind;
+    const detail::ModeShapes<T>& details() const {
+        return lazy_shapes_.details(size(), nullptr);
+    }
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
@@ -144,8 +148,10 @@ template <Real T>
 namespace revchain::inline REVCHAIN_BUILD {
 extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
 extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
-extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);
-extern template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&, const ModesOptions<DoubleDouble>&);
+extern template Modes<long double> modes(const Chain<long double>&,
+                                         const ModesOptions<long double>&);
+extern template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&,
+                                          const ModesOptions<DoubleDouble>&);
 }  // namespace revchain
 #else
 #include "revchain/questions/modes.hpp"

@@ -29,7 +29,7 @@ template <Real T>
 [[nodiscard]] RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();
     RecurrencePencil<T> pencil{Matrix<T>::Zero(n, n), Matrix<T>::Zero(n, n)};
-    Vector<T> below(n);  // coefficient of y_r in every row above r + 1: W_r (1 - h_r/a_r) + W_{r+1} h_{r+1}/a_{r+1}
+    Vector<T> below(n);  // W_r (1 - h_r/a_r) + W_{r+1} h_{r+1}/a_{r+1}: of y_r in rows above r + 1
     Wide<T> sum(T(0));   // W_1 + ... + W_{m-1}
     T upper_share(0);    // W_{m-1} (1 - h_{m-1}/a_{m-1})
     for (Index row = 0; row < n; ++row) {

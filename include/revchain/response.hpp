@@ -9,10 +9,11 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
-/// Forced motion of small amplitude of a chain whose support moves on a circle or to and fro.
+/// Forced motion of a chain whose support moves on a circle or to and fro (base excitation).
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-///     const auto r = revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
+///     const auto r =
+///         revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
 ///     r.offset(0, 0);       // 0.0145272 m: the free end at 2 rad/s, on the side of the support
 ///     r.reversed[1];        // 1: at 5 rad/s it is opposite to the support
 ///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
@@ -20,11 +21,11 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// The motion of the support, and the pins wanted. Give either `conical_height` or `angular_speed`.
 struct ResponseOptions {
-    std::vector<double> conical_height{};  ///< of the speeds
-    std::vector<double> angular_speed{};  ///< rad/s; with a flywheel of either sign
-    double support_radius = 1;  ///< of the circle, or the amplitude to and fro
+    std::vector<double> conical_height{};      ///< of the speeds
+    std::vector<double> angular_speed{};       ///< rad/s; with a flywheel of either sign
+    double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
     std::optional<std::vector<Index>> pins{};  ///< in any order, 0 the free end; absent: all
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Index threads = 1;                                    ///< 0: all processors
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
@@ -34,10 +35,10 @@ struct ResponseOptions {
 struct Response {
     std::vector<Index> pins;
     Table<double> offset;  ///< (speeds, pins) positive on the side of the support; NaN at resonance
-    Vector<double> error_bound;  ///< of every offset of the chain, over the largest; infinite at resonance
-    Vector<Index> modes_below;  ///< slower modes, proved; without a resonant one
-    std::vector<char> reversed;  ///< whether the free end is opposite to the support
-    std::vector<char> resonant;  ///< whether the speed cannot be told from a resonance
+    Vector<double> error_bound;    ///< of every offset, over the largest; infinite at resonance
+    Vector<Index> modes_below;     ///< slower modes, proved; without a resonant one
+    std::vector<char> reversed;    ///< whether the free end is opposite to the support
+    std::vector<char> resonant;    ///< whether the speed cannot be told from a resonance
     Vector<double> support_force;  ///< horizontal pull of the chain on its support, outwards
     Vector<double> support_force_error;  ///< bound, in the unit of the weights
 };

@@ -13,26 +13,36 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
-/// A chain and its rigging. For a chain without rigging, `Chain` costs less.
+/// A chain and its rigging: a support that yields or is carried round, flywheels, a fluid, standing
+/// links.
 ///
-/// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
-/// chain, numbers that are not finite, a support without stiffness, a carriage at a firm support,
-/// and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
+///     const revchain::Chain<double> chain({revchain::plummet(80.0, 0.5), revchain::plummet(20.0, 4.0)});
+///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});             // m
+///     const auto found = revchain::steady_shapes(carousel, {.angular_speed = 1.0});  // steady_shapes.hpp
+///     found.shapes[0].offset[0];                                     // 6.46323 m: the seat's radius
+///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
+///
+/// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers
+/// are stored exactly as given. Stiffness and momentum are double words: with masses for weights,
+/// newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
+/// Wide<double>(9.81)`. Rigs have `modes` (rig_modes.hpp), `steady_shapes`, `branches`,
+/// `stability`, `response` and `sensitivity`. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
     /// sideways, force over length; infinite where firm
     Wide<double> stiffness = std::numeric_limits<double>::infinity();
-    double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
-    double radius = 0;  ///< distance of the support's rest position from the axis
+    double carriage_weight = 0;  ///< weight that moves sideways with a pin that yields
+    double radius = 0;           ///< distance of the support's rest position from the axis
 
     bool is_firm() const noexcept { return std::isinf(stiffness.high); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
 namespace detail {
-inline void require_yielding(std::string_view place, const std::string& name, const Support& support) {
+inline void require_yielding(std::string_view place, const std::string& name,
+                             const Support& support) {
     if (support.is_firm() && support.carriage_weight > 0)
         throw_invalid(place, name + " must have a stiffness: what moves sideways needs a support that yields; weight",
                       support.carriage_weight);
@@ -62,22 +72,23 @@ inline void require_yielding(std::string_view place, const std::string& name, co
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
-    Wide<double> momentum{0.0};  ///< H, constant; weight times length times time, any sign
+    Wide<double> momentum{0.0};      ///< H, constant; weight times length times time, any sign
     Wide<double> axial_moment{0.0};  ///< C >= 0, weight times length squared (over g: an inertia)
 
     friend bool operator==(const Flywheel&, const Flywheel&) = default;
 };
 
 namespace detail {
-inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
-                                double gravity) {
+inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration,
+                                double spin, double gravity) {
     require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
     require_finite(place, "spin", spin);
     require_positive(place, "gravity", gravity);
     using S = Wide<double>;
     int heavy = 0, far = 0;  // products of numbers near 1 have all digits of both words
     const S part = S(std::frexp(weight, &heavy)), radius = S(std::frexp(radius_of_gyration, &far));
-    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far), momentum = moment * spin / S(gravity);
+    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far),
+            momentum = moment * spin / S(gravity);
     if (!isfinite(moment) || !isfinite(momentum))
         throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
                       radius_of_gyration);
@@ -105,9 +116,9 @@ enum class Fluid { still, turning };
 
 /// The fluid that a link displaces.
 struct Displaced {
-    double weight = 0;                 ///< B >= 0, of the fluid displaced
+    double weight = 0;    ///< B >= 0, of the fluid displaced
     double centroid = 0;  ///< centre of buoyancy, from the upper pin, positive downwards
-    Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / length of the link)^2, about that centroid
+    Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / link length)^2, about it
     double added_weight = 0;  ///< of the still fluid that moves with the link; distributed as B
 
     friend bool operator==(const Displaced&, const Displaced&) = default;
@@ -131,8 +142,7 @@ struct Rigging {
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and its rigging: a support that yields or is carried round, links that stand, flywheels,
-/// a fluid that bears part of the weight. Use a `Chain` where there is no rigging: it costs less.
+/// A chain and its rigging. For a chain without rigging, `Chain` costs less.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
 /// chain, numbers that are not finite, a support without stiffness, a carriage at a firm support,
@@ -148,7 +158,8 @@ class Rig {
     Fluid fluid() const noexcept { return with_.fluid; }
 
     bool stands(Index m) const {
-        return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
+        return !with_.posture.empty() &&
+               with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
     }
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
@@ -156,7 +167,8 @@ class Rig {
     /// The fluid that link m displaces. Without an entry, or with a default one, the weights are 0,
     /// and centroid and radius of gyration are those of the link.
     Displaced displaced(Index m) const {
-        const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+        const Displaced given =
+            with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
     /// Whether the fluid that link m displaces, if any, is distributed as the link's own weight.
@@ -168,8 +180,9 @@ class Rig {
     }
     /// Whether any link has a constant momentum, so that the two directions of rotation differ.
     bool has_momentum() const {
-        return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
-                           [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
+        return std::any_of(
+            with_.flywheels.begin(), with_.flywheels.end(),
+            [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
 
     friend bool operator==(const Rig&, const Rig&) = default;
@@ -185,7 +198,8 @@ inline void Rig::check() const {
     const auto as_long = [&](std::size_t stored, std::string_view name) {
         if (stored != 0 && stored != static_cast<std::size_t>(size()))
             detail::throw_invalid("Rig",
-                                  std::string(name) + " must be empty or have one entry for each of the " +
+                                  std::string(name) +
+                                      " must be empty or have one entry for each of the " +
                                       std::to_string(size()) + " links",
                                   stored);
     };
@@ -193,9 +207,10 @@ inline void Rig::check() const {
     as_long(with_.displaced.size(), "displaced");
     const Support& support = with_.support;
     if (!(support.stiffness.high > 0))
-        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness.high);
-    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
-                                 support.radius);
+        detail::throw_invalid("Rig", "the stiffness of the support must be positive",
+                              support.stiffness.high);
+    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight,
+                                 "radius of the support", support.radius);
     detail::require_yielding("Rig", "the support", support);
     if (with_.flywheels.empty() && with_.displaced.empty()) return;
     const auto check_link = [&](Index m, std::string_view place) {

@@ -29,10 +29,10 @@ struct RigModesOptions {
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
     std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
-    bool certify = false;  ///< also return `WhirlModes::certificate`
+    bool certify = false;          ///< also return `WhirlModes::certificate`
     double gravity = conical_pendulum::standard_gravity;  ///< for all speeds
     bool other = true;                                    ///< also find `RigModes::other`
-    Index threads = 1;                                    ///< for heights and shapes; 0: all processors
+    Index threads = 1;                                    ///< 0: all processors
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
@@ -41,32 +41,34 @@ struct RigModesOptions {
 struct WhirlModes {
     Index first = 1;
     Index available = 0;                 ///< number of modes in this direction, found or not
-    Vector<double> conical_height{};  ///< (k,) g/n^2, descending, in the chain's unit of length
-    Vector<double> error_bound{};  ///< (k,) of `conical_height`, relative to the exact one
+    Vector<double> conical_height{};     ///< (k,) g/n^2, descending, in the chain's unit of length
+    Vector<double> error_bound{};        ///< (k,) of `conical_height`, relative to the exact one
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of `angular_speed`, relative
     Certificate<double> certificate{};  ///< of the heights, counted in this direction; if asked for
 
     Index size() const noexcept { return conical_height.size(); }
     const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
-    const Vector<double>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
-    const std::vector<Vector<double>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
+    const Vector<double>& residual() const { return details().residual; }
+    const std::vector<Vector<double>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<double> shape(Index j) const { return lazy_shapes_.one(size(), j); }
 
    private:
     friend detail::ShapesBehind;
+    const detail::ModeShapes<double>& details() const {
+        return lazy_shapes_.details(size(), nullptr);
+    }
     detail::LazyModeShapes<double> lazy_shapes_{};
 };
 
 /// A solution that is not a steady motion: its height is negative or complex, or its speed is
 /// complex. If no force acts on a coordinate, it stays at rest anywhere: height infinite, speed 0.
 struct OtherMode {
-    std::complex<double> conical_height;  ///< lambda
-    std::complex<double>
-        angular_speed;       ///< n, rad/s, lambda n^2 = g: without momentum, of its two signs the one that grows
-    double growth_rate = 0;  ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
-    double error_bound = std::numeric_limits<double>::infinity();  ///< of the height, relative; proved
+    std::complex<double> conical_height;  ///< lambda = g/n^2
+    std::complex<double> angular_speed;   ///< n, rad/s; without momentum, the sign that grows
+    double growth_rate = 0;               ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
+    double error_bound = std::numeric_limits<double>::infinity();  ///< relative, proved
 };
 
 /// A link whose effective tension, tension + n momentum/length, vanishes at a speed and is a thrust
@@ -78,7 +80,7 @@ struct SlackLink {
 
 /// The method that found the modes of a rig.
 enum class RigMethod {
-    modes,  ///< the rig is a plain chain: `modes` of that chain
+    modes,   ///< the rig is a plain chain: `modes` of that chain
     counts,  ///< one after the other, by counts
     discs,   ///< all at once, each proved in a disc of its own
 };
@@ -89,16 +91,16 @@ enum class RigMethod {
 
 /// Whirl modes of a rig.
 struct RigModes {
-    bool has_momentum = false;     ///< whether a flywheel has momentum of its own
-    WhirlModes forward;  ///< n > 0; without momentum, all modes
-    WhirlModes backward;  ///< n < 0; empty without momentum
+    bool has_momentum = false;  ///< whether a flywheel has momentum of its own
+    WhirlModes forward;         ///< n > 0; without momentum, all modes
+    WhirlModes backward;        ///< n < 0; empty without momentum
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
-    std::vector<OtherMode> other;  ///< those; empty if `RigModesOptions::other` is false, but not for `discs`
-    std::vector<SlackLink> slack;  ///< slowest first, up to the fastest speed found in their direction
+    std::vector<OtherMode> other;  ///< those, if `RigModesOptions::other` or `discs`
+    std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
     /// whether the three numbers of modes available are proved to be all
     bool complete = false;
     RigMethod method = RigMethod::counts;
-    Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
+    Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };
 
 /// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21) with supports, standing

@@ -8,7 +8,8 @@
 
 /// Ropes that whirl without gravity: the skipping rope, and the rope that winds round its axis.
 ///
-///     const revchain::analytic::SkippingRope rope({.span = 2.0, .length = 3.0, .angular_speed = 10.0});
+///     namespace analytic = revchain::analytic;
+///     const analytic::SkippingRope rope({.span = 2.0, .length = 3.0, .angular_speed = 10.0});
 ///     rope.sag();                    // 1.03141 m
 ///     rope.tension_in_the_middle();  // 5.13717 m of rope weigh as much
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
@@ -65,7 +66,9 @@ class SkippingRope {
     /// InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
     [[nodiscard]] double conical_height() const;
-    double angular_speed() const { return conical_pendulum::angular_speed(conical_height(), gravity_); }
+    double angular_speed() const {
+        return conical_pendulum::angular_speed(conical_height(), gravity_);
+    }
     double tension_in_the_middle() const { return strength() / conical_height() * strength(); }
     double tension_at_ends() const { return tension_in_the_middle() * tension_ratio_at_ends(); }
 
@@ -83,7 +86,8 @@ class SkippingRope {
     double waves() const { return static_cast<double>(half_waves_); }
     double kappa() const { return modulus().modulus(); }
     double complement() const { return modulus().complementary_modulus(); }
-    double strength() const { return quarter_ / (complement() * functions_.complete().K); }  // sqrt(lambda h)
+    /// sqrt(lambda h)
+    double strength() const { return quarter_ / (complement() * functions_.complete().K); }
     RopePoint at_argument(double u) const;
 
     double span_ = 0, slack_ = 0, length_ = 0, sag_ = 0, quarter_ = 0, gravity_ = 0;  // quarter: a
@@ -115,7 +119,7 @@ struct TortuousPoint {
 ///
 /// R is the square of the distance from the axis, R1 <= R <= R2, c^2 = lambda h and r = sqrt(R1 R2
 /// + 4 c^4):
-///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),   u = d x / (2 c^2),
+///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),  u = d x/(2 c^2),
 ///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,
 ///     theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
 /// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds to construct, 1

@@ -15,7 +15,7 @@
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain);
 ///     const auto s = revchain::sensitivity(chain, m);
-///     s.weight().value(0, 1);       // -0.0347969, d(slowest mode's height)/d(weight of the upper link)
+///     s.weight().value(0, 1);       // -0.0347969, d(slowest height)/d(weight of the upper link)
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -24,8 +24,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// proportion, as the length of a plummet's thread or of a rod does.
 enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
 
-inline constexpr std::array<std::string_view, 5> datum_names{"weight", "length", "centroid", "radius_of_gyration",
-                                                             "length_in_proportion"};
+inline constexpr std::array<std::string_view, 5> datum_names{
+    "weight", "length", "centroid", "radius_of_gyration", "length_in_proportion"};
 
 /// Derivatives of k conical heights with respect to one datum of each of N links, lowest first.
 template <Real T>
@@ -41,10 +41,10 @@ struct Sensitivity {
     std::array<Derivatives<T>, datum_names.size()> by_datum;
 
     const Derivatives<T>& of(Datum datum) const { return by_datum[static_cast<std::size_t>(datum)]; }
-    const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< unit of length over weight
-    const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below; lowest link: 0
+    const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< length over weight
+    const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below
     const Derivatives<T>& centroid() const { return of(Datum::centroid); }
-    const Derivatives<T>& radius_of_gyration() const { return of(Datum::radius_of_gyration); }  ///< never negative
+    const Derivatives<T>& radius_of_gyration() const { return of(Datum::radius_of_gyration); }
     /// (a d/da + h d/dh + rho d/drho)/a, never negative.
     const Derivatives<T>& length_in_proportion() const { return of(Datum::length_in_proportion); }
     Index size() const { return weight().value.rows(); }
@@ -82,10 +82,10 @@ using Deviations = std::array<std::optional<Deviation<T>>, datum_names.size()>;
 template <Real T>
 struct Uncertainty {
     Vector<T> conical_height;  ///< (k,) standard deviations, in the unit of the heights
-    Vector<T> relative;  ///< (k,) over the heights; half as much for speeds and periods
+    Vector<T> relative;        ///< (k,) over the heights; half as much for speeds and periods
     std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of each variance; sum 1
-    std::vector<Datum> datum;  ///< (k,) the datum that contributes most
-    std::vector<Index> link;  ///< (k,) the link of that datum, from 0
+    std::vector<Datum> datum;                        ///< (k,) the datum that contributes most
+    std::vector<Index> link;                         ///< (k,) the link of that datum, from 0
 };
 
 /// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2
@@ -110,10 +110,10 @@ struct RigSensitivity {
     Vector<double> radius_of_gyration;    ///< (N,)
     Vector<double> length_in_proportion;  ///< (N,) (a d/da + h d/dh + rho d/drho)/a
     Vector<double> momentum;  ///< (N,) of each flywheel's H, per weight times length times time
-    Vector<double> displaced_weight;      ///< (N,) of the weight of the fluid displaced
-    Vector<double> added_weight;          ///< (N,) of the still fluid that moves with the link
-    double stiffness;                     ///< of the support; 0 where it is firm
-    double carriage_weight;               ///< 0 where the support is firm
+    Vector<double> displaced_weight;  ///< (N,) of the weight of the fluid displaced
+    Vector<double> added_weight;      ///< (N,) of the still fluid that moves with the link
+    double stiffness;                 ///< of the support; 0 where it is firm
+    double carriage_weight;           ///< 0 where the support is firm
 };
 
 /// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the
@@ -154,8 +154,10 @@ extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const 
 extern template Sensitivity<double> sensitivity(const Chain<double>&, const Modes<double>&);
 extern template Uncertainty<double> uncertainty(const Sensitivity<double>&, const Vector<double>&,
                                                 const Deviations<double>&);
-extern template Sensitivity<long double> sensitivity(const Chain<long double>&, const Modes<long double>&);
-extern template Uncertainty<long double> uncertainty(const Sensitivity<long double>&, const Vector<long double>&,
+extern template Sensitivity<long double> sensitivity(const Chain<long double>&,
+                                                     const Modes<long double>&);
+extern template Uncertainty<long double> uncertainty(const Sensitivity<long double>&,
+                                                     const Vector<long double>&,
                                                      const Deviations<long double>&);
 }  // namespace revchain
 #else

@@ -11,10 +11,10 @@
 /// Stability of a steady shape: whether a small disturbance grows.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 1.0)});
-///     const auto found = revchain::steady_shapes(chain, {.conical_height = 0.5});   // steady_shapes.hpp
+///     const auto found = revchain::steady_shapes(chain, {.conical_height = 0.5});
 ///     const auto s = revchain::stability(chain, found.shapes[0]);
 ///     s.verdict == revchain::Verdict::minimum;   // true
-///     s.exponents.back().imag();                 // 1.32288: it swings with 1.32288 times the turning speed
+///     s.exponents.back().imag();                 // 1.32288 times the turning speed
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
@@ -23,16 +23,16 @@ class Rig;           // revchain/rig.hpp
 
 /// How a chain can move when it is disturbed.
 enum class StabilityFrame {
-    free,    ///< ball joints, no torque about the axis: it moves in and out of the plane of the shape
-    driven,  ///< hinges in a plane that a motor turns at constant speed: it moves in that plane only
+    free,    ///< ball joints, no torque about the axis: motion in and out of the shape's plane
+    driven,  ///< hinges in a plane that turns at constant speed: motion in that plane only
 };
 
 /// The fate of a small disturbance of a steady shape.
 enum class Verdict {
-    minimum,  ///< it stays small: the energy is least (free: at fixed angular momentum)
+    minimum,            ///< it stays small: the energy is least (free: at fixed angular momentum)
     spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first order
     unstable,           ///< it grows
-    undecided,  ///< unknown, because of the errors of the exponents
+    undecided,          ///< unknown, because of the errors of the exponents
 };
 [[nodiscard]] inline std::string_view to_string(Verdict verdict) noexcept {
     constexpr std::string_view names[]{"minimum", "spectrally stable", "unstable", "undecided"};
@@ -44,11 +44,11 @@ enum class Verdict {
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
-    std::vector<std::complex<double>>
-        exponents;                  ///< s of exp(s n t), by imaginary part; free: without the double 0 of a rotation
-    std::vector<double> exponent_error;  ///< of each, an estimate that includes errors of shape and pulls
+    /// s of exp(s n t), by imaginary part; if free, without the double 0 of a rotation
+    std::vector<std::complex<double>> exponents;
+    std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
     double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
-    double margin = 0;  ///< the largest of these errors
+    double margin = 0;       ///< the largest of these errors
     /// negative eigenvalues of the energy's Hessian; if free, at constant angular momentum and
     /// without the rotation
     Index negative_directions = 0;
@@ -100,7 +100,7 @@ struct Stability {
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {
     StabilityFrame frame = StabilityFrame::free;
-    Rotation direction = Rotation::forward;  ///< for flywheels
+    Rotation direction = Rotation::forward;               ///< for flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< for flywheels
 };
 

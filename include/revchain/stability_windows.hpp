@@ -11,16 +11,16 @@
 ///     const auto chain = revchain::Chain<double>::uniform_plummets(2, 2.0);
 ///     const auto branch = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
 ///     const auto windows = revchain::stability_windows(chain, branch);
-///     windows.size();                                                // 2 windows
-///     windows[0].verdict == revchain::Verdict::spectrally_stable;    // true, from the vertical on
-///     windows[1].verdict == revchain::Verdict::unstable;             // true: faster than that
-///     windows[1].height_from;                                        // 0.135704 m: the conical height of the edge
+///     windows.size();                                               // 2 windows
+///     windows[0].verdict == revchain::Verdict::spectrally_stable;   // true, from the vertical on
+///     windows[1].verdict == revchain::Verdict::unstable;            // true: faster than that
+///     windows[1].height_from;      // 0.135704 m: the conical height of the edge
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// A part of a branch in which all sampled shapes have the same verdict.
 struct StabilityWindow {
     double arc_from, arc_to;
-    double height_from, height_to;  ///< conical heights there; `from` is nearer to where the branch begins
+    double height_from, height_to;  ///< conical heights; `from` is nearer to the first point
     Verdict verdict;
 };
 

@@ -10,10 +10,10 @@
 ///     Eigen::VectorXd weight(2), place(4);
 ///     weight << 1, 2;
 ///     place << 0, 1, 2, 3;  // the first support, both weights, the last support
-///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);  // horizontal tension 4
-///     polygon.height[1];                                                             // -0.333333
+///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);
+///     polygon.height[1];      // -0.333333, with horizontal tension 4
 ///     const auto m = revchain::transverse_modes<double>(weight, place, 4.0);
-///     m.conical_height[0];                                                           // 0.394338
+///     m.conical_height[0];    // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
 namespace revchain::inline REVCHAIN_BUILD {
@@ -30,7 +30,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// there.
 struct ForceDiagram {
     Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
-    Table<double> load;  ///< (N, 2) on every pin but the support: centrifugal force, and weight (negative)
+    Table<double> load;      ///< (N, 2) on all pins but the support: centrifugal force, -weight
     Table<double> ray;       ///< (N, 2) Q_m from O
     Table<double> reaction;  ///< (N, 2) from O: force at a link's upper pin on all that hangs below
     /// (N) x where the line of each load from O meets the horizontal line lambda below O: the x of
@@ -39,7 +39,7 @@ struct ForceDiagram {
     /// (N, 2) G_m of link m and all below it. With K_m on the axis lambda above the level of G_m,
     /// G_m K_m is parallel to the reaction.
     Table<double> centre_of_gravity;
-    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis, or infinite
+    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis, if it does
     double conical_height = 0;
 };
 
@@ -61,10 +61,10 @@ struct ForceDiagram {
 /// the last.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;    ///< (n + 2) x of supports and weights
-    Vector<T> height;   ///< (n + 2) z
-    Vector<T> rise;  ///< (n + 1) vertical component of each side's tension; its ray from the pole
-    Vector<T> tension;  ///< (n + 1) of each side, the length of its ray
+    Vector<T> place;   ///< (n + 2) x of supports and weights
+    Vector<T> height;  ///< (n + 2) z
+    Vector<T> rise;    ///< (n + 1) vertical component of each side's tension
+    Vector<T> tension;       ///< (n + 1) of each side, the length of its ray
     T horizontal_tension{};  ///< of every side
 };
 
@@ -85,11 +85,12 @@ template <Real T>
 struct TransverseModes {
     Vector<T> conical_height;  ///< (n) of the conical pendulum with the same period
     Vector<T> error_bound;     ///< (n) relative
-    Table<T> shape;  ///< (n, n + 2) offsets; largest 1, that of the first weight >= 0
+    Table<T> shape;            ///< (n, n + 2) offsets; largest 1, that of the first weight >= 0
 
     /// Seconds, 2 pi sqrt(conical_height / g).
     [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return conical_height.unaryExpr([&](const T& height) { return conical_pendulum::period(height, gravity); });
+        return conical_height.unaryExpr(
+            [&](const T& height) { return conical_pendulum::period(height, gravity); });
     }
 };
 

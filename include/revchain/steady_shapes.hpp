@@ -22,14 +22,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// the chain.
 struct SteadyShape {
     Vector<double> inclination;  ///< (N) of each link to the downward vertical, rad, in (-pi, pi]
-    Vector<double> offset;  ///< (N + 1) of each pin from the axis; the support is last
-    Vector<double> height;  ///< (N + 1) of each pin above the support, negative below it
-    Vector<double> tension;  ///< (N) magnitude of the reaction at each link's upper pin
-    Vector<double> reaction_inclination;  ///< (N) of that reaction to the vertical, rad: phi of §8 (5)
+    Vector<double> offset;       ///< (N + 1) of each pin from the axis; the support is last
+    Vector<double> height;       ///< (N + 1) of each pin above the support, negative below it
+    Vector<double> tension;      ///< (N) magnitude of the reaction at each link's upper pin
+    Vector<double> reaction_inclination;  ///< (N) of that reaction, rad: phi of §8 (5)
     int half_waves = 1;                   ///< number of sign changes of the offsets, plus 1
     double conical_height = 0;            ///< g/n^2 of the speed n
-    double residual = 0;  ///< largest unbalanced moment over (weight times length of the chain)
-    double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
+    double residual = 0;     ///< largest unbalanced moment over (weight times length of the chain)
+    double error_bound = 0;  ///< of every inclination, rad: proved (not at a fold)
     /// Condition number, rad: if each force changes by a fraction e of itself, of either sign, no
     /// inclination changes by more than e times this. (If links stand or have several inclinations,
     /// this bounds the changes of moments about the upper pins.) On a branch where another number
@@ -63,7 +63,7 @@ struct SteadyShapesOptions {
     /// their length; more in double-double.
     long budget = 3'000'000;
     bool hanging_only = true;  ///< only shapes with every link hanging, or in the rig's posture
-    Rotation direction = Rotation::forward;  ///< of a rig, with `conical_height`
+    Rotation direction = Rotation::forward;               ///< of a rig, with `conical_height`
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, for flywheels
     Index threads = 1;                                    ///< 0: all processors
 };
@@ -71,8 +71,8 @@ using RigShapesOptions = SteadyShapesOptions;
 
 /// The shapes found, and whether there are more.
 struct SteadyShapes {
-    std::vector<SteadyShape> shapes;          ///< by half waves, then inclination of the lowest link
-    std::vector<InclinationRange> undecided;  ///< where there may be others; empty if the list is complete
+    std::vector<SteadyShape> shapes;          ///< by half waves, then lowest inclination
+    std::vector<InclinationRange> undecided;  ///< where there may be others; empty if complete
     bool complete = false;                    ///< proved: no shape is missing
     long cells = 0;                           ///< number of parts of the range that were examined
 };

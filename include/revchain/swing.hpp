@@ -14,7 +14,7 @@
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     revchain::Vector<double> start(3);
-///     start << 0.02, 0.0, 0.0;                 // the free end is drawn 2 cm aside, and released at rest
+///     start << 0.02, 0.0, 0.0;         // the free end is drawn 2 cm aside, and released at rest
 ///     const auto s = revchain::swing(chain, {.offset = start, .time = {0.0, 0.5, 1.0}});
 ///     s.offset(2, 0);                          // where the free end is after one second, m
 ///     s.angular_frequency[0];                  // 3.80868 rad/s, as of `modes`
@@ -22,9 +22,9 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// The start of the chain, and the times of the results.
 struct SwingOptions {
-    Vector<double> offset{};  ///< (N) or (N + 1) of the pins at time 0, free end first; empty: 0
-    Vector<double> velocity{};  ///< likewise; empty: at rest
-    std::vector<double> time{};    ///< of either sign, in any order
+    Vector<double> offset{};     ///< (N) or (N + 1) of the pins at time 0, free end first; empty: 0
+    Vector<double> velocity{};   ///< likewise; empty: at rest
+    std::vector<double> time{};  ///< of either sign, in any order
     std::optional<Index> count{};  ///< of the slowest modes; absent: all
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;  ///< read and cancelled from another thread
@@ -33,17 +33,17 @@ struct SwingOptions {
 /// A hanging chain swinging in a plane with small amplitude: the sum of its modes, each at its own
 /// frequency.
 struct Swing {
-    Table<double> offset;              ///< (times, N+1) of the pins, free end first, the support's 0 last
+    Table<double> offset;              ///< (times, N+1) free end first, the support's 0 last
     Table<double> velocity;            ///< (times, N+1)
-    Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
-    Vector<double> energy;  ///< (k,) of each mode, weight times length; constant
+    Vector<double> angular_frequency;  ///< (k,) w = sqrt(g / lambda), ascending
+    Vector<double> energy;             ///< (k,) of each mode, weight times length; constant
     Table<double> shape;               ///< (k, N+1) as those of `modes`
-    Vector<double> cosine, sine;  ///< (k,) offset = sum of shape (cosine cos + sine sin)(frequency t)
-    Vector<double> start;  ///< (N+1) offsets at time 0
+    Vector<double> cosine, sine;       ///< (k,) offset = sum of shape (cosine cos wt + sine sin wt)
+    Vector<double> start;              ///< (N+1) offsets at time 0
     bool projected = false;            ///< whether `start` differs from the given offsets
-    double energy_left_out = 0;  ///< bound of the energy in other modes, weight times length
-    Vector<double> truncation_error;   ///< (N+1) bound, at any time, of the part of each offset in those other modes
-    Vector<double> error_bound;        ///< (times,) of every offset, a length, without `truncation_error`
+    double energy_left_out = 0;        ///< bound of the energy in other modes, weight times length
+    Vector<double> truncation_error;   ///< (N+1) bound of the part of each offset in other modes
+    Vector<double> error_bound;        ///< (times,) of every offset, without `truncation_error`
 };
 
 /// Small oscillations of a hanging chain in a plane, superposed from its modes at the frequencies
@@ -88,15 +88,15 @@ struct WhirlSwingOptions {
 /// A rig whose flywheels turn the plane of its swing: the sum of its whirls, each a rigid shape
 /// turning at its speed.
 struct WhirlSwing {
-    Table<std::complex<double>> offset;      ///< (times, N+1) of the pins, free end first, the support last
+    Table<std::complex<double>> offset;      ///< (times, N+1) free end first, support last
     Table<std::complex<double>> velocity;    ///< (times, N+1)
     Vector<double> angular_speed;            ///< (k,) n, rad/s, of either sign, slowest first
     Vector<std::complex<double>> amplitude;  ///< (k,) offset = sum of amplitude shape exp(i n t)
-    Vector<double> energy;  ///< (k,) of each whirl, weight times length; of either sign
-    Table<double> shape;                     ///< (k, N+1)
-    double energy_left_out = 0;  ///< bound of the energy in all others, weight times length
+    Vector<double> energy;            ///< (k,) of each whirl, weight times length; of either sign
+    Table<double> shape;              ///< (k, N+1)
+    double energy_left_out = 0;       ///< bound of the energy in all others, weight times length
     Vector<double> truncation_error;  ///< (N+1) bound of the part of each offset in the others
-    Vector<double> error_bound;  ///< (times,) of every offset, without `truncation_error`
+    Vector<double> error_bound;       ///< (times,) of every offset, without `truncation_error`
 };
 
 /// Small oscillations of a rig with flywheels: (1/g) M u'' - i G u' + K u = 0, u = x + i y, where G

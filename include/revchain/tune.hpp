@@ -13,7 +13,9 @@
 /// The value of one datum of a chain that gives one of its modes a wanted speed.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-///     const auto t = revchain::tune(chain, {.mode = 1, .link = 0, .datum = revchain::Datum::length_in_proportion,
+///     const auto t = revchain::tune(chain, {.mode = 1,
+///                                           .link = 0,
+///                                           .datum = revchain::Datum::length_in_proportion,
 ///                                           .angular_speed = 3.0});
 ///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
@@ -46,13 +48,14 @@ enum class TuneStatus {
 };
 
 [[nodiscard]] inline std::string_view to_string(TuneStatus status) noexcept {
-    return status == TuneStatus::found ? "found" : status == TuneStatus::no_value ? "no_value" : "undecided";
+    constexpr std::string_view names[]{"found", "no_value", "undecided"};
+    return names[static_cast<std::size_t>(status)];
 }
 
 struct Tuned {
     TuneStatus status = TuneStatus::undecided;
     double present{};                                         ///< the datum of the chain given
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< the one of `values` nearest to `present`, or NaN
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< nearest to `present`
     /// Absolute error bound of `value`, proved by counts of modes, which differ at this distance
     /// below and above it.
     double error_bound = std::numeric_limits<double>::infinity();

@@ -37,11 +37,12 @@ template <Real T>
 [[nodiscard]] HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread,
                                          const T& upper_weight, const T& upper_thread) {
     constexpr std::string_view place = "two_plummets";
-    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
-                             upper_weight, "upper thread", upper_thread);
-    return detail::coupled_roots(place, lower_thread, upper_thread,
-                                 detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread),
-                                 detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
+    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread,
+                             "upper weight", upper_weight, "upper thread", upper_thread);
+    return detail::coupled_roots(
+        place, lower_thread, upper_thread,
+        detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread),
+        detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
 }
 
 /// Both heights of two plummets on a thread of total length 2a: (lambda - a)^2 = (mu a^2 + x^2) /
@@ -56,9 +57,11 @@ template <Real T>
     using std::abs, std::sqrt;
     constexpr std::string_view place = "two_plummets_from_the_middle";
     detail::require_positive(place, "half length", half_length);
-    if (!(abs(x) < half_length)) detail::throw_invalid(place, "x must lie within the half length on either side", x);
+    if (!(abs(x) < half_length))
+        detail::throw_invalid(place, "x must lie within the half length on either side", x);
     if (!(weight_ratio > T(-1)) || !(weight_ratio <= std::numeric_limits<T>::max()))
-        detail::throw_invalid(place, "weight ratio must be greater than -1 and finite", weight_ratio);
+        detail::throw_invalid(place, "weight ratio must be greater than -1 and finite",
+                              weight_ratio);
     const T share = x / half_length, whole = T(1) + weight_ratio;
     T square = (weight_ratio + share * share) / whole;
     if (weight_ratio < T(0)) {  // a difference: formed in two words
@@ -71,7 +74,8 @@ template <Real T>
         detail::throw_invalid(
             place, "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
     const T larger = T(1) + sqrt(square);
-    return {half_length * larger, (half_length - x) / whole / larger * ((half_length + x) / half_length)};
+    return {half_length * larger,
+            (half_length - x) / whole / larger * ((half_length + x) / half_length)};
 }
 
 /// Both heights of a compound link hung by a thread: (lambda - l)(lambda - a) = a h, §6 (11).
@@ -107,9 +111,11 @@ template <Real T>
     detail::check("seconds_lost_per_day", link);
     const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
     const T l = link.pendulum_length() * unit, c = deflection * unit;
-    const T half = detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
+    const T half =
+        detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
     const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
-    const T height = l + (half < T(0) ? coupling / (root - half) : half + root), whole = sqrt(height);
+    const T height = l + (half < T(0) ? coupling / (root - half) : half + root),
+            whole = sqrt(height);
     const T over = whole * (whole + sqrt(l));
     // 86400 (lambda - l) / over, times 86400 first: the other factors may underflow
     return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
@@ -145,9 +151,10 @@ template <Real T>
 template <Real T>
 [[nodiscard]] T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight,
                                  const T& thread) {
-    detail::require_positive("standing_plummet", "standing weight", standing_weight, "rod", rod, "hung weight",
-                             hung_weight, "thread", thread);
-    return detail::standing_root(T(rod - thread), detail::upper_share(standing_weight, rod, hung_weight, thread));
+    detail::require_positive("standing_plummet", "standing weight", standing_weight, "rod", rod,
+                             "hung weight", hung_weight, "thread", thread);
+    return detail::standing_root(T(rod - thread),
+                                 detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
 /// A steady shape of two links, lowest first. Of two mirror images it is the one whose free end (or
@@ -178,10 +185,11 @@ template <Real T>
                                                             const T& upper_thread,
                                                             const T& height) {
     constexpr std::string_view place = "two_plummets_shapes";
-    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
-                             upper_weight, "upper thread", upper_thread, "height", height);
-    return detail::hanging_shapes(
-        detail::plummet_pair(place, lower_weight, lower_thread, upper_weight, upper_thread, height));
+    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread,
+                             "upper weight", upper_weight, "upper thread", upper_thread, "height",
+                             height);
+    return detail::hanging_shapes(detail::plummet_pair(place, lower_weight, lower_thread,
+                                                       upper_weight, upper_thread, height));
 }
 
 /// All shapes in which a compound link hangs on a thread, §6 (10), both with the tension of the
@@ -190,7 +198,8 @@ template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> link_on_thread_shapes(const T& thread,
                                                               const CompoundLink<T>& link,
                                                               const T& height) {
-    auto shapes = detail::hanging_shapes(detail::link_pair("link_on_thread_shapes", thread, link, height));
+    auto shapes =
+        detail::hanging_shapes(detail::link_pair("link_on_thread_shapes", thread, link, height));
     for (PairShape<T>& shape : shapes) shape.tension[0] = shape.tension[1];
     return shapes;
 }
@@ -203,9 +212,10 @@ template <Real T>
                                                                  const T& rod, const T& hung_weight,
                                                                  const T& thread, const T& height) {
     constexpr std::string_view place = "standing_plummet_shape";
-    detail::require_positive(place, "standing weight", standing_weight, "rod", rod, "hung weight", hung_weight,
-                             "thread", thread, "height", height);
-    return detail::standing_shape(detail::plummet_pair(place, standing_weight, rod, hung_weight, thread, height));
+    detail::require_positive(place, "standing weight", standing_weight, "rod", rod, "hung weight",
+                             hung_weight, "thread", thread, "height", height);
+    return detail::standing_shape(
+        detail::plummet_pair(place, standing_weight, rod, hung_weight, thread, height));
 }
 
 /// The shape in which a compound link stands on its lowest point, §6 (12) with the secants of (10).
@@ -215,7 +225,8 @@ template <Real T>
 [[nodiscard]] std::optional<PairShape<T>> standing_link_shape(const T& thread,
                                                               const CompoundLink<T>& link,
                                                               const T& height) {
-    auto shape = detail::standing_shape(detail::link_pair("standing_link_shape", thread, link, height));
+    auto shape =
+        detail::standing_shape(detail::link_pair("standing_link_shape", thread, link, height));
     if (shape) shape->tension[0] = shape->tension[1];
     return shape;
 }
@@ -228,7 +239,7 @@ struct JointedLinks {
     CompoundLink<T> lower;       ///< h1, k1
     T upper_weight;              ///< W2 > 0
     T upper_length;              ///< a2 > 0, from the support to the joint
-    T upper_centroid;  ///< h2, from the support; negative if above it, as a bell's may be
+    T upper_centroid;            ///< h2, from the support; negative if above it, as a bell's may be
     T upper_radius_of_gyration;  ///< k2 >= 0, about the centroid
 };
 
@@ -242,7 +253,8 @@ template <Real T>
 [[nodiscard]] HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);
     const Wide<T> product = n.l1 * n.p;
-    const auto roots = detail::coupled_roots<Wide<T>>(n.l1, n.p, n.share * product, n.other * product);
+    const auto roots =
+        detail::coupled_roots<Wide<T>>(n.l1, n.p, n.share * product, n.other * product);
     return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
@@ -268,8 +280,8 @@ template <Real T>
     const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;
     for (PairShape<T>& shape : shapes) {
         // offsets of both centroids over the height
-        const T first =
-            shape.offset[0] / height - links.lower.square_over_centroid() / height * sin(shape.inclination[0]);
+        const T first = shape.offset[0] / height -
+                        links.lower.square_over_centroid() / height * sin(shape.inclination[0]);
         const T second = links.upper_centroid / height * sin(shape.inclination[1]);
         shape.tension = {w1 * hypot(T(1), first), hypot(T(1), w1 * first + w2 * second)};
     }
@@ -295,7 +307,8 @@ template <Real T>
     if (!(longer > T(0)))
         detail::throw_invalid(place, "the clapper's pendulum length must be less than the bell's",
                               clapper.pendulum_length());
-    const T heavy = max(bell_weight, clapper_weight), w1 = clapper_weight / heavy, w2 = bell_weight / heavy;
+    const T heavy = max(bell_weight, clapper_weight), w1 = clapper_weight / heavy,
+            w2 = bell_weight / heavy;
     return w2 * bell.centroid / (w2 * bell.centroid + w1 * clapper.square_over_centroid()) * longer;
 }
 
