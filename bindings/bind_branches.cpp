@@ -23,21 +23,10 @@ py::array whole_numbers(const std::vector<Whole>& values) {
     return frozen(std::move(result));
 }
 
-/// The options of a question about a chain, or of the same about a rig, which has a direction of rotation.
-template <class System, class OfChain, class OfRig>
-using For = std::conditional_t<std::is_same_v<System, Chain>, OfChain, OfRig>;
-
-template <class Options>
-Options turning(Options options, int direction) {
-    if constexpr (requires { options.direction; }) options.direction = rotation(direction);
-    return options;
-}
-
-template <class System>
-auto given(Index mode, const std::string& name, double value, double gravity, int direction,
-           std::optional<double> lowest) {
-    using Options = For<System, revchain::OnBranchOptions, revchain::RigOnBranchOptions>;
-    Options result = turning(Options{.mode = mode, .gravity = gravity, .min_conical_height = lowest}, direction);
+revchain::OnBranchOptions given(Index mode, const std::string& name, double value, double gravity, int direction,
+                                std::optional<double> lowest) {
+    revchain::OnBranchOptions result{
+        .mode = mode, .gravity = gravity, .direction = rotation(direction), .min_conical_height = lowest};
     if (name == "conical_height") result.conical_height = value;
     if (name == "angular_speed") result.angular_speed = value;
     if (name == "tip_inclination") result.tip_inclination = value;
@@ -57,13 +46,12 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, double height, std::size_t max_points, double max_step, double gravity,
            int direction) {
             const py::gil_scoped_release release;
-            using Options = For<System, revchain::BranchOptions, revchain::RigBranchOptions>;
-            const Options options{.mode = mode,
-                                  .min_conical_height = height,
-                                  .max_points = max_points,
-                                  .max_step = max_step,
-                                  .gravity = gravity};
-            return revchain::branch(system, turning(options, direction));
+            return revchain::branch(system, {.mode = mode,
+                                             .min_conical_height = height,
+                                             .max_points = max_points,
+                                             .max_step = max_step,
+                                             .gravity = gravity,
+                                             .direction = rotation(direction)});
         },
         "system"_a, "mode"_a, "height"_a, "max_points"_a, "max_step"_a, "gravity"_a, "direction"_a);
     module.def(
@@ -71,13 +59,12 @@ void def_branches(py::module_& module) {
         [](const System& system, double height, int lists, long budget, long proof_budget, double gravity,
            int direction) {
             const py::gil_scoped_release release;
-            using Options = For<System, revchain::DiagramOptions, revchain::RigDiagramOptions>;
-            const Options options{.min_conical_height = height,
-                                  .lists = lists,
-                                  .budget = budget,
-                                  .proof_budget = proof_budget,
-                                  .gravity = gravity};
-            return revchain::branches(system, turning(options, direction));
+            return revchain::branches(system, {.min_conical_height = height,
+                                               .lists = lists,
+                                               .budget = budget,
+                                               .proof_budget = proof_budget,
+                                               .gravity = gravity,
+                                               .direction = rotation(direction)});
         },
         "system"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a, "gravity"_a, "direction"_a);
     module.def(
@@ -85,7 +72,7 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
            std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
+            const auto options = given(mode, name, value, gravity, direction, min_conical_height);
             return revchain::shapes_on_branch(system, options).shapes;
         },
         "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);
@@ -94,7 +81,7 @@ void def_branches(py::module_& module) {
         [](const System& system, Index mode, const std::string& name, double value, double gravity, int direction,
            std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            const auto options = given<System>(mode, name, value, gravity, direction, min_conical_height);
+            const auto options = given(mode, name, value, gravity, direction, min_conical_height);
             return revchain::steady_shape(system, options);
         },
         "system"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "direction"_a, "min_conical_height"_a);

@@ -170,8 +170,8 @@ FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> c
                                              .conical_height = as_hung.conical_height,
                                              .angular_speed = as_hung.angular_speed,
                                              .rtol = rtol,
-                                             .gravity = gravity,
                                              .certify = certify,
+                                             .gravity = gravity,
                                              .progress = progress};
     return {without_lock([&] { return revchain::modes(held, options); }), certify};
 }

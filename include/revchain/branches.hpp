@@ -208,7 +208,8 @@ struct OnBranchOptions {
     std::optional<double> top_tension{};      ///< magnitude of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Rotation direction = Rotation::forward;               ///< of a rig
-    /// Lowest conical height searched. Absent: 1e-6 of the mode's, or half of the one given.
+    /// Lowest conical height searched. Absent: 1e-6 of the mode's, or half of the
+    /// height given (or g/n^2).
     std::optional<double> min_conical_height{};
 };
 using RigOnBranchOptions = OnBranchOptions;

@@ -77,7 +77,7 @@ class Chain {
     /// cost: system/tapered_links.hpp.
     [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
-        if (!is_taper(exponent))
+        if (!(exponent > -1 && exponent <= 1000))
             detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
         Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
         rods.taper_ = exponent;
@@ -98,8 +98,6 @@ class Chain {
     /// after reading them from a file. Throws InvalidArgument where a link is not one that
     /// `tapered` makes, to 4 ulp. Cost: that of `tapered`.
     [[nodiscard]] Chain as_tapered(double exponent) const;
-    /// Whether `tapered` accepts this exponent.
-    static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
     /// The exponent of a chain that `tapered` or `as_tapered` made; no value for other chains.
     std::optional<double> taper() const noexcept { return taper_; }

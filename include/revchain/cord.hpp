@@ -85,12 +85,11 @@ struct CordModesOptions {
 /// a cross product of Bessel functions, to 2 ulp. Power series for all others, to 4e-15
 /// (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from -0.99
 /// to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
-/// `LineDensity::error` and `rounding_at_jumps`. Offsets and slopes are within 1e-15 times the mode
-/// number of the largest one, with series within 1e-14.
-/// Cost: a closed form takes 0.01 to 15 microseconds a mode; power series 1 ms for each mode up to
-/// the last one wanted.
-/// Throws InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and
-/// with series for modes above number 1e5, a density too rough or a tip too heavy.
+/// `LineDensity::error` plus `rounding_at_jumps`. Offsets and slopes are within 1e-15 times the
+/// mode number of the largest one, with series within 1e-14. Cost: a closed form takes 0.01 to 15
+/// microseconds a mode; power series 1 ms for each mode up to the last one wanted. Throws
+/// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with
+/// series for modes above number 1e5, a density too rough or a tip too heavy.
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
@@ -146,16 +145,9 @@ struct CordSensitivity {
 /// above 1e6 heights.
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// How far to follow all branches of a cord. Give either `min_conical_height` or
-/// `max_angular_speed`.
-struct CordDiagramOptions {
-    std::optional<double> min_conical_height{};
-    std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
-    std::size_t max_points = 10'000;            ///< of each branch
-    double max_step = 0.1;                      ///< along the arc
-    int lists = 16;  ///< heights, evenly spaced in the logarithm, with a list of shapes
-    double gravity = conical_pendulum::standard_gravity;
-};
+/// How far to follow all branches of a cord. `budget`, `proof_budget` and `direction` have no
+/// effect.
+using CordDiagramOptions = DiagramOptions;
 
 /// The whole diagram of branches down to the conical height or speed given: those of the modes, and
 /// isolated ones.

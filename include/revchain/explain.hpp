@@ -35,7 +35,7 @@ struct Explanation {
 /// The modes wanted, and how accurately: as in `ModesOptions`.
 struct ExplainOptions {
     Index first = 1;               ///< from 1 for the slowest
-    std::optional<Index> count{};  ///< or `all_modes`; absent: 10, or all if fewer
+    std::optional<Index> count{};  ///< or `all_modes`; absent: at most 10
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -61,29 +60,7 @@ class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
 
    public:
-    Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) {
-        if (by.span.has_value() == by.tension.has_value())
-            detail::throw_invalid(
-                "Held", std::string("give either span or tension, got ") +
-                            (by.span ? "both: span " + detail::in_digits(*by.span) + ", tension " +
-                                           detail::in_digits(by.tension->high)
-                                     : "neither"));
-        if (by.tension) detail::require_positive("Held", "tension", by.tension->high);
-        if (by.span) detail::require_positive("Held", "span", *by.span);
-        if (by.span && !(*by.span < length()))
-            detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
-        check("lower", by.lower), check("upper", by.upper);
-        const double apart = by.span ? std::hypot(*by.span, by.upper.radius - by.lower.radius) : 0;
-        if (by.firm() && by.span && !(apart < length()))
-            detail::throw_invalid(
-                "Held", "the ends must be nearer to each other than the length " + detail::in_digits(length()), apart);
-        if constexpr (std::is_same_v<System, Cord>)
-            if (!system_.is_uniform() || system_.tip_weight() != 0)
-                detail::throw_invalid(
-                    "Held",
-                    "a held cord must be uniform and without tip weight; for others cut it "
-                    "into links, as Chain::tapered does");
-    }
+    Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) { check(); }
 
     const System& system() const noexcept { return system_; }
     const HeldBy& by() const noexcept { return by_; }
@@ -95,21 +72,8 @@ class Held {
     }
 
    private:
-    void check(const std::string& name, const Support& end) const {
-        if (!(end.stiffness.high > 0))
-            detail::throw_invalid("Held", name + " stiffness must be positive", end.stiffness.high);
-        detail::require_not_negative("Held", name + " carriage weight", end.carriage_weight);
-        detail::require_finite("Held", name + " radius", end.radius);
-        detail::require_yielding("Held", name + " end", end);
-        if (by_.tension && end.radius != 0)
-            detail::throw_invalid(
-                "Held", "under a tension both ends must be on the axis; give the span instead; " + name + " radius",
-                end.radius);
-        if (std::is_same_v<System, Cord> && !(end == Support{}))
-            detail::throw_invalid(
-                "Held", "the ends of a cord are firm points on the axis; cut it into links; " + name + " stiffness",
-                end.stiffness.high);
-    }
+    void check() const;
+    void check_end(const std::string& name, const Support& end) const;
 
     System system_;
     HeldBy by_;
@@ -123,17 +87,10 @@ struct HeldShapesOptions {
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
     int max_half_waves = 1;                               ///< largest number of half waves
-    bool prove = true;      ///< whether error bounds and completeness are proved
+    bool prove = true;      ///< of a chain: whether error bounds and completeness are proved
     long budget = 300'000;  ///< link evaluations of that, 1 to 2 microseconds each
 };
-
-/// As `HeldShapesOptions`, for a cord, whose shapes are not proved.
-struct HeldCordShapesOptions {
-    std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};  ///< rad/s
-    double gravity = conical_pendulum::standard_gravity;
-    int max_half_waves = 1;
-};
+using HeldCordShapesOptions = HeldShapesOptions;
 
 /// Steady shapes at finite amplitude with 1 to `max_half_waves` half waves, sorted by half waves.
 /// Half waves are counted about the line between the rest positions of the two ends; ends on
@@ -181,18 +138,8 @@ struct HeldCordShapesOptions {
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
-/// Which modes of a chain held straight under a tension: as `ModesOptions`.
-struct HeldModesOptions {
-    Index first = 1;
-    std::optional<Index> count{};
-    std::optional<HeightWindow<double>> conical_height{};
-    std::optional<SpeedWindow<double>> angular_speed{};
-    std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows, and if weightless
-    bool certify = false;
-    Index threads = 1;  ///< 0: all processors
-    Progress* progress = nullptr;
-};
+/// Which modes of a chain held straight under a tension. `method` has no effect.
+using HeldModesOptions = ModesOptions<double>;
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as
 /// for a hanging chain. Shapes at finite amplitude begin at these heights, where the span is nearly
@@ -272,6 +219,7 @@ struct HeldOnBranchOptions {
 
 }  // namespace revchain
 
+#include "revchain/questions/held_check.hpp"
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/questions/held.hpp"
 #endif

@@ -42,7 +42,7 @@ enum class ModesMethod {
 template <Real T>
 struct ModesOptions {
     Index first = 1;                                  ///< from 1 for the slowest
-    std::optional<Index> count{};                     ///< or `all_modes`; absent: 10, or fewer
+    std::optional<Index> count{};                     ///< or `all_modes`; absent: at most 10
     std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
     std::optional<T> rtol{};  ///< relative tolerance of conical heights; absent: full accuracy

@@ -97,8 +97,7 @@ struct RigModes {
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< those, if `RigModesOptions::other` or `discs`
     std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
-    /// whether the three numbers of modes available are proved to be all
-    bool complete = false;
+    bool complete = false;  ///< whether the three numbers available are proved
     RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };

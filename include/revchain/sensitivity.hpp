@@ -34,7 +34,8 @@ struct Derivatives {
     Table<T> error_bound;  ///< (k, N), absolute, proved; infinite if a mode cannot be separated
 };
 
-/// d(conical height)/d(datum) for modes number `first`, `first + 1`, ...
+/// d(conical height)/d(datum) for modes number `first`, `first + 1`, ... The length of the lowest
+/// link has no effect; a radius of gyration never lowers a height.
 template <Real T>
 struct Sensitivity {
     Index first = 1;

@@ -27,7 +27,7 @@ enum class StabilityFrame {
     driven,  ///< hinges in a plane that turns at constant speed: motion in that plane only
 };
 
-/// The fate of a small disturbance of a steady shape.
+/// Whether a small disturbance of a steady shape grows.
 enum class Verdict {
     minimum,            ///< it stays small: the energy is least (free: at fixed angular momentum)
     spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first order
