@@ -59,15 +59,14 @@ struct BatchOptions {
 /// 6 links 29 heights had errors above 4 ulp, at most 4.8, all with weights spanning 1e12 or with
 /// the mass of a link at one point between its pins; with such masses 7 ulp for 40 to 100 links (80
 /// chains). Verified by counts to 16 + N/4 ulp. Results are bitwise the same for any number of
-/// threads and any order of the chains; another `count` or another kind of processor may change
-/// last digits.
+/// threads and any order of the chains; another `count` or kind of processor may change last
+/// digits.
 /// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
 /// Memory: the result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and
 /// first of all for a number that `Chain` refuses, naming chain, link and value; for a count beyond
 /// the modes of some chain (massless links cost modes, and chains with different numbers of modes
-/// need a count); and at the end for a chain whose heights cannot be proved to half the digits of
-/// T.
+/// need a count); and for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
 [[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
                                        const BatchOptions& options = {});

@@ -6,8 +6,7 @@
 
 #include "revchain/chain.hpp"
 
-/// When a bell and its clapper swing as one piece, so that the bell is silent, and how to change
-/// that.
+/// When bell and clapper swing as one piece, so that the bell is silent, and how to change that.
 ///
 ///     const auto clapper = revchain::compound_pendulum<double>(
 ///         {.weight = 10, .length = 0.8, .centroid = 0.7, .radius_of_gyration = 0.1});
@@ -48,8 +47,7 @@ struct BellAndClapper {
     std::array<T, 2> conical_height;
     std::array<T, 2> inclination_ratio;  ///< clapper's over bell's; one piece where the first is 1
     T silent_height;  ///< l1 + a2: conical height of the slower mode as one piece
-    /// a length, h1 - (m + 1) l1 - m (a2 - l2) with m = W2 h2/(W1 a2); 0 when they are one piece,
-    /// §8 (16)
+    /// h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 if one piece, §8 (16)
     T mismatch;
     ByBellDatum<T> present;     ///< the data
     ByBellDatum<T> derivative;  ///< of the first inclination ratio with respect to each datum
@@ -65,8 +63,7 @@ template <Real T>
 /// For each datum the value nearest to the present one that gives the slower mode the inclination
 /// ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1 makes bell and
 /// clapper one piece; a bell rings with a ratio far enough from 1. Each value is a root of a
-/// quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio that is not
-/// positive.
+/// quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio <= 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
 

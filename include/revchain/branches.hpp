@@ -11,8 +11,7 @@
 #include "revchain/finite/branch/state.hpp"
 #include "revchain/steady_shapes.hpp"
 
-/// Branches of steady shapes: how the shapes of a chain change with its speed (the bifurcation
-/// diagram).
+/// Branches of steady shapes: how shapes change with the speed (the bifurcation diagram).
 ///
 ///     const auto chain = revchain::Chain<double>::uniform_plummets(3, 3.0);
 ///     const auto second = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
@@ -25,7 +24,7 @@
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at a
-/// fold and pass one speed several times. An isolated branch begins in a fold and never reaches the
+/// fold and pass one speed several times. An isolated branch begins in a fold and is never
 /// vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -94,8 +93,7 @@ struct Branch {
     finite::BranchTrace trace_;
 };
 
-/// Which branch of a chain or a rig, and how far to follow it. Give either `min_conical_height` or
-/// `max_angular_speed`.
+/// Which branch, and how far. Give either `min_conical_height` or `max_angular_speed`.
 struct BranchOptions {
     Index mode = 1;  ///< of the critical speed: 1 is the slowest, as in `modes`
     std::optional<double> min_conical_height{};
@@ -117,7 +115,7 @@ using RigBranchOptions = BranchOptions;
 /// the part wanted is inclined by less than 1e-3 rad, it has two points: the vertical, and the end
 /// by the asymptotic law of the onset, balanced in double-double. If double cannot tell that end
 /// from the vertical, the vertical is the only point (`stuck`).
-/// Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a link each; memory 3 N numbers a
+/// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; memory 3 N numbers a
 /// point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// of height and speed is given, positive and finite, and for a height not below that of the mode.
@@ -136,8 +134,7 @@ using RigBranchOptions = BranchOptions;
 /// for chains, and off the axis for a `mode` other than 1.
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
-/// How far to follow all branches of a chain or a rig, and what a proof may cost. Give either
-/// `min_conical_height` or `max_angular_speed`.
+/// How far branches go, and proof limits. Give either `min_conical_height` or `max_angular_speed`.
 struct DiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
@@ -153,8 +150,7 @@ using RigDiagramOptions = DiagramOptions;
 
 /// All branches found above one conical height.
 struct Branches {
-    /// The branches of the modes, slowest first, or the one from rest; then isolated ones by where
-    /// they begin.
+    /// Of the modes, slowest first, or the one from rest; then isolated ones by first point.
     std::vector<Branch> branches;
     double conical_height = 0;  ///< lowest conical height of the diagram
     /// true if every branch ends at that height or is closed, and at every height of `looked_at`
@@ -193,8 +189,7 @@ struct Branches {
 /// energy in the turning frame is a convex function of the sines of the inclinations. A spring
 /// cannot hold the rig where its stiffness times the conical height is less than the weight that
 /// moves: such heights are not proved, and `remark` says so.
-/// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height
-/// of a list.
+/// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
 /// Which shape on a branch of a chain or a rig. Give exactly one of the five numbers from

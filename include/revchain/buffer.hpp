@@ -6,8 +6,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-/// Two railway carriages, coupled by a spring, that run against a buffer stop: one blow, two or
-/// more.
+/// Two railway carriages, coupled by a spring, that hit a buffer stop: one blow, two or more.
 ///
 ///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .speed = 2.0,
 ///                                          .buffer_stiffness = 2e6, .coupling_stiffness = 0.5e6});

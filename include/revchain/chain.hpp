@@ -21,8 +21,7 @@
 ///     rods.link(0).length;                                                  // 0.003 m
 ///
 /// `plummet`, `uniform_rod` and `compound_pendulum` make links. Lengths and weights may be in any
-/// unit: speeds depend on ratios of weights only. Numbers are stored exactly as given. Greenhill
-/// (1908) §8.
+/// unit: speeds depend on ratios of weights only. Numbers are stored as given. Greenhill (1908) §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1. Scaling by
@@ -109,14 +108,12 @@ class Chain {
     const Column<T>& centroid() const noexcept { return centroid_; }
     const Column<Wide<T>>& gyration_ratio() const noexcept { return gyration_ratio_; }
 
-    /// The number of finite conical heights: N, less one for each coordinate that carries no
-    /// inertia.
+    /// The number of finite conical heights: N, less one for each coordinate without inertia.
     Index mode_count() const noexcept { return mode_count_; }
     T total_weight() const { return total_weight_; }
     /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14
     /// operations of a double word (measured: 0.27), and of one operation if all weights are one
-    /// number. Cost: O(1) where m is a multiple of `segment_size`, else O(segment_size) (70 ns in
-    /// double).
+    /// number. Cost: O(1) if m is a multiple of `segment_size`, else O(segment_size), 70 ns.
     [[nodiscard]] Wide<T> weight_below(Index m) const {
         const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
         if (weight_.is_scalar()) return detail::times(weight_[0], m);
@@ -125,8 +122,8 @@ class Chain {
         const T* const part = weight_.data() + whole * detail::segment_size;
         return rest == 0 ? below : below + detail::summary(part, rest).sum;
     }
-    /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all links; empty if all
-    /// weights are one number.
+    /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all; empty for a single
+    /// weight.
     const std::vector<Wide<T>>& partial_weights() const {
         static const std::vector<Wide<T>> none;
         return partial_weights_ ? *partial_weights_ : none;

@@ -75,10 +75,9 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
     } else {
         int power = 0;
         std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
-        const T h = std::ldexp(link.centroid, -power),
-                k = std::ldexp(link.radius_of_gyration, -power);
-        const T h0 = std::ldexp(other.centroid, -power),
-                k0 = std::ldexp(other.radius_of_gyration, -power);
+        const auto scaled = [&](const T& x) { return std::ldexp(x, -power); };
+        const T h = scaled(link.centroid), k = scaled(link.radius_of_gyration);
+        const T h0 = scaled(other.centroid), k0 = scaled(other.radius_of_gyration);
         const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() -
                         CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
         if (std::abs(static_cast<T>(whole)) > T(0x1p-20))

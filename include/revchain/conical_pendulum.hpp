@@ -10,8 +10,7 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
-/// The conical pendulum, and one plummet that is free, held by a second thread, or carried round a
-/// circle.
+/// The conical pendulum, and one plummet: free, on two threads, or carried round a circle.
 ///
 ///     namespace pendulum = revchain::conical_pendulum;
 ///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s, 0.5 m high
@@ -27,8 +26,7 @@
 /// argument is positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation about the axis: positive or negative angular speed. It matters to rigs
-/// with flywheels only.
+/// Direction of rotation: positive or negative angular speed. It matters to flywheels only.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
@@ -213,12 +211,12 @@ template <Real T>
     using S = Wide<T>;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
-    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)),
-        x(height);
+    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit));
+    const S d(ldexp(distance, -unit)), x(height);
     const S rise =
         ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
-    const S along = rise * (u + l), depth = ldexp(d + along, unit - 1),
-            above_lower = ldexp(along - d, unit - 1);
+    const S along = rise * (u + l);
+    const S depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     if (x >= depth) {
         const InclinedPendulum<T> hung = inclined_pendulum(upper_thread, height);
         return {hung.radius, hung.depth, hung.tension, T(0), true, false};
@@ -259,8 +257,7 @@ template <Real T>
     return height / (height - length);
 }
 
-/// Steady inclinations of the thread, ascending, positive outwards. The first `count` entries are
-/// used.
+/// Steady inclinations of the thread, ascending, positive outwards. `count` are used.
 template <Real T>
 struct CarriedInclinations {
     std::array<T, 3> inclination{};
@@ -288,8 +285,8 @@ template <Real T>
         detail::throw_invalid(
             place, "height must be larger, else the tangent of an inclination overflows", height);
     const auto function = [&](const T& t) {
-        const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant,
-                versed = t / (secant + T(1)) * (t / secant);
+        const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant;
+        const T versed = t / (secant + T(1)) * (t / secant);
         const T slope = c - cosine * cosine * cosine;
         // far inwards l sin d is nearly l: the difference of the two is added instead
         if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);

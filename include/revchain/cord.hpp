@@ -77,8 +77,7 @@ struct CordModesOptions {
     Progress* progress = nullptr;
 };
 
-/// The modes chosen by `first` and `count` (absent: ten), or by a window of heights or speeds that
-/// holds finitely many.
+/// The modes chosen by `first` and `count` (absent: ten), or by a window that holds finitely many.
 ///
 /// Method and accuracy: closed forms for a uniform cord, lambda_k = 4 L / j_{0,k}^2, to 3 ulp; for
 /// a density s^p, 4 (p + 1) L / j_{p,k}^2, to 3 ulp; for a uniform cord with a tip weight, zeros of
@@ -99,9 +98,8 @@ struct CordModesOptions {
 [[nodiscard]] Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
 /// Modes of a uniform cord that a tension holds straight between two points of the axis, and how
-/// many are slower than a speed. Without gravity a height is `gravity` over the square of the
-/// speed, with the gravity of the options: the modes are those of a string, n = k pi sqrt(tension /
-/// (mass length)).
+/// many are slower than a speed. Without gravity a height is `CordModesOptions::gravity` over the
+/// square of the speed: the modes are those of a string, n = k pi sqrt(tension / (mass length)).
 ///
 /// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp
 /// (tests/cpp/cord.cpp); offsets within 1e-15 times the mode number of the largest one. Cost: as
@@ -110,8 +108,8 @@ struct CordModesOptions {
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
-/// d(conical height)/d(datum) of each mode, (k,), with all other data constant; dn = -n/(2 lambda)
-/// d lambda.
+/// d(conical height)/d(datum) of each mode, (k,), all other data constant; dn = -n/(2 lambda) d
+/// lambda.
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it
@@ -135,22 +133,19 @@ struct CordSensitivity {
 ///
 /// Method: arc continuation in the plane of the free end's inclination and the conical height,
 /// along the curve on which crossing `mode` of the cord's path is at the support. Each step is
-/// checked, not proved: see finite::BranchLineWalk. Where a theorem counts the shapes there are no
-/// folds.
+/// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
 /// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
 /// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
 /// density; see `steady_shapes` for a path.
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and
-/// speed is given, positive and finite, for a height not below that of the mode, and for a length
-/// above 1e6 heights.
+/// speed is given, positive and finite, a height not below that of the mode, and a length above 1e6
+/// heights.
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// How far to follow all branches of a cord. `budget`, `proof_budget` and `direction` have no
-/// effect.
+/// As of a chain; `budget`, `proof_budget` and `direction` have no effect.
 using CordDiagramOptions = DiagramOptions;
 
-/// The whole diagram of branches down to the conical height or speed given: those of the modes, and
-/// isolated ones.
+/// All branches down to the conical height or speed given: of the modes, and isolated ones.
 ///
 /// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
@@ -164,8 +159,7 @@ using CordDiagramOptions = DiagramOptions;
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-14 of the one at which the number is reached
-/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws InvalidArgument as
-/// for a chain.
+/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain.
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, at most `max_shapes`; none where the
@@ -187,8 +181,7 @@ using CordDiagramOptions = DiagramOptions;
 /// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py);
 /// those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
 /// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
-/// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument for a shape of a cord of
-/// another length.
+/// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 [[nodiscard]] Stability stability(const Cord& cord, const HeldCordShape& shape,
@@ -210,8 +203,7 @@ struct CordSwingOptions {
     Progress* progress = nullptr;
 };
 
-/// A cord swinging in a plane with small amplitude: the sum of its modes, each at its own
-/// frequency.
+/// A cord swinging in a plane with small amplitude: the sum of its modes.
 struct CordSwing {
     Vector<double> arc_length;         ///< (n) of the offsets
     Table<double> offset, velocity;    ///< (times, n) sums of `count` modes
@@ -227,8 +219,8 @@ struct CordSwing {
 ///
 /// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. For a start
-/// with a kink in a cord without a tip, convergence at the free end is slow, as k^-1/2, because
-/// waves meet there.
+/// with a kink in a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet
+/// there.
 /// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of
 /// swings; measured against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800
 /// arc lengths or more, 1 to 15 microseconds each.

@@ -53,8 +53,7 @@ void check_window(std::string_view name, const T& low, const T& high) {
     if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
 }
 
-/// The modes in a window, of `all` there are; `above(height)` counts those whose height exceeds a
-/// height.
+/// The modes, of `all`, in a window of heights; `above(height)` counts those with larger ones.
 template <Real T, class Above>
 ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& above) {
     check_window("conical height", window.low, window.high);
@@ -63,8 +62,7 @@ ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& ab
     return {before + 1, std::max(all - before, Index(0))};
 }
 
-/// The modes in a window of speeds, of `all` there are; `below(speed)` counts the modes slower than
-/// a speed.
+/// The modes, of `all`, in a window of speeds; `below(speed)` counts slower modes.
 template <Real T, class Below>
 ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& below) {
     check_window("angular speed", window.low, window.high);
@@ -94,15 +92,15 @@ class LazyCounter;
 /// mode. The chain is assembled once, and each count is one O(N) pass. The count is proved: in T
 /// (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A conical
 /// height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of the given one counts as
-/// equal to it.
+/// equal.
 template <Real T>
 class ModeCounter {
    public:
     explicit ModeCounter(const Chain<T>& chain)
         : mode_count_(chain.mode_count()), pencils_(chain) {}
 
-    /// The number of conical heights that exceed `height`. Throws InvalidArgument unless it is
-    /// positive and finite.
+    /// The number of conical heights above `height`. Throws InvalidArgument unless it is positive
+    /// and finite.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
         return above(Wide<T>(height), height);

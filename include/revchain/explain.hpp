@@ -42,8 +42,7 @@ struct ExplainOptions {
 /// Returns the method that `modes` of a chain tries first. No mode is computed. Where that method
 /// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
 /// method used. Accuracy: each method meets its error bound; predicted times were within a factor
-/// of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as
-/// `modes`.
+/// of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws as `modes`.
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
 /// Deleted: modes of rigs, cords and held systems have one method for each kind of system. Call

@@ -5,8 +5,7 @@
 
 #include "revchain/special/jacobi.hpp"
 
-/// The ball of a governor: a compound link hinged on a turning axis, swinging in the plane that
-/// turns with the axis.
+/// The ball of a governor: a link hinged on a turning axis, swinging in a plane that turns with it.
 ///
 ///     const revchain::analytic::GovernorMotion motion(
 ///         {.angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2});
@@ -14,8 +13,7 @@
 ///     motion.least_angle();     // 0.75646 rad; the greatest angle is 1.2 rad
 ///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
-/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, other units any
-/// consistent set.
+/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, consistent units.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.
@@ -55,8 +53,7 @@ struct GovernorState {
 /// a difference, also near the separatrices.
 /// Accuracy: 1e-14 (|theta| + |t theta'|), and as much of theta', unless e or f is lost in
 /// rounding: the start gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the
-/// conical height are resolved to their last digit. Cost: a microsecond to construct, 0.2 for each
-/// time.
+/// conical height are resolved to their last digit. Cost: a microsecond to construct, 0.2 a time.
 class GovernorMotion {
    public:
     /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not

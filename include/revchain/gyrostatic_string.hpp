@@ -6,8 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/numeric/product.hpp"
 
-/// Circular and plane waves along a stretched row of links with flywheels: Thomson's gyrostatic
-/// string.
+/// Circular and plane waves along a row of links with flywheels: Thomson's gyrostatic string.
 ///
 ///     const revchain::GyrostaticString<double> string{
 ///         .weight = 1.0, .length = 0.1, .tension = 50.0, .momentum = 0.01, .centroid = 0.05};
@@ -16,8 +15,7 @@
 ///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
 ///
 /// Links are jointed in a row under one tension. Their weight counts only as inertia; offsets are
-/// small. The string is a model of light in a magnetised body. Units: any consistent set, angles in
-/// rad.
+/// small. It is a model of light in a magnetised body. Units: any consistent set, angles in rad.
 ///
 /// In a circular wave every pin runs round the line with the speed n, an angle theta behind its
 /// neighbour; n is positive in the direction of rotation of a wheel with positive momentum:
@@ -40,8 +38,7 @@ struct GyrostaticString {
 };
 
 /// Propagation of a circular wave: exp(i m phase) exp(-m attenuation) at link m. A wave that
-/// propagates has attenuation 0. Otherwise the phase is 0, or pi if neighbours move against each
-/// other.
+/// propagates has attenuation 0. Otherwise the phase is 0, or pi if neighbours move oppositely.
 template <Real T>
 struct LinkPhase {
     T phase{};        ///< 0 ... pi

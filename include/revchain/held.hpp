@@ -13,8 +13,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/system/cord.hpp"
 
-/// A chain or a cord held at both ends: a troposkien (wind turbine blade), a skipping rope, a
-/// string of weights.
+/// A chain or cord held at both ends: troposkien (turbine blade), skipping rope, string of weights.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(40, 1.0);
 ///     const revchain::Held held(rods, {.span = 0.5});
@@ -40,8 +39,7 @@ struct HeldBy {
     Support upper{};  ///< support of a chain's upper end
 
     bool on_axis() const noexcept { return lower.radius == 0 && upper.radius == 0; }
-    /// Returns true if every steady shape is plane: an end of radius 0 passes no torque about the
-    /// axis.
+    /// True if every steady shape is plane: an end of radius 0 passes no torque about the axis.
     bool planar() const noexcept { return lower.radius == 0 || upper.radius == 0; }
     bool firm() const noexcept { return lower.is_firm() && upper.is_firm(); }
 };
@@ -105,8 +103,7 @@ using HeldCordShapesOptions = HeldShapesOptions;
 /// that no other shape has one of these numbers; for a cord, only at a span without gravity.
 /// Otherwise `undecided` has the ranges of the lowest link's inclination (rad) in which other
 /// shapes may exist in the plane of the axis and the ends. If both radii differ from 0, the arms
-/// can twist the chain out of that plane; such shapes are not searched and `complete` is false (see
-/// `HeldBy::planar`).
+/// can twist the chain out of that plane; such shapes are not searched and `complete` is false.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the
@@ -149,8 +146,8 @@ using HeldModesOptions = ModesOptions<double>;
 /// height is `HeldModesOptions::gravity` over the square of the speed. Held cords: cord.hpp.
 ///
 /// Method: the elements are those of a hanging chain, on top of the lowest link or spring. Modes
-/// are counted in double; each then gets a shape and its Rayleigh quotient in double-double, and
-/// two proved counts.
+/// are counted in double; each then gets a Rayleigh quotient in double-double and two proved
+/// counts.
 /// Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9 times lighter than
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
 /// as a quotient that was rounded once; otherwise numbers are exact.
@@ -161,9 +158,9 @@ using HeldModesOptions = ModesOptions<double>;
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
 
-/// The number of modes slower than a speed, proved as for a rig. Cost: 0.5 microseconds a link.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
-/// as `modes`.
+/// The number of modes slower than a speed, proved. Cost: 0.5 microseconds a link. Throws
+/// InvalidArgument as `modes`, and unless exactly one of height and speed is given, positive and
+/// finite.
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);
 

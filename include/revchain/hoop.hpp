@@ -3,8 +3,7 @@
 
 #include "revchain/conical_pendulum.hpp"
 
-/// A closed chain that runs round in a circle, such as the rim of a wheel, and a nearly straight
-/// vibrating string.
+/// A closed chain that runs in a circle (the rim of a wheel), and a nearly straight string.
 ///
 ///     revchain::hoop::tension(20.0);   // 40.7886 m of rim weigh as much as the tension at 20 m/s
 ///     revchain::hoop::speed(10000.0);  // 313.156 m/s bursts a rim with a breaking length of 10 km

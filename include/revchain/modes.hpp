@@ -37,8 +37,7 @@ enum class ModesMethod {
     interpolated,  ///< for many modes: interpolates the characteristic polynomial
 };
 
-/// Which modes, and how accurately. Choose modes by number (`first`, `count`) or by one window, not
-/// both.
+/// Which modes, by number (`first`, `count`) or by one window, not both, and how accurately.
 template <Real T>
 struct ModesOptions {
     Index first = 1;                                  ///< from 1 for the slowest
@@ -79,7 +78,7 @@ struct Modes {
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
-    /// magnitude is 1 and the free end positive. Computed at the first call, as the next two are.
+    /// magnitude is 1 and the free end positive. Computed at the first call, as the next two.
     /// Thread-safe.
     const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
     /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
@@ -121,10 +120,8 @@ struct Modes {
 /// functions, coarse chains, or the numerical ones of `ModesMethod`. `Modes::method` names it. The
 /// numerical methods count modes in T at eight trial heights in one pass. A twisted factorization
 /// gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts prove the
-/// bound. A chain of floats is solved in double. In long double and wider scalars, heights come
-/// from bisection.
-/// Windows are decided by proved counts (`ModeCounter::within`), not by the rounded heights
-/// returned.
+/// bound. A chain of floats is solved in double. Long double and wider scalars use bisection.
+/// Windows are decided by proved counts (`ModeCounter::within`), not by rounded heights.
 /// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored
 /// numbers (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2
 /// ulp, proved by counts. With `rtol`: the bound is at most `rtol`, proved by counts for the

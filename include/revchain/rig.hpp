@@ -13,8 +13,7 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
-/// A chain and its rigging: a support that yields or is carried round, flywheels, a fluid, standing
-/// links.
+/// A chain and its rigging: a yielding or carried support, flywheels, a fluid, standing links.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(80.0, 0.5), revchain::plummet(20.0, 4.0)});
 ///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});             // m
@@ -67,8 +66,7 @@ inline void require_yielding(std::string_view place, const std::string& name,
 }
 
 /// Angular momentum of a link along its own axis, positive from its lower pin to its upper one: for
-/// a hanging link the direction of rotation with n > 0. One part is constant, one turns with the
-/// link:
+/// a hanging link the direction of rotation for n > 0. One part is constant, one turns with it:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
@@ -87,8 +85,8 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
     using S = Wide<double>;
     int heavy = 0, far = 0;  // products of numbers near 1 have all digits of both words
     const S part = S(std::frexp(weight, &heavy)), radius = S(std::frexp(radius_of_gyration, &far));
-    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far),
-            momentum = moment * spin / S(gravity);
+    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far);
+    const S momentum = moment * spin / S(gravity);
     if (!isfinite(moment) || !isfinite(momentum))
         throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
                       radius_of_gyration);
@@ -97,7 +95,7 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
 }  // namespace detail
 
 /// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
-/// outside. Throws InvalidArgument for negative weight or radius of gyration, gravity not positive,
+/// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
 /// numbers not finite.
 [[nodiscard]] inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
                                             double gravity = conical_pendulum::standard_gravity) {
@@ -124,8 +122,7 @@ struct Displaced {
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
 
-/// The fluid that a body of one density displaces: it has the centre and the radius of gyration of
-/// the body.
+/// The fluid displaced by a body of one density: centre and radius of gyration are the body's.
 [[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
                                             double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};

@@ -10,8 +10,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/rig.hpp"
 
-/// Whirl modes of small amplitude of a rig: supports that yield, standing links, flywheels, a
-/// fluid.
+/// Whirl modes of a rig (small amplitude): yielding supports, standing links, flywheels, a fluid.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const revchain::Rig rig(chain, {.support = revchain::horizontal_spring(50.0)});

@@ -62,8 +62,7 @@ class SkippingRope {
     /// Moment of inertia about the axis over the mass per length: a length cubed.
     [[nodiscard]] double moment_of_inertia() const;
 
-    /// Whether angular speed or tension was given. If not, the next four functions throw
-    /// InvalidArgument.
+    /// Whether angular speed or tension was given. Else the next four throw InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
     [[nodiscard]] double conical_height() const;
     double angular_speed() const {
@@ -74,8 +73,7 @@ class SkippingRope {
 
     /// The point at the distance x from an end, 0 <= x <= span. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at(double x) const;
-    /// The point at the length `arc` of rope from an end, 0 <= arc <= length. Throws
-    /// InvalidArgument outside.
+    /// The point at the arc length `arc`, 0 <= arc <= length. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at_arc(double arc) const;
 
     /// The rope with its ends moved to another span, with the same length and angular momentum. The
@@ -123,11 +121,10 @@ struct TortuousPoint {
 ///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,
 ///     theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
 /// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds to construct, 1
-/// for a point.
+/// a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above, and where a result leaves the
-    /// range of double.
+    /// Throws InvalidArgument for data outside the ranges above, and if a result overflows.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }
@@ -144,8 +141,7 @@ class TortuousRope {
     [[nodiscard]] double half_wave_length() const { return half_wave() + half_wave_slack(); }
     [[nodiscard]] double half_wave_angle() const;
 
-    /// The point at any x of either sign. Throws InvalidArgument unless x is finite and the results
-    /// are.
+    /// The point at x, of either sign. Throws InvalidArgument unless x and the results are finite.
     [[nodiscard]] TortuousPoint at(double x) const;
 
    private:

@@ -9,8 +9,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/rig.hpp"
 
-/// Derivatives of conical heights and whirl speeds with respect to the data, and uncertainties that
-/// follow from them.
+/// Derivatives of conical heights and whirl speeds with respect to the data, and uncertainties.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain);
@@ -94,8 +93,7 @@ struct Uncertainty {
 /// error of the variance is some (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large where
 /// a derivative is nearly 0. Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for
 /// lists that are neither of one number nor of N, deviations negative or not finite, a covariance
-/// not N by N, not symmetric or with a negative variance, and unless there are as many heights as
-/// in `sensitivity`.
+/// not N by N, not symmetric or with a negative variance, and for another number of heights.
 template <Real T>
 [[nodiscard]] Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                                          const std::type_identity_t<Vector<T>>& conical_height,
@@ -118,8 +116,7 @@ struct RigSensitivity {
 };
 
 /// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the
-/// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, which is quadratic in n and
-/// stationary in y:
+/// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
 /// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. Formed
 /// in double-double: offsets with errors e of the largest give an error of some 4 e (|K| + |n G| +

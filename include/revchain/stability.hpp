@@ -39,8 +39,8 @@ enum class Verdict {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-/// Stability of one shape. Exponents, growth rate and margin are over the turning speed n; times n
-/// they are in 1/s.
+/// Stability of one shape. Exponents, growth rate and margin, times the turning speed n, are in
+/// 1/s.
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
@@ -49,8 +49,7 @@ struct Stability {
     std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
     double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
     double margin = 0;       ///< the largest of these errors
-    /// negative eigenvalues of the energy's Hessian; if free, at constant angular momentum and
-    /// without the rotation
+    /// negative eigenvalues of the energy's Hessian; if free, amended, without the rotation
     Index negative_directions = 0;
     /// The effect of a small damping c on each exponent, to first order: this number times g c is
     /// added to the real part of s n. NaN where two exponents coincide. Internal: c is the moment
@@ -82,8 +81,7 @@ struct Stability {
 /// double (tests/python/test_light_links.py).
 /// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
 /// positive energy, 100 times as much with twice the digits.
-/// Throws InvalidArgument if chain and shape differ in number or lengths of links; weights are not
-/// compared.
+/// Throws InvalidArgument if numbers or lengths of links differ; weights are not compared.
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
@@ -92,8 +90,8 @@ struct Stability {
 /// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
 /// axis no rotation is removed, which adds 2 exponents if free.
 /// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
-/// (4 N)^3/2. Throws InvalidArgument as above, and for a moving pin without mass, except at the
-/// upper end.
+/// (4 N)^3/2. Throws InvalidArgument as above, and for a moving pin without mass below the upper
+/// end.
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
@@ -104,15 +102,13 @@ struct RigStabilityOptions {
     double gravity = conical_pendulum::standard_gravity;  ///< for flywheels
 };
 
-/// Returns the stability of a steady shape of `rig`; exponents, damping, accuracy and cost as for a
-/// chain.
+/// The stability of a steady shape of `rig`; exponents, damping, accuracy and cost as for a chain.
 ///
 /// In the free frame a support on the axis, firm or not, passes no torque about it: angular
 /// momentum is constant, as for a chain. A support that is carried round has a constant speed, and
 /// no rotation is removed: N links have 4 N exponents, and the energy is that in the frame that
 /// turns at this speed. A support that yields moves in all directions across the axis (driven: in
-/// the plane), which adds 4 exponents (2); without mass at that pin, motion out of the plane adds
-/// none.
+/// the plane), which adds 4 exponents (2); without mass there, only motion in the plane adds any.
 /// In the free frame the angular momentum of each link and its wheel about the link's axis is
 /// constant, on free bearings or driven: ball joints pass no torque along a link. In the driven
 /// frame links turn with the plane, and wheels on free bearings have constant momentum.

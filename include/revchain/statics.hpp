@@ -4,8 +4,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 
-/// Force diagrams of steady shapes, and weights on a thread between two supports, at rest and
-/// oscillating.
+/// Force diagrams of steady shapes; weights on a thread between supports, at rest and oscillating.
 ///
 ///     Eigen::VectorXd weight(2), place(4);
 ///     weight << 1, 2;
@@ -26,8 +25,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// each load. The ray OQ_m ends at the level of its segment's end; it is parallel to link m, and
 /// its length is the tension along the link. The weight of a plummet is on its pin, and Q_m is also
 /// the reaction. A link of another kind divides its weight and centrifugal force between its pins
-/// by balance about them, and the reaction at a pin lies between the rays of the links that meet
-/// there.
+/// by balance about them, and the reaction at a pin lies between the rays of its links.
 struct ForceDiagram {
     Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
     Table<double> load;      ///< (N, 2) on all pins but the support: centrifugal force, -weight
@@ -39,7 +37,7 @@ struct ForceDiagram {
     /// (N, 2) G_m of link m and all below it. With K_m on the axis lambda above the level of G_m,
     /// G_m K_m is parallel to the reaction.
     Table<double> centre_of_gravity;
-    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis, if it does
+    Vector<double> crossing;  ///< (N) z of C_m, where link m's line meets the axis; or infinite
     double conical_height = 0;
 };
 
@@ -57,8 +55,7 @@ struct ForceDiagram {
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
-/// Weights on a thread between two supports, at rest in a vertical plane, from the first support to
-/// the last.
+/// Weights on a thread between two supports, at rest in a vertical plane.
 template <Real T>
 struct FunicularPolygon {
     Vector<T> place;   ///< (n + 2) x of supports and weights
@@ -71,8 +68,8 @@ struct FunicularPolygon {
 /// The polygon with a given horizontal component of tension: sides are parallel to the rays from
 /// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `place` (n + 2)
 /// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
-/// O(n). Throws InvalidArgument unless weights are positive, places increase, and all numbers, also
-/// the results, are finite.
+/// O(n). Throws InvalidArgument unless weights are positive, places increase, and all numbers and
+/// results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
                                                     const std::type_identity_t<Vector<T>>& place,

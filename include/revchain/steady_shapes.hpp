@@ -8,8 +8,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/rig.hpp"
 
-/// Steady shapes of a whirling chain at any inclination: relative equilibria in the frame that
-/// turns with it.
+/// Steady shapes of a whirling chain at any inclination: relative equilibria in the turning frame.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto found = revchain::steady_shapes(chain, {.angular_speed = 6.0});
@@ -18,8 +17,7 @@
 ///     found.shapes[0].error_bound;             // of every inclination, rad: proved
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// One steady shape of a whirling chain, links lowest first, pins free end first, in the units of
-/// the chain.
+/// One steady shape, links lowest first, pins free end first, in the units of the chain.
 struct SteadyShape {
     Vector<double> inclination;  ///< (N) of each link to the downward vertical, rad, in (-pi, pi]
     Vector<double> offset;       ///< (N + 1) of each pin from the axis; the support is last
@@ -54,8 +52,7 @@ struct InclinationRange {
     double low, high;
 };
 
-/// The speed and the shapes wanted, of a chain or a rig. Give either `conical_height` or
-/// `angular_speed`.
+/// Shapes wanted of a chain or a rig. Give either `conical_height` or `angular_speed`.
 struct SteadyShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s; of a rig, negative: backward
@@ -88,23 +85,21 @@ struct SteadyShapes {
 /// first and second derivatives, until each part has exactly one zero or none. Newton's method and
 /// Krawczyk's test then treat all pins in double-double. Links that stand, or hang at several
 /// inclinations under one load (pendulum length l > a and lambda <= W h (l - a)/(W h + a S)), are
-/// followed along each inclination; Krawczyk's test then decides boxes of the tangents of all
-/// links.
+/// followed along each inclination; Krawczyk's test then decides boxes of all tangents.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links
 /// stand); measured errors are at most 2 ulp of the inclination. `complete` is proved too. If it is
 /// false, `undecided` has the ranges where shapes may be missing: at exactly a critical speed or a
 /// fold, or where the budget is used up, as for chains of 20 plummets or more at heights near
-/// 1/1000 of their length. If each link has one inclination for its load, the shapes that a scan
-/// finds there are listed.
+/// 1/1000 of their length. If each link has one inclination for its load, shapes that a scan finds
+/// there are listed.
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is
 /// listed and `complete` is false: double-double resolves offsets to 2^-104 of that length, and a
 /// sideways pull is an offset over the height, so tensions would lose their digits.
 /// Cost: 10 to 500 cells a shape: 84 shapes of eight plummets 12 ms, 6466 of twelve 1 s, the first
 /// of 1000 plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. Any posture,
 /// heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of equal
-/// plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s. Threads speed up the
-/// refinement of shapes, about half of the cost; results are bitwise the same for any number of
-/// threads.
+/// plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s. Threads share the
+/// refinement of shapes, about half of the cost; results are bitwise the same for any number.
 /// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
 /// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G

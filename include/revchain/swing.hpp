@@ -30,8 +30,7 @@ struct SwingOptions {
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// A hanging chain swinging in a plane with small amplitude: the sum of its modes, each at its own
-/// frequency.
+/// A hanging chain swinging in a plane with small amplitude: the sum of its modes.
 struct Swing {
     Table<double> offset;              ///< (times, N+1) free end first, the support's 0 last
     Table<double> velocity;            ///< (times, N+1)
@@ -46,8 +45,7 @@ struct Swing {
     Vector<double> error_bound;        ///< (times,) of every offset, without `truncation_error`
 };
 
-/// Small oscillations of a hanging chain in a plane, superposed from its modes at the frequencies
-/// sqrt(g / lambda).
+/// Small oscillations of a hanging chain in a plane, superposed from its modes.
 ///
 /// The start of a pin without inertia (between massless threads) is not free: its neighbours pull
 /// it at once into place. `Swing::start` has the offsets of least potential energy with the same
@@ -56,12 +54,11 @@ struct Swing {
 /// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with
 /// compensation. Two bounds hold for every offset at every time, both proved
 /// (docs/theory/motion.md): `truncation_error`, from the energy outside the modes used and y_m^2 <=
-/// 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from residuals of the shapes, angles
-/// and rounding.
+/// 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from residuals, angles and rounding.
 /// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.
 /// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
-/// Throws InvalidArgument for starts that are not finite or of another length, a support that would
-/// move, a count of more modes than there are, gravity not positive, times not finite, and weights
+/// Throws InvalidArgument for starts that are not finite or of another length, a support that
+/// moves, a count above the number of modes, gravity not positive, times not finite, and weights
 /// more than 1e123 apart.
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
@@ -71,8 +68,7 @@ struct Swing {
 /// not turn about their own axes, so axial moments of wheels have no effect.
 /// Also throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support
 /// that is carried round (`response`); for a fluid that turns; where the straight rig is unstable
-/// or in neutral balance (the message says how fast it falls); for lowest links without any
-/// inertia.
+/// or in neutral balance (the message says how fast it falls); for lowest links without inertia.
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
 /// How a rig with flywheels starts. Offsets are x + i y, in the two level directions.
@@ -85,8 +81,7 @@ struct WhirlSwingOptions {
     Progress* progress = nullptr;
 };
 
-/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, each a rigid shape
-/// turning at its speed.
+/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, rigid shapes.
 struct WhirlSwing {
     Table<std::complex<double>> offset;      ///< (times, N+1) free end first, support last
     Table<std::complex<double>> velocity;    ///< (times, N+1)

@@ -26,8 +26,7 @@ class Cord;  // revchain/cord.hpp
 template <class System>
 class Held;  // revchain/held.hpp
 
-/// The mode, its wanted height or speed (give one), the datum to change, and the range of its
-/// values.
+/// The mode, its wanted height or speed (give one), the datum to change, and its range.
 struct TuneOptions {
     Index mode = 1;                                       ///< from 1 for the slowest
     Index link = 0;                                       ///< from 0, the lowest
@@ -56,8 +55,7 @@ struct Tuned {
     TuneStatus status = TuneStatus::undecided;
     double present{};                                         ///< the datum of the chain given
     double value = std::numeric_limits<double>::quiet_NaN();  ///< nearest to `present`
-    /// Absolute error bound of `value`, proved by counts of modes, which differ at this distance
-    /// below and above it.
+    /// Absolute error bound of `value`: proved counts at this distance on either side differ.
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< all values found, ascending
     /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of

@@ -49,8 +49,7 @@ template <Real T>
 /// (1 + mu), §2 (6). `half_length` is a, `x` the distance of the upper plummet from the middle on
 /// either side, `weight_ratio` mu = W1/W2. A negative mu is a float below, lighter than the fluid
 /// it displaces, in a fluid that turns with it; heights are then real only where |x| >= a sqrt(-mu)
-/// (Stokes). Accuracy: 4 ulp. Throws InvalidArgument where the heights are complex, for |x| >= a,
-/// and for mu <= -1.
+/// (Stokes). Accuracy: 4 ulp. Throws InvalidArgument for complex heights, |x| >= a and mu <= -1.
 template <Real T>
 [[nodiscard]] HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x,
                                                          const T& weight_ratio) {
@@ -114,8 +113,8 @@ template <Real T>
     const T half =
         detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
     const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
-    const T height = l + (half < T(0) ? coupling / (root - half) : half + root),
-            whole = sqrt(height);
+    const T height = l + (half < T(0) ? coupling / (root - half) : half + root);
+    const T whole = sqrt(height);
     const T over = whole * (whole + sqrt(l));
     // 86400 (lambda - l) / over, times 86400 first: the other factors may underflow
     return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
@@ -124,8 +123,7 @@ template <Real T>
 
 /// Height of the motion in which a link stands on its lowest point, balanced above a thread or a
 /// moving hand: (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that
-/// point. It is 0, and there is no such motion, if the radius of gyration is 0 and h >= a.
-/// Accuracy: 5 ulp.
+/// point. It is 0 (no such motion) if the radius of gyration is 0 and h >= a. Accuracy: 5 ulp.
 template <Real T>
 [[nodiscard]] T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
@@ -231,8 +229,8 @@ template <Real T>
     return shape;
 }
 
-/// Any two links jointed together, such as a bell and its clapper. Suffix 1 of the paper is
-/// `lower`, 2 `upper`.
+/// Two links jointed together, as a bell and its clapper. The paper's suffix 1 is `lower`, 2
+/// `upper`.
 template <Real T>
 struct JointedLinks {
     T lower_weight;              ///< W1 > 0
@@ -307,16 +305,15 @@ template <Real T>
     if (!(longer > T(0)))
         detail::throw_invalid(place, "the clapper's pendulum length must be less than the bell's",
                               clapper.pendulum_length());
-    const T heavy = max(bell_weight, clapper_weight), w1 = clapper_weight / heavy,
-            w2 = bell_weight / heavy;
+    const T heavy = max(bell_weight, clapper_weight);
+    const T w1 = clapper_weight / heavy, w2 = bell_weight / heavy;
     return w2 * bell.centroid / (w2 * bell.centroid + w1 * clapper.square_over_centroid()) * longer;
 }
 
 /// Distance CD from the pin C of a uniform rod, at the distance `pin` = CG from its middle G, to
 /// the point D where the rod does not bend, so that a joint there leaves it straight: CG.CD = CA^2,
 /// A the end above C, §8 (17). Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws
-/// InvalidArgument unless length/6 < pin < length/2: with C within the middle third D would lie
-/// beyond the rod.
+/// InvalidArgument unless length/6 < pin < length/2: for C in the middle third D is off the rod.
 template <Real T>
 [[nodiscard]] T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";
