@@ -59,8 +59,7 @@ struct BatchOptions {
 /// 6 links 29 heights had errors above 4 ulp, at most 4.8, all with weights spanning 1e12 or with
 /// the mass of a link at one point between its pins; with such masses 7 ulp for 40 to 100 links (80
 /// chains). Verified by counts to 16 + N/4 ulp. Results are bitwise the same for any number of
-/// threads and any order of the chains; another `count` or kind of processor may change last
-/// digits.
+/// threads and any order of the chains; another `count` or processor may change last digits.
 /// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
 /// Memory: the result, and a few numbers for each link of 16 chains a thread.
 /// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and

@@ -23,9 +23,8 @@
 ///     const auto shape = revchain::steady_shape(chain, {.mode = 1, .tip_radius = 2.0});
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
-/// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at a
-/// fold and pass one speed several times. An isolated branch begins in a fold and is never
-/// vertical.
+/// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
+/// and pass one speed several times. An isolated branch begins in a fold.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
@@ -60,9 +59,9 @@ enum class BranchBirth {
     return names[static_cast<std::size_t>(birth)];
 }
 
-/// A branch of steady shapes, point by point along its arc, in the units of the chain. The arc s
-/// has no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
-/// tan(inclination) = sinh(tau).
+/// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc:
+/// ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, tan(inclination) =
+/// sinh(tau).
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
@@ -115,8 +114,7 @@ using RigBranchOptions = BranchOptions;
 /// the part wanted is inclined by less than 1e-3 rad, it has two points: the vertical, and the end
 /// by the asymptotic law of the onset, balanced in double-double. If double cannot tell that end
 /// from the vertical, the vertical is the only point (`stuck`).
-/// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; memory 3 N numbers a
-/// point.
+/// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; 3 N numbers a point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// of height and speed is given, positive and finite, and for a height not below that of the mode.
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
@@ -128,8 +126,8 @@ using RigBranchOptions = BranchOptions;
 /// (of the rig with its support on the axis), or of the given speed if that is slower; `branches`
 /// finds the others. If links stand or lean against their load, a branch may begin towards slower
 /// speeds; it is followed down to a tenth of the speed of its mode. Along a branch every link keeps
-/// its posture. In the arc, the stretch of a spring at the support over the length of the chain
-/// counts as tau of one more link.
+/// its posture. In the arc, the stretch of a spring over the length of the chain is tau of one more
+/// link.
 /// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
 /// for chains, and off the axis for a `mode` other than 1.
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
@@ -176,8 +174,8 @@ struct Branches {
 /// Cost: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30 ms for six;
 /// eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with
 /// AVX-512; with SSE2 up to twice as long).
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
-/// for `lists` below 1.
+/// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
+/// >= 1.
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
@@ -224,8 +222,8 @@ struct ShapesOnBranch {
 /// speed, tip inclination, tip radius or top tension.
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
-/// height in double-double, with the given number as a condition. Near the vertical it starts at
-/// the onset of the branch.
+/// height in double-double, with the given number as a condition; near the vertical, from its
+/// onset.
 /// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is
 /// proved (measured: 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed
 /// to a conical height of 1e-4 of the length: tests/cpp/finite/branch/shape_on_branch.cpp). That
@@ -241,8 +239,8 @@ struct ShapesOnBranch {
 /// branch from rest, followed from a ten-thousandth of the first critical speed, or from below the
 /// given speed. `tip_inclination` is the magnitude of the lowest link's inclination, off the axis
 /// the inclination outwards; it is between pi/2 and pi if that link stands. `top_tension` is the
-/// tension at the topmost pin, as in `SteadyShape::tension`. Also throws InvalidArgument where a
-/// link has no effective tension.
+/// tension at the topmost pin, as in `SteadyShape::tension`. Also throws InvalidArgument for a link
+/// without effective tension.
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most

@@ -72,27 +72,9 @@ class Chain {
     /// to x^exponent, x from the free end. Exponent 0 gives `uniform_rods`, 1 a cord that thickens
     /// upwards; towards -1 the mass is near the free end. Greenhill (1908) §4. `length` and
     /// `weight` are those of the whole chain. Also throws InvalidArgument for an exponent not above
-    /// -1 or above 1000, and if the weight of the lowest link is too small for T. Accuracy and
-    /// cost: system/tapered_links.hpp.
-    [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
-        constexpr std::string_view place = "Chain::tapered";
-        if (!(exponent > -1 && exponent <= 1000))
-            detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
-        Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
-        rods.taper_ = exponent;
-        if (exponent == 0) return rods;
-        const T link = rods.length_[0];
-        detail::TaperedLinks<T> links = detail::tapered_links<T>(count, link, exponent, weight);
-        if (!(links.weight[0] >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon()))
-            detail::throw_invalid(place,
-                                  "the weight of the lowest link is too small for this scalar; use "
-                                  "fewer links or a smaller exponent",
-                                  exponent);
-        Chain chain(count, std::move(links.weight), link, std::move(links.centroid),
-                    std::move(links.gyration_ratio));
-        chain.taper_ = exponent;
-        return chain;
-    }
+    /// -1 or above 1000, and if the weight of the lowest link is too small for T. See
+    /// system/tapered_links.hpp.
+    [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1));
     /// Returns this chain with `taper` set to the exponent from which `tapered` made its links, as
     /// after reading them from a file. Throws InvalidArgument where a link is not one that
     /// `tapered` makes, to 4 ulp. Cost: that of `tapered`.
@@ -114,15 +96,8 @@ class Chain {
     /// Weight below link m, 0 <= m <= size(), as `Wide<T>`. Its error is at most that of 14
     /// operations of a double word (measured: 0.27), and of one operation if all weights are one
     /// number. Cost: O(1) if m is a multiple of `segment_size`, else O(segment_size), 70 ns.
-    [[nodiscard]] Wide<T> weight_below(Index m) const {
-        const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
-        if (weight_.is_scalar()) return detail::times(weight_[0], m);
-        if (m == size_) return partial_weights().back();
-        const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
-        const T* const part = weight_.data() + whole * detail::segment_size;
-        return rest == 0 ? below : below + detail::summary(part, rest).sum;
-    }
-    /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all; empty for a single
+    [[nodiscard]] Wide<T> weight_below(Index m) const;
+    /// Weights below links 0, `segment_size`, 2 `segment_size` ... and of all; empty for one
     /// weight.
     const std::vector<Wide<T>>& partial_weights() const {
         static const std::vector<Wide<T>> none;
@@ -152,20 +127,10 @@ class Chain {
 
    private:
     template <class V>
-    static Column<V> column(const std::vector<Link<T>>& links, V Link<T>::*member) {
-        std::vector<V> values(links.size());
-        std::transform(links.begin(), links.end(), values.begin(),
-                       [&](const Link<T>& link) { return link.*member; });
-        return values;
-    }
+    static Column<V> column(const std::vector<Link<T>>& links, V Link<T>::*member);
 
     static Chain repeated(std::string_view place, Index count, T length, T weight,
-                          Link<T> (*make)(T, T)) {
-        if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
-        detail::require_positive(place, "length", length, "weight", weight);
-        const Link<T> one = make(weight / T(count), length / T(count));
-        return Chain(count, one.weight, one.length, one.centroid, one.gyration_ratio);
-    }
+                          Link<T> (*make)(T, T));
 
     void check();
     void check_each_link() const;

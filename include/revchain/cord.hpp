@@ -57,8 +57,8 @@ struct CordModes {
     /// Arc lengths at which the mode at index j crosses the axis, ascending, without held ends.
     [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
-    /// has its centre of gravity on the axis. For a cord held at both ends there is one below each
-    /// node and one below the upper end.
+    /// has its centre of gravity on the axis. Between held ends, one is below each node and one
+    /// below the upper end.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -108,8 +108,7 @@ struct CordModesOptions {
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
-/// d(conical height)/d(datum) of each mode, (k,), all other data constant; dn = -n/(2 lambda) d
-/// lambda.
+/// d(conical height)/d(datum) of each mode, (k,), with all other data constant.
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it
@@ -138,7 +137,7 @@ struct CordSensitivity {
 /// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
 /// density; see `steady_shapes` for a path.
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and
-/// speed is given, positive and finite, a height not below that of the mode, and a length above 1e6
+/// speed is given, positive and finite, a height not below that of the mode, a length above 1e6
 /// heights.
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
@@ -188,8 +187,8 @@ using CordDiagramOptions = DiagramOptions;
                                   StabilityFrame frame = StabilityFrame::free);
 
 /// The offsets or velocities of a cord at time 0: none (all 0); values at
-/// `CordSwingOptions::arc_length`, linear between them; or a continuous function of the arc length.
-/// It must be 0 at the support.
+/// `CordSwingOptions::arc_length`, linear between them; or a continuous function of the arc length;
+/// 0 at the support.
 using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
 
 /// The start of a swing, and the times and arc lengths of its results.
@@ -218,9 +217,8 @@ struct CordSwing {
 /// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.
 ///
 /// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher
-/// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. For a start
-/// with a kink in a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet
-/// there.
+/// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
+/// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
 /// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of
 /// swings; measured against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800
 /// arc lengths or more, 1 to 15 microseconds each.

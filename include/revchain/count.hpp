@@ -91,16 +91,15 @@ class LazyCounter;
 /// Counts the modes of one chain above a conical height or below a speed, without computing any
 /// mode. The chain is assembled once, and each count is one O(N) pass. The count is proved: in T
 /// (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A conical
-/// height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of the given one counts as
-/// equal.
+/// height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of it counts as equal.
 template <Real T>
 class ModeCounter {
    public:
     explicit ModeCounter(const Chain<T>& chain)
         : mode_count_(chain.mode_count()), pencils_(chain) {}
 
-    /// The number of conical heights above `height`. Throws InvalidArgument unless it is positive
-    /// and finite.
+    /// The number of conical heights above `height`. Throws InvalidArgument unless that is
+    /// positive, finite.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
         return above(Wide<T>(height), height);
@@ -122,8 +121,8 @@ class ModeCounter {
                                     [&](const T& height) { return above_height(height); });
     }
 
-    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high and
-    /// gravity is positive and finite.
+    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high,
+    /// gravity > 0.
     [[nodiscard]] ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         detail::require_positive("modes", "gravity", gravity);
         return detail::modes_within(window, mode_count_,
@@ -133,42 +132,11 @@ class ModeCounter {
    private:
     friend detail::LazyCounter<T>;
     /// `rough` is `height` in T, which may leave the range of T.
-    Index above(const Wide<T>& height, const T& rough) const {
-        using std::ldexp;
-        const T scaled = pencils_.scaled(rough);
-        using limits = std::numeric_limits<T>;
-        if (!(scaled < ldexp(T(1), limits::max_exponent - limits::digits))) return 0;
-        if (scaled < ldexp(T(1), limits::min_exponent + limits::digits)) return mode_count_;
-        const Wide<T> shift = pencils_.scaled(height);
-        const auto sure = pencils_.template certified_count<1>({shift});
-        if (sure[0].proved) return sure[0].above;
-        const Wide<T> tie(operation_error<Wide<T>>() * Narrow<Wide<T>>(1 << 20));
-        return pencil::certified_count<Wide<T>, 1>(pencils_.wide(), {shift + shift * tie})[0].above;
-    }
+    Index above(const Wide<T>& height, const T& rough) const;
 
     Index mode_count_;
     detail::Pencils<T> pencils_;
 };
-
-namespace detail {
-
-/// The counter of a chain and its pencils, assembled when first needed. The chain must outlive it.
-template <Real T>
-class LazyCounter {
-   public:
-    explicit LazyCounter(const Chain<T>& chain) : chain_(chain) {}
-    const ModeCounter<T>& counter() {
-        if (!counter_) counter_.emplace(chain_);
-        return *counter_;
-    }
-    const Pencils<T>& pencils() { return counter().pencils_; }
-
-   private:
-    const Chain<T>& chain_;
-    std::optional<ModeCounter<T>> counter_;
-};
-
-}  // namespace detail
 
 /// The speed below which modes are counted. Give either `conical_height` or `angular_speed`.
 template <Real T>
@@ -190,3 +158,5 @@ template <Real T>
 }
 
 }  // namespace revchain
+
+#include "revchain/linear/count.hpp"

@@ -46,8 +46,8 @@ struct HeldBy {
 
 /// A `Chain<double>` or a `Cord` held at both ends, checked once by its constructor. By default the
 /// ends are firm points on the axis. `lower` and `upper` put an end of a chain on a spring, equally
-/// stiff in all directions across the axis, or carry it round the axis at a radius. Both ends and
-/// the axis lie in one plane.
+/// stiff in all directions across the axis, or carry it round the axis at a radius. All lie in one
+/// plane.
 ///
 /// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite; for
 /// a span not less than the length, firm ends as far apart as the length, a stiffness not positive,
@@ -146,8 +146,7 @@ using HeldModesOptions = ModesOptions<double>;
 /// height is `HeldModesOptions::gravity` over the square of the speed. Held cords: cord.hpp.
 ///
 /// Method: the elements are those of a hanging chain, on top of the lowest link or spring. Modes
-/// are counted in double; each then gets a Rayleigh quotient in double-double and two proved
-/// counts.
+/// are counted in double; each gets a Rayleigh quotient in double-double and two proved counts.
 /// Accuracy: `error_bound` is proved, 1 ulp; wider for a few modes of links 1e9 times lighter than
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
 /// as a quotient that was rounded once; otherwise numbers are exact.
@@ -159,8 +158,7 @@ using HeldModesOptions = ModesOptions<double>;
                                   const HeldModesOptions& options = {});
 
 /// The number of modes slower than a speed, proved. Cost: 0.5 microseconds a link. Throws
-/// InvalidArgument as `modes`, and unless exactly one of height and speed is given, positive and
-/// finite.
+/// InvalidArgument as `modes`, and unless one of height and speed is given, positive, finite.
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);
 

@@ -64,8 +64,8 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Whirl modes of a chain, slowest first. Mode k is at index k - first. If a window holds no mode,
-/// `first` is the next faster mode.
+/// Whirl modes of a chain, slowest first. Mode k is at index k - first. In an empty window, `first`
+/// is the next faster mode.
 template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
@@ -78,8 +78,8 @@ struct Modes {
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
-    /// magnitude is 1 and the free end positive. Computed at the first call, as the next two.
-    /// Thread-safe.
+    /// magnitude is 1 and the free end positive. Computed when first called, as the next two;
+    /// thread-safe.
     const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
     /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
     const Vector<T>& residual() const { return details().residual; }

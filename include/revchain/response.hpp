@@ -44,8 +44,8 @@ struct Response {
 };
 
 /// Forced motion of a chain whose support is carried round a circle of radius b, after free motions
-/// have died away: K y = M y / lambda with y = b at the support. Greenhill (1908) §1 (9) has one
-/// plummet: b lambda / (lambda - l).
+/// have died away: K y = M y / lambda with y = b at the support. One plummet, Greenhill (1908) §1
+/// (9): b lambda / (lambda - l).
 ///
 /// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several
 /// speeds at once, with a bound of its error. Ratios of neighbouring offsets then give the offsets

@@ -39,15 +39,6 @@ struct Support {
     friend bool operator==(const Support&, const Support&) = default;
 };
 
-namespace detail {
-inline void require_yielding(std::string_view place, const std::string& name,
-                             const Support& support) {
-    if (support.is_firm() && support.carriage_weight > 0)
-        throw_invalid(place, name + " must have a stiffness: what moves sideways needs a support that yields; weight",
-                      support.carriage_weight);
-}
-}  // namespace detail
-
 /// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small
 /// amplitudes it acts as a thread of length W/E, where W is the weight of the chain. Throws
 /// InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
@@ -76,38 +67,16 @@ struct Flywheel {
     friend bool operator==(const Flywheel&, const Flywheel&) = default;
 };
 
-namespace detail {
-inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration,
-                                double spin, double gravity) {
-    require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
-    require_finite(place, "spin", spin);
-    require_positive(place, "gravity", gravity);
-    using S = Wide<double>;
-    int heavy = 0, far = 0;  // products of numbers near 1 have all digits of both words
-    const S part = S(std::frexp(weight, &heavy)), radius = S(std::frexp(radius_of_gyration, &far));
-    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far);
-    const S momentum = moment * spin / S(gravity);
-    if (!isfinite(moment) || !isfinite(momentum))
-        throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
-                      radius_of_gyration);
-    return {momentum, moment};
-}
-}  // namespace detail
-
 /// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
 /// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
 /// numbers not finite.
-[[nodiscard]] inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
-                                            double gravity = conical_pendulum::standard_gravity) {
-    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
-}
+[[nodiscard]] Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                                     double gravity = conical_pendulum::standard_gravity);
 
 /// A wheel that a motor turns with `spin` rad/s relative to its link, which turns about its axis
 /// with the whole chain. Throws as free_flywheel.
-[[nodiscard]] inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
-                                              double gravity = conical_pendulum::standard_gravity) {
-    return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
-}
+[[nodiscard]] Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                       double gravity = conical_pendulum::standard_gravity);
 
 /// The fluid around a chain: at rest, or turning bodily with it.
 enum class Fluid { still, turning };

@@ -70,8 +70,8 @@ struct OtherMode {
     double error_bound = std::numeric_limits<double>::infinity();  ///< relative, proved
 };
 
-/// A link whose effective tension, tension + n momentum/length, vanishes at a speed and is a thrust
-/// at faster speeds.
+/// A link whose effective tension, tension + n momentum/length, is 0 at a speed and negative beyond
+/// it.
 struct SlackLink {
     Index link = 0;            ///< from 0, lowest first
     double angular_speed = 0;  ///< n, negative if opposite to a wheel of positive momentum
@@ -133,14 +133,14 @@ class RigModeCounter {
     /// Throws InvalidArgument as `modes` does.
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
-    /// The number of conical heights that exceed `height`, with momentum in both directions
-    /// together. Throws InvalidArgument unless `height` is positive and finite, and where rounding
-    /// leaves the number in doubt.
+    /// The number of conical heights above `height`, with momentum in both directions together.
+    /// Throws InvalidArgument unless that is positive and finite, and where rounding leaves a
+    /// doubt.
     [[nodiscard]] Index above_height(double height) const;
 
     /// The number of whirl speeds between 0 and `angular_speed`, rad/s; with momentum its sign is
-    /// the direction. Throws InvalidArgument unless it is finite and not 0, and where rounding
-    /// leaves the number in doubt.
+    /// the direction. Throws InvalidArgument unless it is finite, not 0, and where rounding leaves
+    /// a doubt.
     [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:

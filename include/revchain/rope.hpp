@@ -15,8 +15,8 @@
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
 /// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the
-/// conical height, and a tension is given as the length h of rope that has this weight. The shape
-/// depends on lambda h alone.
+/// conical height, and a tension is given as the length h of rope of this weight. Shapes depend on
+/// lambda h alone.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of a skipping rope. Give exactly two of: span, length, slack, sag, and the pair of
@@ -115,13 +115,11 @@ struct TortuousPoint {
 
 /// The rope that winds round its axis, with its ends off the axis. §5, text after (6)
 ///
-/// R is the square of the distance from the axis, R1 <= R <= R2, c^2 = lambda h and r = sqrt(R1 R2
-/// + 4 c^4):
+/// R is the squared distance from the axis, R1 <= R <= R2, c^2 = lambda h, r = sqrt(R1 R2 + 4 c^4):
 ///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),  u = d x/(2 c^2),
 ///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,
 ///     theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
-/// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds to construct, 1
-/// a point.
+/// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds, 1 a point.
 class TortuousRope {
    public:
     /// Throws InvalidArgument for data outside the ranges above, and if a result overflows.

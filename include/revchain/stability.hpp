@@ -39,8 +39,7 @@ enum class Verdict {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-/// Stability of one shape. Exponents, growth rate and margin, times the turning speed n, are in
-/// 1/s.
+/// Stability of one shape. Times the turning speed n, exponents, growth rate and margin are in 1/s.
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
@@ -54,7 +53,7 @@ struct Stability {
     /// The effect of a small damping c on each exponent, to first order: this number times g c is
     /// added to the real part of s n. NaN where two exponents coincide. Internal: c is the moment
     /// at a pin over the relative angular velocity of its links in the turning frame; 1/(weight
-    /// length^2). External: c is the drag of still air on a link over its length and velocity;
+    /// length^2). External: c is drag of still air on a link over its length and velocity;
     /// length/weight.
     std::vector<double> internal_damping, external_damping;
 };
@@ -66,8 +65,8 @@ struct Stability {
 /// (y0'M y0) is added to the stiffness in the plane, where b = B y0, y0 are the shape's offsets, M
 /// is the mass matrix and B the gyroscopic coupling. Links are rods without inertia about their own
 /// axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer with massless links, because
-/// two links that meet in a pin without mass stay in line. N = 1: omega = n sqrt(1 + 3 cos^2 d)
-/// free, n sin d driven, §7 (6).
+/// two links that meet in a pin without mass stay in line. N = 1: n sqrt(1 + 3 cos^2 d) free, n sin
+/// d driven, §7 (6).
 /// Exponents and verdict contain no damping. A minimum stays stable with friction at the pins. A
 /// shape that is only spectrally stable is held by gyroscopic forces: friction makes the motions of
 /// negative energy grow (Kelvin, Tait, Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and
@@ -90,8 +89,7 @@ struct Stability {
 /// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
 /// axis no rotation is removed, which adds 2 exponents if free.
 /// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
-/// (4 N)^3/2. Throws InvalidArgument as above, and for a moving pin without mass below the upper
-/// end.
+/// (4 N)^3/2. Throws InvalidArgument as above, and for a massless moving pin below the upper end.
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 

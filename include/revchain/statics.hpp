@@ -68,7 +68,7 @@ struct FunicularPolygon {
 /// The polygon with a given horizontal component of tension: sides are parallel to the rays from
 /// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `place` (n + 2)
 /// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
-/// O(n). Throws InvalidArgument unless weights are positive, places increase, and all numbers and
+/// O(n). Throws InvalidArgument unless weights are positive, places increase, and numbers and
 /// results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,

@@ -77,8 +77,8 @@ struct SteadyShapes {
 /// All steady shapes (relative equilibria) of a chain that whirls at a given speed. `hanging_only`
 /// lists shapes with every link within a right angle of the downward vertical, otherwise any
 /// posture. Straight shapes are omitted. Of two mirror images the one with the free end at a
-/// positive offset is listed (if that end is on the axis, the one whose lowest inclined link has a
-/// positive inclination).
+/// positive offset is listed (if that is 0, the one whose lowest inclined link has a positive
+/// inclination).
 ///
 /// Method: the offset of the support is a function of the tangent t of the lowest link's
 /// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with
@@ -90,8 +90,8 @@ struct SteadyShapes {
 /// stand); measured errors are at most 2 ulp of the inclination. `complete` is proved too. If it is
 /// false, `undecided` has the ranges where shapes may be missing: at exactly a critical speed or a
 /// fold, or where the budget is used up, as for chains of 20 plummets or more at heights near
-/// 1/1000 of their length. If each link has one inclination for its load, shapes that a scan finds
-/// there are listed.
+/// 1/1000 of their length. If each link has one inclination for its load, a scan adds the shapes it
+/// finds there.
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is
 /// listed and `complete` is false: double-double resolves offsets to 2^-104 of that length, and a
 /// sideways pull is an offset over the height, so tensions would lose their digits.

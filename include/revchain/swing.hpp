@@ -58,8 +58,8 @@ struct Swing {
 /// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.
 /// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
 /// Throws InvalidArgument for starts that are not finite or of another length, a support that
-/// moves, a count above the number of modes, gravity not positive, times not finite, and weights
-/// more than 1e123 apart.
+/// moves, a count above the number of modes, gravity <= 0, times not finite, weights more than
+/// 1e123 apart.
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
 /// The same for a rig that is stable at rest: a support that yields, with its carriage, still fluid

@@ -60,7 +60,7 @@ struct Tuned {
     std::vector<double> values{};  ///< all values found, ascending
     /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of
     /// the quadratic to a mode. Always false for a weight: only the nearest solution on each side
-    /// of the present value is searched.
+    /// is searched.
     bool complete = false;
     double low{}, high{};  ///< the range searched, without the part in which the link would stand
     /// Extremes of the mode's height seen in that range, for a weight, and if no value is found.
@@ -74,8 +74,8 @@ struct Tuned {
 /// At a given height the chain below and above a link acts as a spring at each of its pins. A
 /// length, a centroid or a radius of gyration that gives any mode this height is then a root of an
 /// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
-/// its error. A weight loads all links above; its nearest value on each side is approached in steps
-/// that provably skip no value.
+/// its error. A weight loads all links above; its nearest value on each side is found in steps that
+/// provably skip none.
 /// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not
 /// small, measured (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
 /// values. Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.

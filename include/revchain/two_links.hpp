@@ -77,15 +77,15 @@ template <Real T>
             (half_length - x) / whole / larger * ((half_length + x) / half_length)};
 }
 
-/// Both heights of a compound link hung by a thread: (lambda - l)(lambda - a) = a h, §6 (11).
-/// Accuracy: 4 ulp.
+/// Both heights of a compound link on a thread, (lambda - l)(lambda - a) = a h, §6 (11). Accuracy:
+/// 4 ulp.
 template <Real T>
 [[nodiscard]] HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_thread", "thread", thread, link);
 }
 
 /// Both heights of a compound link whose support yields sideways on a spring: those on a thread as
-/// long as the deflection of the spring. The paper's lambda = l + c is exact for a plummet only.
+/// long as the deflection of the spring. The paper's lambda = l + c holds for plummets only.
 /// Accuracy: 4 ulp.
 template <Real T>
 [[nodiscard]] HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
@@ -132,7 +132,7 @@ template <Real T>
                                  detail::squares_over_centroid(link).times(thread));
 }
 
-/// Thread on which a link stands at a given height: a = lambda (l + lambda) / (l + lambda - h), §6
+/// Thread on which a link stands at a given height: a = lambda (l + lambda)/(l + lambda - h), §6
 /// (13). Accuracy: 3 ulp.
 template <Real T>
 [[nodiscard]] T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
@@ -174,8 +174,7 @@ struct PairShape {
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
 /// Rounding of the data changes tangents by up to height_k / (height_k - height) times as much
 /// where a shape leaves the vertical at height_k, and by the square root of the rounding where two
-/// shapes meet. Also throws InvalidArgument for a length more than a third of the range above the
-/// height.
+/// shapes meet. Also throws InvalidArgument for a length/height beyond a third of the range.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
                                                             const T& lower_thread,
@@ -229,8 +228,8 @@ template <Real T>
     return shape;
 }
 
-/// Two links jointed together, as a bell and its clapper. The paper's suffix 1 is `lower`, 2
-/// `upper`.
+/// Two links jointed together, as a bell and its clapper: `lower` (suffix 1 in the paper), `upper`
+/// (2).
 template <Real T>
 struct JointedLinks {
     T lower_weight;              ///< W1 > 0
@@ -245,8 +244,8 @@ struct JointedLinks {
 /// - a2, §8 (14), with m = W2 h2/(W1 a2). Where l2 = a2 this is (lambda - l1)(lambda - l2) = l2
 /// h1/(m + 1), (15). The second height is 0 where both radii of gyration are 0 and the upper
 /// centroid is at the support. Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws
-/// InvalidArgument for lengths or weights more than 1e77 apart (in double), and unless the upper
-/// link hangs: W2 h2 + W1 a2 > 0.
+/// InvalidArgument for lengths or weights more than 1e77 apart (in double), and unless W2 h2 + W1
+/// a2 > 0 (the upper link hangs).
 template <Real T>
 [[nodiscard]] HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);

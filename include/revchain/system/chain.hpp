@@ -32,6 +32,52 @@ T least_size(const Column<T>& column, const T& given) {
 }  // namespace detail
 
 template <Real T>
+Chain<T> Chain<T>::tapered(Index count, T length, double exponent, T weight) {
+    constexpr std::string_view place = "Chain::tapered";
+    if (!(exponent > -1 && exponent <= 1000))
+        detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
+    Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
+    rods.taper_ = exponent;
+    if (exponent == 0) return rods;
+    const T link = rods.length_[0];
+    detail::TaperedLinks<T> links = detail::tapered_links<T>(count, link, exponent, weight);
+    if (!(links.weight[0] >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon()))
+        detail::throw_invalid(place,
+                              "the weight of the lowest link is too small for this scalar; use "
+                              "fewer links or a smaller exponent",
+                              exponent);
+    Chain chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio));
+    chain.taper_ = exponent;
+    return chain;
+}
+
+template <Real T>
+Wide<T> Chain<T>::weight_below(Index m) const {
+    const Index whole = m / detail::segment_size, rest = m % detail::segment_size;
+    if (weight_.is_scalar()) return detail::times(weight_[0], m);
+    if (m == size_) return partial_weights().back();
+    const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
+    const T* const part = weight_.data() + whole * detail::segment_size;
+    return rest == 0 ? below : below + detail::summary(part, rest).sum;
+}
+
+template <Real T>
+Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T weight, Link<T> (*make)(T, T)) {
+    if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
+    detail::require_positive(place, "length", length, "weight", weight);
+    const Link<T> one = make(weight / T(count), length / T(count));
+    return Chain(count, one.weight, one.length, one.centroid, one.gyration_ratio);
+}
+
+template <Real T>
+template <class V>
+Column<V> Chain<T>::column(const std::vector<Link<T>>& links, V Link<T>::*member) {
+    std::vector<V> values(links.size());
+    std::transform(links.begin(), links.end(), values.begin(), [&](const Link<T>& link) { return link.*member; });
+    return values;
+}
+
+template <Real T>
 Chain<T> Chain<T>::as_tapered(double exponent) const {
     using std::abs;
     const Chain cut = tapered(size_, total_length_, exponent, total_weight_);
