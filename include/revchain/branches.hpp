@@ -24,7 +24,8 @@
 ///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
-/// and pass one speed several times. An isolated branch begins in a fold.
+/// and pass one speed several times. An isolated branch begins in a fold and never reaches the
+/// vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
@@ -59,9 +60,9 @@ enum class BranchBirth {
     return names[static_cast<std::size_t>(birth)];
 }
 
-/// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc:
-/// ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, tan(inclination) =
-/// sinh(tau).
+/// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc has
+/// no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
+/// tan(inclination) = sinh(tau).
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;

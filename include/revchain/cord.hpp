@@ -108,7 +108,7 @@ struct CordModesOptions {
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
-/// d(conical height)/d(datum) of each mode, (k,), with all other data constant.
+/// d(conical height)/d(datum) of each mode, (k,), all else constant; dn = -n/(2 lambda) dlambda.
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it

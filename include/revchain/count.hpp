@@ -91,15 +91,16 @@ class LazyCounter;
 /// Counts the modes of one chain above a conical height or below a speed, without computing any
 /// mode. The chain is assembled once, and each count is one O(N) pass. The count is proved: in T
 /// (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A conical
-/// height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of it counts as equal.
+/// height within 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one counts as equal to
+/// it.
 template <Real T>
 class ModeCounter {
    public:
     explicit ModeCounter(const Chain<T>& chain)
         : mode_count_(chain.mode_count()), pencils_(chain) {}
 
-    /// The number of conical heights above `height`. Throws InvalidArgument unless that is
-    /// positive, finite.
+    /// The number of conical heights above `height`. Throws InvalidArgument unless it is positive
+    /// and finite.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
         return above(Wide<T>(height), height);
@@ -121,8 +122,8 @@ class ModeCounter {
                                     [&](const T& height) { return above_height(height); });
     }
 
-    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high,
-    /// gravity > 0.
+    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high and
+    /// gravity is positive and finite.
     [[nodiscard]] ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         detail::require_positive("modes", "gravity", gravity);
         return detail::modes_within(window, mode_count_,

@@ -135,7 +135,7 @@ using HeldCordShapesOptions = HeldShapesOptions;
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
-/// Which modes of a chain held straight under a tension. `method` has no effect.
+/// Of a chain held straight. `method` has no effect; bounds > `rtol`: `Status::tolerance_not_met`.
 using HeldModesOptions = ModesOptions<double>;
 
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first, chosen as

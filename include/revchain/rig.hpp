@@ -57,7 +57,8 @@ struct Support {
 }
 
 /// Angular momentum of a link along its own axis, positive from its lower pin to its upper one: for
-/// a hanging link the direction of rotation for n > 0. One part is constant, one turns with it:
+/// a hanging link the direction of rotation for n > 0. One part is constant, one turns with the
+/// link:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
