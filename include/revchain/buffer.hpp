@@ -8,8 +8,9 @@
 
 /// Two railway carriages, coupled by a spring, that hit a buffer stop: one blow, two or more.
 ///
-///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .speed = 2.0,
-///                                          .buffer_stiffness = 2e6, .coupling_stiffness = 0.5e6});
+///     const revchain::BufferImpact impact(
+///         {.front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6,
+///          .coupling_stiffness = 0.5e6, .speed = 2.0});
 ///     impact.blows().size();      // 2 blows
 ///     impact.blows()[0].end;      // 0.397384 s
 ///     impact(0.1).buffer_force;   // 337373 N at 0.1 s
