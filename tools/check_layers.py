@@ -81,6 +81,7 @@ UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 FURTHER = {  # more files that define what a header declares
     "branches.hpp": {"finite/branch/diagram.hpp"},
     "cord.hpp": {"analytic/cord_sensitivity.hpp"},
+    "held.hpp": {"questions/held_check.hpp"},
     "finite/cord/continuous_chain.hpp": {"finite/cord/steady_shapes.hpp"},
     "finite/cord/branches.hpp": {"finite/cord/branch_shapes.hpp"},
 }

@@ -10,27 +10,27 @@
 
 /// Conical heights of many small chains at once.
 ///
-///     const double weight[] = {1.0, 2.0, 1.0, 1.5, 0.5, 1.0};    // two chains of three plummets, the lowest first
-///     const double length = 0.2;                                 // m; one number serves all links
+///     const double weight[] = {1.0, 2.0, 1.0, 1.5, 0.5, 1.0}; // two chains, lowest plummet first
+///     const double length = 0.2;                               // m, of every link
 ///     const revchain::ChainBatch<double> batch{
 ///         .chains = 2, .size = 3, .weight = {weight, 3, 1}, .length = {&length}};
-///     const auto heights = revchain::conical_heights(batch);     // a row for each chain, the slowest mode first
-///     heights(1, 0);                                             // 0.518978 m
+///     const auto heights = revchain::conical_heights(batch);   // a row for each chain
+///     heights(1, 0);                      // 0.518978 m: the slowest mode of the second chain
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// One quantity of all links of all chains: that of link m (lowest first) of chain c at data[c chain_stride + m
-/// link_stride]. A stride of 0 repeats a number.
+/// One quantity of all links of all chains: link m (lowest first) of chain c has data[c
+/// chain_stride + m link_stride]. A stride of 0 repeats a number.
 template <Real T>
 struct BatchColumn {
     const T* data = nullptr;
     Index chain_stride = 0;
     Index link_stride = 0;
 
-    const T& operator()(Index chain, Index link) const { return data[chain * chain_stride + link * link_stride]; }
+    const T& operator()(Index chain, Index m) const { return data[chain * chain_stride + m * link_stride]; }
 };
 
-/// Many chains of equally many links. Without `centroid` the links are plummets. With it give either `pendulum_length`
-/// or `radius_of_gyration`.
+/// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give
+/// either `pendulum_length` or `radius_of_gyration`.
 template <Real T>
 struct ChainBatch {
     Index chains = 0;
@@ -40,33 +40,32 @@ struct ChainBatch {
     std::optional<BatchColumn<T>> centroid{};
     std::optional<BatchColumn<T>> pendulum_length{};
     std::optional<BatchColumn<T>> radius_of_gyration{};
-    std::vector<Index> shape{};  ///< axes over which the chains are spread, last fastest; only to name a chain
+    std::vector<Index> shape{};  ///< axes of the array of chains, last fastest; for messages
 };
 
 struct BatchOptions {
     std::optional<Index> count{};  ///< number of slowest modes of each chain; absent: all
     Index threads = 1;             ///< 0: all processors
-    Progress* progress = nullptr;  ///< watched and stopped from another thread
+    Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// The slowest `count` conical heights of every chain of a batch, descending: a row for each chain, in its unit of
-/// length. Greenhill (1908) §8 (21) with sec delta = 1.
+/// The slowest `count` conical heights of every chain, descending: a row for each chain, in its
+/// unit of length. Greenhill (1908) §8 (21) with sec delta = 1.
 ///
-/// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes` solves one by one the
-/// chains for which that proves nothing, those with massless links or centroids at or above the pin, and all chains in
-/// other scalars.
-/// Accuracy: 2.8 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights
-/// were off by more than 4 ulp, the worst by 4.8, all where weights span 1e12 or the mass of a link is one point
-/// between its pins. With masses so placed, 40 to 100 links: 7 ulp (80 chains). Verified by counts to 16 + N/4 ulp.
-/// Results are bitwise the same whatever the number of threads, the place of a chain in the batch and its neighbours
-/// there; another `count` or another kind of processor may change last digits.
-/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a
-/// few numbers for each link of 16 chains a thread.
-///
-/// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and, before anything
-/// else, for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count
-/// beyond the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count.
-/// Throws it later only for a chain whose heights cannot be proved to half the digits of T.
+/// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes`
+/// solves one by one the chains for which that proves nothing, those with massless links or
+/// centroids at or above the pin, and all chains in other scalars.
+/// Accuracy: 2.8 ulp for plummets and rods up to N = 100. In a million chains of all kinds of 1 to
+/// 6 links 29 heights had errors above 4 ulp, at most 4.8, all with weights spanning 1e12 or with
+/// the mass of a link at one point between its pins; with such masses 7 ulp for 40 to 100 links (80
+/// chains). Verified by counts to 16 + N/4 ulp. Results are bitwise the same for any number of
+/// threads and any order of the chains; another `count` or processor may change last digits.
+/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
+/// Memory: the result, and a few numbers for each link of 16 chains a thread.
+/// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and
+/// first of all for a number that `Chain` refuses, naming chain, link and value; for a count beyond
+/// the modes of some chain (massless links cost modes, and chains with different numbers of modes
+/// need a count); and for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
 [[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
                                        const BatchOptions& options = {});
@@ -77,7 +76,8 @@ template <Real T>
 namespace revchain::inline REVCHAIN_BUILD {
 extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 extern template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
-extern template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);
+extern template Table<long double> conical_heights(const ChainBatch<long double>&,
+                                                   const BatchOptions&);
 }  // namespace revchain
 #else
 #include "revchain/questions/batch.hpp"

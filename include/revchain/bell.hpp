@@ -6,7 +6,7 @@
 
 #include "revchain/chain.hpp"
 
-/// When a bell and its clapper swing as one piece, so that the bell is silent, and how to change that.
+/// When bell and clapper swing as one piece, so that the bell is silent, and how to change that.
 ///
 ///     const auto clapper = revchain::compound_pendulum<double>(
 ///         {.weight = 10, .length = 0.8, .centroid = 0.7, .radius_of_gyration = 0.1});
@@ -14,14 +14,14 @@
 ///         {.weight = 200, .length = 0.2, .centroid = 0.4, .radius_of_gyration = 0.4});
 ///     const revchain::Chain<double> chain({clapper, bell});
 ///     const auto b = revchain::bell_and_clapper(chain);
-///     b.inclination_ratio[0];                                // 1.9243 times the bell's inclination: it rings
-///     revchain::bell_and_clapper_with_ratio(chain, 1.0)[4];  // 0.0855615 m: with this joint the bell is silent
+///     b.inclination_ratio[0];                                // 1.9243 times the bell's: it rings
+///     revchain::bell_and_clapper_with_ratio(chain, 1.0)[4];  // 0.0855615 m: this joint is silent
 ///
 /// Greenhill (1908) §8 (13)-(16).
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The data of a bell and its clapper. The paper's suffix 1 is the clapper, 2 the bell. `joint` is a2, the distance
-/// from the bell's axle to the clapper's pin.
+/// The data of a bell (suffix 2 in the paper) and its clapper (suffix 1). `joint` is a2, the
+/// distance from the bell's axle to the clapper's pin.
 enum class BellDatum {
     clapper_weight,
     clapper_centroid,
@@ -40,29 +40,30 @@ inline constexpr std::array<std::string_view, 7> bell_datum_names{
 template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
-/// The two modes, slower first. In the slower one bell and clapper lean to the same side, in the faster one to opposite
-/// sides; so they can swing as one piece in the slower one only.
+/// The two modes, slower first. Bell and clapper lean to the same side in the slower mode and to
+/// opposite sides in the faster one, so they can swing as one piece in the slower mode only.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
     std::array<T, 2> inclination_ratio;  ///< clapper's over bell's; one piece where the first is 1
-    T silent_height;                     ///< l1 + a2, the conical height of the slower mode if they swing as one piece
-    T mismatch;  ///< h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 when they are one piece, §8 (16)
+    T silent_height;  ///< l1 + a2: conical height of the slower mode as one piece
+    /// h1 - (m + 1) l1 - m (a2 - l2), m = W2 h2/(W1 a2): a length, 0 if one piece, §8 (16)
+    T mismatch;
     ByBellDatum<T> present;     ///< the data
     ByBellDatum<T> derivative;  ///< of the first inclination ratio with respect to each datum
 };
 
-/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from swinging as one piece, and the
-/// derivatives of the slower mode's ratio of inclinations.
-/// Accuracy: heights and ratios 2 ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp).
-/// Cost O(1). Throws InvalidArgument unless there are two links, both with weight.
+/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from one piece,
+/// and the derivatives of the slower mode's ratio of inclinations. Accuracy: heights and ratios 2
+/// ulp, derivatives 4 ulp of the sum of their terms' magnitudes (tests/cpp/bell.cpp). Cost O(1).
+/// Throws InvalidArgument unless there are two links, both with weight.
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain);
 
-/// For each datum the value nearest to the present one that gives the slower mode the ratio of inclinations `ratio`,
-/// with the other data held; NaN where there is none. A ratio of 1 makes bell and clapper one piece; a bell rings with
-/// a ratio far enough from 1. Each value is a root of a quadratic. Cost O(1). Throws InvalidArgument as
-/// `bell_and_clapper`, and for a ratio that is not positive.
+/// For each datum the value nearest to the present one that gives the slower mode the inclination
+/// ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1 makes bell and
+/// clapper one piece; a bell rings with a ratio far enough from 1. Each value is a root of a
+/// quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio <= 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
 

@@ -11,79 +11,81 @@
 #include "revchain/finite/branch/state.hpp"
 #include "revchain/steady_shapes.hpp"
 
-/// Branches of steady shapes: how the shapes of a chain change with its speed (the bifurcation diagram).
+/// Branches of steady shapes: how shapes change with the speed (the bifurcation diagram).
 ///
 ///     const auto chain = revchain::Chain<double>::uniform_plummets(3, 3.0);
 ///     const auto second = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
 ///     second.end == revchain::BranchEnd::height;   // true: it was followed to that speed
 ///     second.tip_radius[second.size() - 1];        // 0.524717 m there, from the axis
 ///     const auto all = revchain::branches(chain, {.max_angular_speed = 15.0});
-///     all.branches.size();                         // 4 branches: those of three modes, and an isolated one
+///     all.branches.size();                         // 4: of three modes, and an isolated one
 ///     all.complete;                                // true: proved, there are no others
 ///     const auto shape = revchain::steady_shape(chain, {.mode = 1, .tip_radius = 2.0});
-///     shape.angular_speed();                       // 2.34160 rad/s: the free end goes 2 m from the axis
+///     shape.angular_speed();                       // 2.34160 rad/s: the free end at 2 m
 ///
-/// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back (at a fold) and pass one
-/// speed several times. An isolated branch is born in a fold and never reaches the vertical.
+/// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back at folds
+/// and pass one speed several times. An isolated branch begins in a fold and never reaches the
+/// vertical.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <class System>
 class Held;
 class Cord;
 
-/// Why a branch was not followed further.
+/// Why a branch ends.
 enum class BranchEnd {
-    height,    ///< at the conical height asked for
+    height,    ///< at the conical height given
     vertical,  ///< back at the straight chain
-    closed,    ///< at the point it started from
+    closed,    ///< at its first point
     budget,    ///< after `max_points` points
-    stuck,     ///< no step could be taken that passes every check
-    slow,      ///< on the way to rest, at a tenth of the first critical speed, or of the given one if that is slower
-    slack,     ///< where flywheels make the effective tension of a link 0: it reaches the horizontal
-    loose,     ///< where the spring at the support can no longer hold the rig: it is stretched to a thousand lengths
+    stuck,     ///< no step passes every check
+    slow,  ///< on the way to rest, at a tenth of the first critical speed, or of a slower one given
+    slack,  ///< flywheels make the effective tension of a link 0: it becomes horizontal
+    loose,  ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
 };
 [[nodiscard]] inline std::string_view to_string(BranchEnd end) noexcept {
-    constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
+    constexpr std::string_view names[]{"height", "vertical", "closed", "budget",
+                                       "stuck",  "slow",     "slack",  "loose"};
     return names[static_cast<std::size_t>(end)];
 }
 
 /// How a branch begins.
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
-    rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
-    fold,      ///< isolated: it begins at a fold, where two shapes appear together, or it is closed
+    rest,      ///< at rest: the support is off the axis, and the rig starts to turn
+    fold,      ///< isolated: at a fold, where two shapes appear together, or it is closed
 };
 [[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
     return names[static_cast<std::size_t>(birth)];
 }
 
-/// A branch of steady shapes, point by point along its arc, in the units of the chain.
-///
-/// The arc s has no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where tau is given by
+/// A branch of steady shapes, point by point along its arc, in the units of the chain. Its arc has
+/// no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where
 /// tan(inclination) = sinh(tau).
 struct Branch {
-    Index mode = 0;  ///< the mode at which it leaves the vertical; 1 also for the branch from rest; 0 if isolated
+    Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
-    /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free end; `top_tension`:
-    /// size of the reaction at the support; the others as in SteadyShape.
-    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
-        effective_energy;
+    /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free
+    /// end; `top_tension`: magnitude of the reaction at the support; the others as in SteadyShape.
+    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
+        moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< number of sign changes of the offsets, plus 1
-    std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme (folds)
+    std::vector<std::size_t> folds;  ///< points where the conical height has a local extreme
     BranchEnd end = BranchEnd::budget;
 
     std::size_t size() const noexcept { return arc.size(); }
-    double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
+    double angular_speed(std::size_t point,
+                         double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
-    /// The shape at a point, balanced in double-double. Its bound is proved, except at a fold, where it is an estimate.
-    /// Throws InvalidArgument for a point that is the straight chain (point 0 on the branch of a mode), past the end,
-    /// and for a shape that does not balance in double-double.
+    /// The shape at a point, balanced in double-double. Its bound is proved; at a fold it is an
+    /// estimate. Throws InvalidArgument for a point that is the straight chain (point 0 on the
+    /// branch of a mode) or past the end, and for a shape that does not balance in double-double.
     [[nodiscard]] SteadyShape shape(std::size_t point) const;
-    /// The shapes of the branch, as far as it was followed, at a conical height, in the order of the arc.
-    /// Accuracy: as of `steady_shape`. Cost: a test of every point, and O(N) for each shape.
-    /// Throws InvalidArgument for a height that is not positive and finite.
+    /// The shapes of this part of the branch at a conical height, in the order of the arc.
+    /// Accuracy: as `steady_shape`. Cost: a test of every point, and O(N) a shape. Throws
+    /// InvalidArgument for a height that is not positive and finite.
     [[nodiscard]] std::vector<SteadyShape> shapes_at(double conical_height) const;
 
    private:
@@ -91,31 +93,17 @@ struct Branch {
     finite::BranchTrace trace_;
 };
 
-/// Which branch, and how far to follow it. Give either `min_conical_height` or `max_angular_speed`.
+/// Which branch, and how far. Give either `min_conical_height` or `max_angular_speed`.
 struct BranchOptions {
-    Index mode = 1;  ///< at which it leaves the vertical: 1 is the slowest, as in `modes`
+    Index mode = 1;  ///< of the critical speed: 1 is the slowest, as in `modes`
     std::optional<double> min_conical_height{};
-    std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
+    std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;
-    double max_step = 0.1;  ///< along the arc
-    double gravity = conical_pendulum::standard_gravity;
+    double max_step = 0.1;                                ///< along the arc
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
-/// The branch of steady shapes that leaves the vertical at a mode, followed by its arc through every fold until it
-/// first comes to the conical height or speed given.
-///
-/// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
-/// checked: see finite::BranchWalk.
-/// Accuracy: points are good to about 1e-12 (measured: tests/cpp/finite/branch/shape_on_branch.cpp); `shape` gives them
-/// in double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If the wanted part of
-/// the branch is inclined by less than 1e-3 rad, it has two points: the vertical, and the end by the law of the onset,
-/// balanced in double-double. If double cannot tell that end from the vertical, only the vertical is left (`stuck`).
-/// Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a link each, and 3 N numbers of memory a point.
-/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one of height and speed
-/// is given, positive and finite, and for a height that is not below that of the mode.
-[[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
-
-/// Which branch of a rig `branch` follows, and how far: as `BranchOptions`, in one direction of rotation.
+/// Which branch of a rig `branch` follows, and how far: as `BranchOptions`.
 struct RigBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> min_conical_height{};
@@ -126,61 +114,45 @@ struct RigBranchOptions {
     Rotation direction = Rotation::forward;
 };
 
-/// The branch of a mode of a rig, or, where its support is off the axis, the branch from rest.
+/// The branch of steady shapes that leaves the vertical at a mode, followed along its arc through
+/// every fold until it first reaches the conical height or speed given.
 ///
-/// With the support on the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no shape
-/// is straight and no branch leaves the vertical. The branch from rest, `mode` 1, then begins at a tenth of the first
-/// critical speed (of the rig with its support on the axis), or of the given speed if that is slower. `branches` finds
-/// the others, which begin at folds. Where links stand or lean against their load, a branch may begin towards slower
-/// speeds; it is followed down to a tenth of the speed of its mode. Along a branch every link keeps its posture.
-/// The arc includes the stretch of a spring at the support, divided by the length of the chain, as tau of one more
+/// Method: pseudo-arclength continuation of all pins at once with tridiagonal elements, in double.
+/// Each step is checked: see finite::BranchWalk.
+/// Accuracy: points about 1e-12 (measured: tests/cpp/finite/branch/shape_on_branch.cpp), `shape` in
+/// double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If
+/// the part wanted is inclined by less than 1e-3 rad, it has two points: the vertical, and the end
+/// by the asymptotic law of the onset, balanced in double-double. If double cannot tell that end
+/// from the vertical, the vertical is the only point (`stuck`).
+/// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; 3 N numbers a point.
+/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
+/// of height and speed is given, positive and finite, and for a height not below that of the mode.
+[[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
+
+/// The branch of a mode of a rig, or the branch from rest if its support is off the axis.
+///
+/// On the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no
+/// shape is straight. The branch from rest, `mode` 1, begins at a tenth of the first critical speed
+/// (of the rig with its support on the axis), or of the given speed if that is slower; `branches`
+/// finds the others. If links stand or lean against their load, a branch may begin towards slower
+/// speeds; it is followed down to a tenth of the speed of its mode. Along a branch every link keeps
+/// its posture. In the arc, the stretch of a spring over the length of the chain is tau of one more
 /// link.
-/// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
-/// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
+/// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
+/// for chains, and off the axis for a `mode` other than 1.
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
-/// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
+/// How far branches go, and proof limits. Give either `min_conical_height` or `max_angular_speed`.
 struct DiagramOptions {
     std::optional<double> min_conical_height{};
-    std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
+    std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< number of heights, evenly spaced in the logarithm, with a proved list of shapes
+    int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< of the proof that no branch is missing: link evaluations, 0.1 to 1 us each
-    double gravity = conical_pendulum::standard_gravity;
+    long proof_budget = 1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
-
-/// All branches found above one conical height.
-struct Branches {
-    /// Those of the modes, slowest first, or the one from rest; then isolated ones, sorted by where they begin.
-    std::vector<Branch> branches;
-    double conical_height = 0;  ///< lowest conical height of the diagram
-    /// Every branch ends at that height or is closed, and at every height of `looked_at` the branches pass each shape
-    /// of the proved list once, and no other shape.
-    bool consistent = false;
-    bool complete = false;          ///< consistent, and proved: no branch is missing, not even between those heights
-    std::vector<double> looked_at;  ///< conical heights of those lists, descending
-    std::string remark;             ///< what may be missing
-};
-
-/// The whole diagram of branches from the first critical speed to the conical height or speed given: those that leave
-/// the vertical, and isolated ones that are born in a fold.
-///
-/// Method: `branch` from every mode; then proved lists of all shapes (`steady_shapes`) at `lists` heights from the end
-/// up. Each shape is matched with a crossing of a branch. A shape that no branch crosses lies on an isolated branch,
-/// which is followed from it both ways. `consistent` is true if all lists are proved complete and every shape in them
-/// is met once. finite::DiagramProver then shows that no loop opens and closes between two of the heights, or finds it,
-/// and sets `complete`. `complete` stays false where the budget of the proof runs out, and where links could hang at
-/// several inclinations; `remark` says between which heights. The proof shows where branches are. That a computed
-/// branch is one of them is checked, not proved (see finite::BranchWalk).
-/// Accuracy: as of `branch`.
-/// Cost: that of the lists and of the proof: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30
-/// ms for six; eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with AVX-512;
-/// with SSE2 up to twice as long).
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and for `lists` below
-/// 1.
-[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 
 /// How far `branches` of a rig go: as `DiagramOptions`, in one direction of rotation.
 struct RigDiagramOptions {
@@ -195,31 +167,66 @@ struct RigDiagramOptions {
     Rotation direction = Rotation::forward;
 };
 
-/// The whole diagram of a rig in its own posture: the branches of its modes, or where its support is off the axis the
-/// one from rest, and those born in folds. Method and proof are those of chains.
+/// All branches found above one conical height.
+struct Branches {
+    /// Of the modes, slowest first, or the one from rest; then isolated ones by first point.
+    std::vector<Branch> branches;
+    double conical_height = 0;  ///< lowest conical height of the diagram
+    /// true if every branch ends at that height or is closed, and at every height of `looked_at`
+    /// the branches pass each shape of the proved list once, and no other shape
+    bool consistent = false;
+    bool complete = false;          ///< consistent, and proved: no branch is missing, at any height
+    std::vector<double> looked_at;  ///< conical heights of those lists, descending
+    std::string remark;             ///< what may be missing
+};
+
+/// The whole diagram of branches from the first critical speed to the conical height or speed
+/// given: the branches of the modes, and isolated ones.
 ///
-/// The proof covers rigs whose links all hang in tension, each at one inclination for its load, at every speed up to
-/// the one given: on springs, on an arm, with flywheels, in fluids. Below the first critical speed there is then one
-/// shape (none with the support on the axis): as a function of the sines of the inclinations, the energy in the turning
-/// frame is convex. A spring cannot hold the rig where its stiffness times the conical height is less than the weight
-/// that moves: at such heights the diagram is not proved, and `remark` says so.
-/// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
+/// Method: `branch` from every mode, then proved lists of all shapes (`steady_shapes`) at `lists`
+/// heights from the end up. Each shape is matched with a crossing of a branch. A shape without one
+/// lies on an isolated branch, which is followed from it both ways. `consistent` is true if all
+/// lists are proved complete and every shape in them is met once. finite::DiagramProver then proves
+/// that no loop opens and closes between two of the heights, or finds it, and sets `complete`.
+/// `complete` is false if the budget of the proof is used up, or if links could hang at several
+/// inclinations; `remark` names the heights. The proof shows where branches are; that a computed
+/// branch is one of them is checked, not proved (see finite::BranchWalk).
+/// Accuracy: as `branch`.
+/// Cost: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30 ms for six;
+/// eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with
+/// AVX-512; with SSE2 up to twice as long).
+/// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
+/// >= 1.
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
+
+/// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
+/// if its support is off the axis, and isolated ones. Method and proof are those of chains.
+///
+/// The proof covers rigs whose links all hang in tension, each at one inclination for its load, at
+/// every speed up to the one given: on springs, on an arm, with flywheels, in fluids. Below the
+/// first critical speed there is then one shape (none with the support on the axis), because the
+/// energy in the turning frame is a convex function of the sines of the inclinations. A spring
+/// cannot hold the rig where its stiffness times the conical height is less than the weight that
+/// moves: such heights are not proved, and `remark` says so.
+/// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
-/// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
+/// Which shape on a branch of a chain or a rig. Give exactly one of the five numbers from
+/// `conical_height` to `top_tension`.
 struct OnBranchOptions {
-    Index mode = 1;  ///< at which the branch leaves the vertical
+    Index mode = 1;  ///< of the branch, as in `BranchOptions`
     std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};    ///< rad/s, with `gravity`
-    std::optional<double> tip_inclination{};  ///< of the lowest link, rad, above 0 and below a right angle
+    std::optional<double> angular_speed{};    ///< rad/s, positive in both directions
+    std::optional<double> tip_inclination{};  ///< of the lowest link, rad, above 0 and below pi/2
     std::optional<double> tip_radius{};       ///< of the free end from the axis
-    std::optional<double> top_tension{};      ///< size of the reaction at the support
-    double gravity = conical_pendulum::standard_gravity;
-    /// Lowest conical height searched. Absent: 1e-6 of the mode's height, or half of the given height (or g/n^2).
+    std::optional<double> top_tension{};      ///< magnitude of the reaction at the support
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
+    /// Lowest conical height searched. Absent: 1e-6 of the mode's, or half of the
+    /// height given (or g/n^2).
     std::optional<double> min_conical_height{};
 };
 
-/// Which shapes of a rig on one branch are wanted: as `OnBranchOptions`, in one direction of rotation.
+/// Which shapes of a rig on one branch are wanted: as `OnBranchOptions`.
 struct RigOnBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> conical_height{};
@@ -232,10 +239,10 @@ struct RigOnBranchOptions {
     std::optional<double> min_conical_height{};
 };
 
-/// As a number of shapes: all there are.
+/// As a number of shapes: all.
 inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
-/// States of one branch, in the order of its arc.
+/// Shapes of one branch, in the order of its arc.
 struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 steps
@@ -243,32 +250,33 @@ struct ShapesOnBranch {
     bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
 };
 
-/// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
-/// tip radius or top tension.
+/// The first shape along the branch of a mode at which one number is as given: conical height,
+/// speed, tip inclination, tip radius or top tension.
 ///
-/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in double-double
-/// with what is given as a condition. Next to the vertical the onset of the branch serves as a start.
-/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured:
-/// 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
-/// length: tests/cpp/finite/branch/shape_on_branch.cpp). That the state is on this branch is checked step by step, not
-/// proved.
+/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
+/// height in double-double, with the given number as a condition; near the vertical, from its
+/// onset.
+/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is
+/// proved (measured: 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed
+/// to a conical height of 1e-4 of the length: tests/cpp/finite/branch/shape_on_branch.cpp). That
+/// the shape is on this branch is checked step by step, not proved.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
-/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one number is given, for
-/// one out of its range (`tip_radius` below the length, `top_tension` above the weight), for a `min_conical_height` not
-/// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
+/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
+/// number is given, for one out of its range (`tip_radius` below the length, `top_tension` above
+/// the weight), for a `min_conical_height` not below the height of the mode, for a speed not above
+/// the mode's critical speed, and where the number is not reached.
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
-/// The first shape along a branch of a rig at which one number is as given. With the support on the axis, `mode` is a
-/// mode of the rig. Off the axis it must be 1: the branch from rest, followed from a ten-thousandth of the first
-/// critical speed, or from below the given speed.
-///
-/// `tip_inclination` is the size of the lowest link's inclination, off the axis the inclination outwards; it is between
-/// pi/2 and pi if that link stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`.
-/// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
+/// The same for a rig. On the axis `mode` is a mode of the rig. Off the axis it must be 1: the
+/// branch from rest, followed from a ten-thousandth of the first critical speed, or from below the
+/// given speed. `tip_inclination` is the magnitude of the lowest link's inclination, off the axis
+/// the inclination outwards; it is between pi/2 and pi if that link stands. `top_tension` is the
+/// tension at the topmost pin, as in `SteadyShape::tension`. Also throws InvalidArgument for a link
+/// without effective tension.
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
-/// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
-/// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
+/// All shapes on the branch at which the number is as given, in the order of the arc, at most
+/// `max_shapes`; none where the number is not reached. Otherwise as `steady_shape`.
 [[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
                                               const OnBranchOptions& options,
                                               std::size_t max_shapes = all_shapes);

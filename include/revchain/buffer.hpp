@@ -6,16 +6,17 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-/// Two railway carriages, coupled by a spring, that run against a buffer stop and deal it one blow, two or more.
+/// Two railway carriages, coupled by a spring, that hit a buffer stop: one blow, two or more.
 ///
-///     const revchain::BufferImpact impact({.front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6,
-///                                          .coupling_stiffness = 0.5e6, .speed = 2.0});
+///     const revchain::BufferImpact impact(
+///         {.front_mass = 20e3, .rear_mass = 20e3, .buffer_stiffness = 2e6,
+///          .coupling_stiffness = 0.5e6, .speed = 2.0});
 ///     impact.blows().size();      // 2 blows
 ///     impact.blows()[0].end;      // 0.397384 s
 ///     impact(0.1).buffer_force;   // 337373 N at 0.1 s
 ///
-/// Greenhill (1908) §2: "the system is seen to deal a double blow". In contact with the buffer the carriages swing as
-/// two plummets do. Units: any consistent set.
+/// Greenhill (1908) §2: "the system is seen to deal a double blow". In contact with the buffer the
+/// carriages swing as two plummets do. Units: any consistent set.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The data. Both carriages run with `speed`, with the coupling unloaded.
@@ -23,7 +24,7 @@ struct Carriages {
     double front_mass, rear_mass;
     double buffer_stiffness;    ///< the buffer only pushes; it loses contact where it would pull
     double coupling_stiffness;  ///< the coupling pulls and pushes
-    double speed;               ///< towards the buffer, at time 0, when the front carriage touches it
+    double speed;  ///< towards the buffer, at time 0, when the front carriage touches it
 };
 
 /// Displacements of the carriages since time 0, towards the buffer, and their speeds.
@@ -38,14 +39,14 @@ struct Blow {
     double impulse;     ///< integral of the buffer's force: the momentum that the carriages lose
 };
 
-/// The motion as a function of time. Accuracy, where no blow only grazes (tests/cpp/buffer.cpp): places 1e-13
-/// of speed x time, speeds 1e-13 of the speed and of acceleration x time, times of blows 1e-13 of the last one. Cost:
-/// 2 microseconds a blow, 0.1 for a state. Carriages of about the same mass deal one to three blows, a heavy one behind
-/// a light one hundreds.
+/// The motion as a function of time. Accuracy, if no blow only grazes (tests/cpp/buffer.cpp):
+/// positions 1e-13 of speed x time, speeds 1e-13 of the speed and of acceleration x time, times of
+/// blows 1e-13 of the last one. Cost: 2 microseconds a blow, 0.1 for a state. Carriages of about
+/// the same mass deal one to three blows, a heavy one behind a light one hundreds.
 class BufferImpact {
    public:
-    /// Throws InvalidArgument unless all numbers and their quotients are positive and finite, and for more than 100,000
-    /// blows or ten million steps to find them.
+    /// Throws InvalidArgument unless all numbers and their quotients are positive and finite, and
+    /// for more than 100,000 blows or ten million steps to find them.
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
@@ -53,8 +54,8 @@ class BufferImpact {
     [[nodiscard]] CarriageState operator()(double time) const;
 
    private:
-    /// The front carriage is at c + v t + sum of (a cos w t + b sin w t), the rear one at c + v t + the same sum with
-    /// each term times `ratio`.
+    /// The front carriage is at c + v t + sum of (a cos w t + b sin w t), the rear one at c + v t +
+    /// the same sum with each term times `ratio`.
     struct Phase {
         double start, centre = 0, drift = 0;
         std::array<double, 2> cosine{}, sine{}, frequency{}, ratio{};
@@ -67,7 +68,7 @@ class BufferImpact {
     Phase freedom(double start, const CarriageState& from) const;
 
     Carriages given_;
-    std::array<double, 2> frequency_{}, ratio_{};  // in contact: offset of the rear carriage over that of the front one
+    std::array<double, 2> frequency_{}, ratio_{};  // in contact; ratio: rear over front
     std::vector<Phase> phases_;                    // contact, freedom, contact, ..., freedom
     std::vector<Blow> blows_;
 };

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
 /// One rigid link of any form that hangs by a pin, and its whirl round an axis through the pin.
 ///
-///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1 hung by its end
+///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1
 ///     bar.pendulum_length();                                  // 0.666695
-///     const auto s = revchain::swung_link(bar, 0.4);          // at the speed with a conical height of 0.4
+///     const auto s = revchain::swung_link(bar, 0.4);          // conical height 0.4
 ///     s.inclination;                                          // 0.927328 rad
 ///
-/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a centroid that is not
-/// positive, a radius of gyration that is negative, and numbers that are not finite.
+/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a
+/// centroid that is not positive, a negative radius of gyration, and numbers that are not finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
 template <Real T>
@@ -37,18 +34,19 @@ struct CompoundLink {
     T centroid;            ///< h > 0, distance of the centre of gravity from the pin
     T radius_of_gyration;  ///< k >= 0, about the centre of gravity; 0 for a plummet
 
-    /// l = h + k^2/h, the length of the equivalent simple pendulum; also the distance of the centre of oscillation from
-    /// the pin. Accuracy: 1.5 ulp.
+    /// l = h + k^2/h, the length of the equivalent simple pendulum and the distance of the centre
+    /// of oscillation from the pin. Accuracy: 1.5 ulp.
     [[nodiscard]] T pendulum_length() const {
         using std::isfinite;
-        const T length = static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
-        return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
+        const T length =
+            static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
+        return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. A link hung by its centre of
-    /// oscillation has h and k^2/h exchanged, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation; it and h are
+    /// exchanged for a link hung by its centre of oscillation, §6.
     T square_over_centroid() const { return static_cast<T>(detail::squares_over_centroid(*this).value()); }
-    /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the
-    /// rest is at the pin. §6. Accuracy: 2 ulp.
+    /// h/l, the share of the weight at the centre of oscillation if two particles replace the link
+    /// (Maxwell), the other at the pin. §6. Accuracy: 2 ulp.
     [[nodiscard]] T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 
@@ -61,75 +59,27 @@ void check(std::string_view place, const CompoundLink<T>& link) {
         throw_invalid(place, "radius of gyration must not be negative, nor its square too large for the centroid",
                       link.radius_of_gyration);
 }
-
-/// Pendulum length of `link` minus that of `other`. Accuracy: 1 ulp for built-in scalars even where the two nearly
-/// agree, for centroids above 1e-140 of the lengths.
-template <std::floating_point T>
-T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other) {
-    using S = Wide<T>;
-    if constexpr (std::is_same_v<T, float>) {
-        return static_cast<T>(pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
-                                                  CompoundLink<double>{other.centroid, other.radius_of_gyration}));
-    } else {
-        int power = 0;
-        std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
-        const T h = std::ldexp(link.centroid, -power), k = std::ldexp(link.radius_of_gyration, -power);
-        const T h0 = std::ldexp(other.centroid, -power), k0 = std::ldexp(other.radius_of_gyration, -power);
-        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
-        if (std::abs(static_cast<T>(whole)) > T(0x1p-20)) return std::ldexp(static_cast<T>(whole), power);
-        // h h0 times the difference is a sum of products of three numbers, each exactly four words.
-        std::array<T, 16> terms;
-        std::size_t size = 0;
-        const auto add = [&](const T& x, const T& y, const T& z) {
-            const DoubleWord<T> product = two_product(x, y);
-            for (const T& word : {product.high, product.low}) {
-                const DoubleWord<T> part = two_product(word, z);
-                terms[size++] = part.high, terms[size++] = part.low;
-            }
-        };
-        add(h, h, h0), add(k, k, h0), add(h0, h0, T(-h)), add(k0, k0, T(-h));
-        // Each pass leaves the exact sum unchanged and moves rounding errors to the front.
-        for (std::size_t pass = 1; pass < size; ++pass)
-            for (std::size_t i = 1; i < size; ++i) {
-                const DoubleWord<T> sum = two_sum(terms[i], terms[i - 1]);
-                terms[i] = sum.high, terms[i - 1] = sum.low;
-            }
-        return Product<T>{terms.back(), power}.over(h).over(h0).value();
-    }
-}
 }  // namespace detail
 
 /// A link at a steady inclination, hung from an axle on the axis.
 template <Real T>
 struct SwungLink {
-    T inclination;           ///< to the vertical, 0 ... pi/2
-    T reaction;              ///< force at the axle over the weight
-    T reaction_inclination;  ///< of the line of that force to the vertical; it meets the vertical through the centre of
-                             ///< gravity at E, at the level of the centre of oscillation L
-    T condition;  ///< relative change of the inclination per relative change of the data; 0 if it is vertical
+    T inclination;  ///< to the vertical, 0 ... pi/2
+    T reaction;     ///< force at the axle over the weight
+    /// of the line of that force to the vertical; it meets the vertical through the centre of
+    /// gravity at E, at the level of the centre of oscillation L
+    T reaction_inclination;
+    T condition;  ///< relative change of inclination per relative change of data; 0 if vertical
 };
 
-/// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle carries the weight W
-/// downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
-/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is there
-/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination.
-/// Also throws InvalidArgument for a height that is not positive and finite. O(1).
+/// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle
+/// carries the weight W downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
+/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is
+/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination. O(1). Also throws
+/// InvalidArgument for a height that is not positive and finite.
 template <Real T>
-[[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
-    using std::abs, std::asin, std::atan, std::hypot, std::sqrt;
-    detail::check("swung_link", link);
-    detail::require_positive("swung_link", "height", height);
-    const T h = link.centroid, length = link.pendulum_length();
-    const auto squares = detail::squares_over_centroid(link);
-    const T longer = height <= h
-                         ? static_cast<T>(squares.plus(h - height).over(length).root().value())
-                         : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
-    if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
-    const T inclination = T(2) * asin(longer / sqrt(T(2)));
-    const T sine = longer * sqrt(T(1) + height / length), outwards = h / height * sine;
-    const T arm = link.square_over_centroid();
-    return {inclination, hypot(T(1), outwards), atan(outwards),
-            (T(1) + (abs(h - arm) + T(2) * arm) / length) * (height / length) / sine / inclination};
-}
+[[nodiscard]] SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height);
 
 }  // namespace revchain
+
+#include "revchain/paper/compound_link.hpp"

@@ -8,45 +8,46 @@
 
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/status.hpp"
-#include "revchain/numeric/zero_between.hpp"
 
-/// The conical pendulum, and one plummet that is free, held by a second thread, or carried round a circle.
+/// The conical pendulum, and one plummet: free, on two threads, or carried round a circle.
 ///
 ///     namespace pendulum = revchain::conical_pendulum;
-///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s: a conical pendulum 0.5 m high
+///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s, 0.5 m high
 ///     pendulum::height_from_period(2.0);                     // 0.993621 m: one revolution in 2 s
-///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the speed of the first line
+///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the first speed
 ///     p.inclination;                                         // 1.0472 rad: 60 degrees
 ///     p.tension;                                             // 2 times the weight
 ///
-/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g / lambda); lambda
-/// is the conical height of that speed. Gravity g enters the library in `revchain::conical_pendulum` only; everything
-/// else is a length or a ratio of weights. Units: any consistent set, angles in rad. All functions are O(1) and throw
-/// InvalidArgument unless every argument is positive and finite.
+/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g
+/// / lambda); lambda is the conical height of that speed. Gravity g enters the library in
+/// `revchain::conical_pendulum` only; everything else is a length or a ratio of weights. Units: any
+/// consistent set, angles in rad. Functions are O(1) and throw InvalidArgument unless arguments are
+/// positive and finite.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Direction of rotation about the axis: that of positive or that of negative angular speeds.
-/// Chains and cords whirl alike in both directions, rigs with flywheels do not.
+/// Direction of rotation: positive or negative angular speed. It matters to flywheels only.
 enum class Rotation { forward, backward };
 
 /// Speed, period, gravity and conical height from each other, §1 (1)-(7).
 /// Accuracy: 2.1 ulp, measured against 34 digits in tests/cpp/conical_pendulum.cpp.
 namespace conical_pendulum {
 
-inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact by convention (3rd CGPM, 1901)
+inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact (3rd CGPM, 1901)
 
 /// n = sqrt(g / lambda), rad/s. §1 (1)
 template <Real T>
 [[nodiscard]] T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
-    detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity", gravity);
+    detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity",
+                             gravity);
     return sqrt(gravity) / sqrt(height);  // not sqrt(g / lambda): the quotient may leave the range
 }
 
 /// lambda = g / n^2. §1 (1)
 template <Real T>
 [[nodiscard]] T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity", gravity);
+    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity",
+                             gravity);
     return gravity / angular_speed / angular_speed;
 }
 
@@ -61,7 +62,8 @@ template <Real T>
 /// lambda = g T^2 / (4 pi^2). §1 (1)
 template <Real T>
 [[nodiscard]] T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity", gravity);
+    detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity",
+                             gravity);
     const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
 }
@@ -76,12 +78,12 @@ template <Real T>
 template <Real T>
 [[nodiscard]] T height_from_revolutions_per_second(const T& revolutions,
                                                    const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
-                             revolutions);
+    detail::require_positive("conical_pendulum::height_from_revolutions_per_second",
+                             "revolutions per second", revolutions);
     return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
-/// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing to and fro. §1 (4)
+/// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing. §1 (4)
 template <Real T>
 [[nodiscard]] T gravity(const T& length, const T& period) {
     detail::require_positive("conical_pendulum::gravity", "length", length, "period", period);
@@ -89,8 +91,8 @@ template <Real T>
     return length / radian / radian;
 }
 
-/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2). The 39.1396 inches of London in 1824 give
-/// 386.29 inches/s^2; §1 (6) prints 386.28. §1 (5)-(6)
+/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2), §1 (5)-(6). The 39.1396
+/// inches of London in 1824 give 386.29 inches/s^2; §1 (6) prints 386.28.
 template <Real T>
 [[nodiscard]] T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
@@ -100,8 +102,8 @@ template <Real T>
 /// lambda = L T^2 / 4 from the length L of the seconds pendulum; needs no g. §1 (7)
 template <Real T>
 [[nodiscard]] T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
-    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum", seconds_pendulum,
-                             "period", period);
+    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum",
+                             seconds_pendulum, "period", period);
     const T half = period / T(2);
     return seconds_pendulum * half * half;
 }
@@ -117,28 +119,17 @@ void require_one_speed(std::string_view place, const Options& options) {
         throw_invalid(place, "give either conical_height or angular_speed");
 }
 
-/// The conical height that options give, or that of the angular speed they give.
-/// Throws InvalidArgument unless they give exactly one of the two, positive and finite.
+/// The conical height that options give directly or by the angular speed. Throws InvalidArgument
+/// unless exactly one is given, positive and finite.
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
     require_one_speed(place, options);
-    const double height = options.conical_height ? *options.conical_height
-                                                 : conical_pendulum::height(*options.angular_speed, options.gravity);
-    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);
+    const double height = options.conical_height
+                              ? *options.conical_height
+                              : conical_pendulum::height(*options.angular_speed, options.gravity);
+    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2",
+                     height);
     return height;
-}
-
-/// Throws InvalidArgument: at the speed or the height that options give, mode `mode` has not left the vertical, which
-/// it does at the height `critical`. The message is in the quantity that was given.
-template <class Options>
-[[noreturn]] void throw_too_slow(std::string_view place, Index mode, double critical, double height,
-                                 const Options& options) {
-    const std::string there = ", where mode " + std::to_string(mode) + " leaves the vertical";
-    if (!options.angular_speed)
-        throw_rule(place, "conical height", "less than " + in_digits(critical) + there, height);
-    const double speed = conical_pendulum::angular_speed(critical, options.gravity);
-    throw_rule(place, "angular speed", "greater than " + in_digits(speed) + " rad/s" + there,
-               std::abs(*options.angular_speed));
 }
 
 }  // namespace detail
@@ -152,9 +143,10 @@ struct InclinedPendulum {
     T tension;
 };
 
-/// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination) = height / length.
-/// It hangs straight down where height >= length. For a compound link, `length` is its pendulum length, and `tension`
-/// is not the force at its pin (`swung_link`). §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
+/// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination)
+/// = height / length. It hangs straight down if height >= length. For a compound link `length` is
+/// its pendulum length, and `tension` is not the force at its pin (`swung_link`). §1 (1), §6 (1).
+/// Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
 [[nodiscard]] InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin, std::sqrt;
@@ -162,7 +154,8 @@ template <Real T>
     if (!(height < length)) return {T(0), T(0), length, T(1)};
     // Half angles: the arc cosine of a ratio near 1 would lose half the digits.
     const T ratio = height / length, half_sine = sqrt((length - height) / length / T(2));
-    return {T(2) * asin(half_sine), length * (sqrt((length - height) / length) * sqrt(T(1) + ratio)), height,
+    return {T(2) * asin(half_sine),
+            length * (sqrt((length - height) / length) * sqrt(T(1) + ratio)), height,
             length / height};
 }
 
@@ -171,64 +164,32 @@ template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
-    bool upper_taut,
-        lower_taut;  ///< else that thread is slack, its tension 0, and the plummet circles on the other one
+    /// If false, that thread is slack, its tension is 0, and the plummet circles on the other one
+    bool upper_taut, lower_taut;
 };
 
-/// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
-/// the polygon KN, NP, PC', C'K of §1. With D the depth where both are straight, the lower thread is slack where
-/// height >= D, and the upper one where height <= D - distance; the plummet is then a conical pendulum on the other.
-/// The plummet takes the place within reach of both threads where depth + radius^2/(2 height) is largest; this function
-/// has one maximum there.
-/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
-/// Also throws InvalidArgument unless the three lengths form a triangle.
+/// The plummet held by threads from two points of the axis, the lower one `distance` below the
+/// upper one; equations of the polygon KN, NP, PC', C'K of §1. Let D be the depth with both threads
+/// straight. The lower thread is slack if height >= D, the upper one if height <= D - distance; the
+/// plummet is then a conical pendulum on the other. Of the points within reach of both threads it
+/// takes the one with the largest depth + radius^2/(2 height), which is unique. Accuracy: 3 ulp; a
+/// depth or tension that is a small difference of two terms has an error of 1e-29 of the larger
+/// one. Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
-                                          const T& distance, const T& height) {
-    using std::frexp, std::ldexp, std::sqrt;
-    constexpr std::string_view place = "held_plummet";
-    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread, "distance", distance,
-                             "height", height);
-    // Kahan's order of the sides, for the area of a thin triangle.
-    T a = upper_thread, b = lower_thread, c = distance;
-    if (a < b) std::swap(a, b);
-    if (b < c) std::swap(b, c);
-    if (a < b) std::swap(a, b);
-    const T slack = c - (a - b);
-    if (!(slack >= T(0))) detail::throw_invalid(place, "distance must make a triangle with the two threads", distance);
-    // Roots first: a product of two lengths may leave the range.
-    const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance are differences.
-    using S = Wide<T>;
-    int unit = 0, short_unit = 0;
-    frexp(a, &unit), frexp(distance, &short_unit);
-    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)), x(height);
-    const S rise = ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
-    const S along = rise * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
-    if (x >= depth) {
-        const InclinedPendulum<T> hung = inclined_pendulum(upper_thread, height);
-        return {hung.radius, hung.depth, hung.tension, T(0), true, false};
-    }
-    if (x <= above_lower) {
-        const InclinedPendulum<T> hung = inclined_pendulum(lower_thread, height);
-        return {hung.radius, distance + hung.depth, T(0), hung.tension, false, true};
-    }
-    const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
-    const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);
-    return {radius, static_cast<T>(depth), upper, lower, true, true};
-}
+                                          const T& distance, const T& height);
 
-/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the plummet's thread hangs from
-/// an arm of length `arm` and is adjusted until the arm is perpendicular to the vertical plane through the axis and the
-/// plummet. §1 (8). Accuracy: 0.5 ulp.
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the
+/// plummet's thread hangs from an arm of length `arm` and is adjusted until the arm is
+/// perpendicular to the vertical plane through the axis and the plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 [[nodiscard]] T air_resistance(const T& arm, const T& height) {
     detail::require_positive("air_resistance", "arm", arm, "height", height);
     return arm / height;
 }
 
-/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 + radius^2).
-/// Accuracy: 2 ulp.
+/// Thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 +
+/// radius^2). Accuracy: 2 ulp.
 template <Real T>
 [[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -236,65 +197,31 @@ template <Real T>
     return hypot(hypot(arm, height), radius);
 }
 
-/// Offset of a plummet over the offset of its support, which is carried round a circle or to and fro, while the thread
-/// is nearly vertical: lambda / (lambda - l). Negative where lambda < l, infinite at resonance. §1 (9).
-/// Accuracy: 1.1 ulp for lambda and l as given.
+/// Offset of a plummet over that of its support, which is carried round a circle or to and fro with
+/// a nearly vertical thread: lambda / (lambda - l), negative for lambda < l, infinite at resonance.
+/// §1 (9). Accuracy: 1.1 ulp for lambda and l as given.
 template <Real T>
 [[nodiscard]] T carried_response(const T& length, const T& height) {
     detail::require_positive("carried_response", "length", length, "height", height);
     return height / (height - length);
 }
 
-/// Steady inclinations of the thread, ascending, positive outwards. The first `count` entries are used.
+/// Steady inclinations of the thread, ascending, positive outwards. `count` are used.
 template <Real T>
 struct CarriedInclinations {
     std::array<T, 3> inclination{};
     int count = 0;
 };
 
-/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of radius b:
-/// lambda tan d = b + l sin d, §1 (9). There is always one outwards. There are two more inwards where lambda < l and
-/// b^(2/3) <= l^(2/3) - lambda^(2/3); one of these two is unstable.
-/// Accuracy: 4 ulp, times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
+/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of
+/// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
+/// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); one of these is unstable. Accuracy: 4 ulp,
+/// times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
 /// Cost: a microsecond. Also throws InvalidArgument where the tangent of an inclination overflows.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
-                                                          const T& radius) {
-    using std::atan, std::cbrt, std::sqrt;
-    constexpr std::string_view place = "carried_inclinations";
-    detail::require_positive(place, "length", length, "height", height, "radius", radius);
-    // The zeros in t = tan d of  t (lambda - cos d) - b  in units of l. It is convex for t > 0 with the slope
-    // lambda - cos^3 d. Near resonance lambda - cos d = gap + (1 - cos d),  gap = lambda - l, keeps its digits.
-    const T gap = (height - length) / length, lacking = (length - radius) / length;
-    const T c = height / length, r = radius / length;
-    const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
-    if (!(farthest <= std::numeric_limits<T>::max() / T(2)) || !(c > T(0)))
-        detail::throw_invalid(place, "height must be larger, else the tangent of an inclination overflows", height);
-    const auto function = [&](const T& t) {
-        const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant, versed = t / (secant + T(1)) * (t / secant);
-        const T slope = c - cosine * cosine * cosine;
-        // far inwards l sin d is nearly l: the difference of the two is added instead
-        if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
-        if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
-        return std::pair<T, T>(t * (gap + versed) - r, gap + versed * (T(1) + cosine + cosine * cosine));
-    };
-    const auto negative = [&](const T& t) {  // where the function falls
-        const auto [value, slope] = function(t);
-        return std::pair<T, T>(-value, -slope);
-    };
-    CarriedInclinations<T> result;
-    const auto add = [&](const T& t) { result.inclination[static_cast<std::size_t>(result.count++)] = atan(t); };
-    T turn(0);  // slope 0 at |t| = sqrt(c^(-2/3) - 1): a maximum on the inner side
-    if (gap < T(0)) {
-        const T root = cbrt(c);
-        turn = sqrt(-gap / (T(1) + root + root * root) * (T(1) + root)) / root;
-        if (!(function(-turn).first < T(0))) {
-            add(detail::zero_between(T(-farthest), T(-turn), function));
-            add(detail::zero_between(T(-turn), T(0), negative));
-        }
-    }
-    add(detail::zero_between(turn, farthest, function));
-    return result;
-}
+                                                          const T& radius);
 
 }  // namespace revchain
+
+#include "revchain/system/conical_pendulum.hpp"

@@ -18,22 +18,22 @@
 ///     const revchain::Cord cord(0.36);                           // m; uniform
 ///     const auto m = revchain::modes(cord, {.count = 3});
 ///     m.angular_speed()[0];                                      // 6.27571 rad/s
-///     m.offset(1, 0.18);                                         // -0.401734: second mode, 0.18 m from the free end
-///     m.nodes(2)[0];                                             // 0.0278012 m from the free end: the lower node
-///     m.vertical_points(2)[0];                                   // 0.0705798 m: the lower point that is vertical
+///     m.offset(1, 0.18);                   // -0.401734: second mode, 0.18 m from the free end
+///     m.nodes(2)[0];                       // 0.0278012 m from the free end: the lower node
+///     m.vertical_points(2)[0];             // 0.0705798 m: the lower point that is vertical
 ///     const auto shapes = revchain::steady_shapes(cord, {.angular_speed = 20.0});
-///     shapes.shapes.size();                                      // 2 shapes at finite amplitude: all there are
-///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});   // thicker towards the top
+///     shapes.shapes.size();                // 2 shapes at finite amplitude: all there are
+///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});
 ///
-/// Arc lengths are measured from the free end. `CordOptions` (system/cord.hpp) has the weight, the density (a power of
-/// the arc length, or a function of it) and a tip weight. `steady_shapes` and what it returns are in
-/// finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends see `Held` (held.hpp).
-/// The closed forms: special/heavy_chain.hpp, special/tapered_chain.hpp, special/tip_mass.hpp.
-/// Greenhill (1908) section 4.
+/// Arc lengths are measured from the free end. `CordOptions` has the weight, the density (a power
+/// of the arc length, or a function of it) and a tip weight. `steady_shapes` and its results are
+/// declared in finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends
+/// see `Held` (held.hpp). Greenhill (1908) §4; closed forms in special/heavy_chain.hpp,
+/// special/tapered_chain.hpp and special/tip_mass.hpp.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Whirl modes of a cord, slowest first. The k-th slowest mode is at index k - first. For a cord held straight at
-/// both ends, the lower end takes the place of the free end.
+/// Whirl modes of a cord, slowest first. Mode k is at index k - first. For a cord held straight at
+/// both ends the arc begins at its lower end.
 struct CordModes {
     Cord cord;
     Index first = 1;                  ///< number of the slowest mode here
@@ -45,18 +45,20 @@ struct CordModes {
 
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord held at both ends it
-    /// is divided by the largest offset, which is at the lowest vertical point. Throws InvalidArgument for s not in
-    /// 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
+    /// Offset of the mode at index j at arc length s, over that of the free end. For a cord held at
+    /// both ends, over the largest offset, which is at the lowest vertical point. Throws
+    /// InvalidArgument for s not in 0 ... length. Cost: 1 to 15 microseconds, 100 with a density
+    /// function; for a vector of s much less each.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
     [[nodiscard]] double slope(Index j, double s) const;
     [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending; held ends are left out.
+    /// Arc lengths at which the mode at index j crosses the axis, ascending, without held ends.
     [[nodiscard]] Vector<double> nodes(Index j) const;
-    /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below has its centre of
-    /// gravity on the axis. For a cord held at both ends there is one below each node, and one below the upper end.
+    /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
+    /// has its centre of gravity on the axis. Between held ends, one is below each node and one
+    /// below the upper end.
     [[nodiscard]] Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
@@ -64,78 +66,79 @@ struct CordModes {
     [[nodiscard]] Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
 };
 
-/// Which modes of a cord, hanging or held at both ends: as in `ModesOptions`, without a choice of method.
+/// Which modes of a cord, hanging or held at both ends: as `ModesOptions`, with one method.
 struct CordModesOptions {
     Index first = 1;
     std::optional<Index> count{};
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
-    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and for what is held weightless
+    std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
+    double gravity = conical_pendulum::standard_gravity;  ///< for windows, and if weightless
     Progress* progress = nullptr;
 };
 
-/// The modes chosen by `options`: by `first` and `count` (absent: ten) or by a window of heights or speeds that holds
-/// finitely many.
+/// The modes chosen by `first` and `count` (absent: ten), or by a window that holds finitely many.
 ///
-/// Methods and accuracy: a uniform cord has lambda_k = 4 L / j_{0,k}^2, to 3 ulp; one with a density proportional to
-/// s^p has 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of
-/// Bessel functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says
-/// the same; it was measured, for exponents from -0.99 to 100. For a density function that jumps or is less accurate it
-/// is 2e-15 and what `LineDensity::error`, twice, and `rounding_at_jumps` say. Offsets are within 1e-15 times the mode
-/// number, with series within 1e-14, of the largest one; slopes likewise.
-/// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
-/// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many),
-/// for modes above number 1e5 with series, and for a density too rough or a tip too heavy for the
-/// series.
+/// Method and accuracy: closed forms for a uniform cord, lambda_k = 4 L / j_{0,k}^2, to 3 ulp; for
+/// a density s^p, 4 (p + 1) L / j_{p,k}^2, to 3 ulp; for a uniform cord with a tip weight, zeros of
+/// a cross product of Bessel functions, to 2 ulp. Power series for all others, to 4e-15
+/// (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from -0.99
+/// to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
+/// `LineDensity::error` plus `rounding_at_jumps`. Offsets and slopes are within 1e-15 times the
+/// mode number of the largest one, with series within 1e-14. Cost: a closed form takes 0.01 to 15
+/// microseconds a mode; power series 1 ms for each mode up to the last one wanted. Throws
+/// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with
+/// series for modes above number 1e5, a density too rough or a tip too heavy.
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
-/// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on
-/// either side. Cost: that of some 40 modes, with series one path.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for more than 1e15
-/// modes, and with series for a length above 1e6 heights.
+/// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
+/// one may be counted on either side. Cost: that of some 40 modes, with series one path. Throws
+/// InvalidArgument unless exactly one of height and speed is given, positive and finite, for more
+/// than 1e15 modes, and with series for a length above 1e6 heights.
 [[nodiscard]] Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
-/// Modes of a uniform cord that a tension holds straight between two points of the axis, and how many are slower than a
-/// speed. Without gravity a height is `gravity` over the square of the speed, with the gravity of the options: the
-/// modes are those of a string, n = k pi sqrt(tension / (mass length)).
+/// Modes of a uniform cord that a tension holds straight between two points of the axis, and how
+/// many are slower than a speed. Without gravity a height is `CordModesOptions::gravity` over the
+/// square of the speed: the modes are those of a string, n = k pi sqrt(tension / (mass length)).
 ///
-/// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp (tests/cpp/cord.cpp).
-/// Offsets are within 1e-15 times the mode number of the largest one. Cost: as of a cord with a tip weight.
-/// Throws InvalidArgument for a span, for a tension that does not exceed the weight (the cord would not be straight),
-/// and as for a cord that hangs.
+/// Method: zeros of a cross product of Bessel functions (special/taut_cord.hpp). Accuracy: 2 ulp
+/// (tests/cpp/cord.cpp); offsets within 1e-15 times the mode number of the largest one. Cost: as
+/// with a tip weight. Throws InvalidArgument for a span, for a tension that does not exceed the
+/// weight (the cord would not be straight), and as for a hanging cord.
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
-/// d(conical height)/d(datum) of each mode, (k,), with all other data constant. For speeds dn = -n/(2 lambda) d lambda.
+/// d(conical height)/d(datum) of each mode, (k,), all else constant; dn = -n/(2 lambda) dlambda.
 struct CordSensitivity {
     Index first = 1;
     Vector<double> length;      ///< of the whole cord; its density stretches with it
-    Vector<double> weight;      ///< of the cord without its tip, in proportion everywhere
+    Vector<double> weight;      ///< of the cord without its tip; its distribution is constant
     Vector<double> tip_weight;  ///< 0 for a cord held at both ends
-    Vector<double> exponent;    ///< of the density, at constant weight; NaN where the density is a function
+    Vector<double> exponent;    ///< of the density, at constant weight; NaN for a density function
     Vector<double> tension;     ///< at the upper end; 0 for a cord that hangs
 };
 
-/// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of the weight below a
-/// point, tip included, changes
-///     lambda = integral of y^2 dV / I    by    - integral of dV y' (2 y + lambda y') / I,    I = integral of V y'^2.
-/// Heights are proportional to the length; otherwise they depend only on ratios of weights (and tension).
-/// Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800 offsets and slopes a mode;
-/// held at both ends two slopes, or 16 for each half wave.
+/// Derivatives of the heights of the modes with respect to the data of their cord. A change dV of
+/// the weight below a point, tip included, changes
+///     lambda = integral of y^2 dV / I   by   - integral of dV y' (2 y + lambda y') / I,
+/// where I = integral of V y'^2.
+/// Heights are proportional to the length; otherwise they depend only on ratios of weights (and
+/// tension). Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800
+/// offsets and slopes a mode; held at both ends two slopes, or 16 for each half wave.
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
-/// The branch of steady shapes that leaves the vertical at a mode, followed through every fold until it first comes to
-/// the conical height or speed given.
+/// The branch of steady shapes that leaves the vertical at a mode, followed through every fold
+/// until it first reaches the conical height or speed given.
 ///
-/// Method: continuation by arc in the plane of the free end's inclination and the conical height, on the line on which
-/// crossing `mode` of the cord's path is at the support. A step is kept only if it passes the checks of
-/// finite::BranchLineWalk: a check, not a proof. Where a theorem counts the shapes there are no folds.
-/// Accuracy: points within 1e-12; heights of folds within 1e-9, relative (tests/cpp/cord_branches.cpp).
-/// Cost: some 5 paths a point, three times that with a tip or a density; see `steady_shapes` for a path.
-/// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and speed is given,
-/// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
+/// Method: arc continuation in the plane of the free end's inclination and the conical height,
+/// along the curve on which crossing `mode` of the cord's path is at the support. Each step is
+/// checked, not proved (finite::BranchLineWalk). No folds exist where a theorem counts the shapes.
+/// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
+/// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
+/// density; see `steady_shapes` for a path.
+/// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and
+/// speed is given, positive and finite, a height not below that of the mode, a length above 1e6
+/// heights.
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
 /// How far to follow all branches of a cord. Give either `min_conical_height` or
@@ -149,87 +152,87 @@ struct CordDiagramOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// The whole diagram of branches down to the conical height or speed given: those of the modes, and isolated ones.
+/// All branches down to the conical height or speed given: of the modes, and isolated ones.
 ///
-/// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes (`steady_shapes`) at `lists`
-/// heights are compared with the branches. A shape that no branch passes lies on an isolated branch, which is followed
-/// both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
-/// uniform cord, a power s^p without a tip or with p below 0, and one mode.
-/// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
+/// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes
+/// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
+/// passes lies on an isolated branch, which is followed both ways. `complete` is true where a
+/// theorem counts the shapes (finite/cord/continuous_chain.hpp): a uniform cord, a power s^p
+/// without a tip or with p below 0, and one mode.
+/// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
-/// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
-/// tip radius or top tension.
+/// The first shape along the branch of a mode at which one number is as given, as for a chain.
 ///
-/// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical height. That height is
-/// the given one, or within 1e-14 of the one at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of
-/// the branch up to there.
-/// Throws InvalidArgument as `steady_shape` of a chain does.
+/// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
+/// height. That height is the given one, or within 1e-14 of the one at which the number is reached
+/// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain.
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
-/// All shapes on the branch at which the number is as given, at most `max_shapes` of them. It returns none, and does
-/// not throw, where the number is not met. Otherwise as `steady_shape`.
+/// All shapes on the branch at which the number is as given, at most `max_shapes`; none where the
+/// number is not reached. Otherwise as `steady_shape`.
 [[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
                                                   std::size_t max_shapes = all_shapes);
 
-/// The stability of a steady shape of a cord that hangs.
+/// The stability of a steady shape of a cord that hangs, or is held at both ends, which are fixed.
 ///
-/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with 10 nodes a panel.
-/// `exponents` are the slowest of infinitely many, up to the first on which both do not agree to 1e-6 of its size; by
-/// imaginary part. `margin` covers the difference of the two growth rates. If the two verdicts or numbers of negative
-/// directions differ, the verdict is `undecided`. Only finitely many directions have negative energy, and only as many
-/// motions can grow, so the motions of high frequency that are left out do not grow. `internal_damping` is NaN:
-/// friction in bending needs a stiffness, which a flexible cord does not have. `external_damping` is for the drag of
-/// still air on a piece of cord over its length and velocity, as of a chain.
-/// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip to 2e-9 against
-/// chains with Richardson's extrapolation: tests/python/test_cord_branches.py); those of N links differ as 1/N^2
-/// (tests/cpp/cord_branches.cpp).
-/// Cost: that of a chain with 10 links for each panel, and two to four panels or more for each half wave: 15 ms without
-/// nodes, 0.3 s for three half waves.
-/// Throws InvalidArgument for a shape of a cord of another length.
+/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), twice: with 8 and with
+/// 10 nodes a panel. `exponents` are the slowest of infinitely many, by imaginary part, up to the
+/// first on which the two results differ by more than 1e-6 of its size. `margin` covers the
+/// difference of the two growth rates. If verdicts or numbers of negative directions differ, the
+/// verdict is `undecided`. Only finitely many directions have negative energy, and only as many
+/// motions can grow, so the omitted motions of high frequency do not grow. `internal_damping` is
+/// NaN: friction in bending needs a stiffness, which a cord does not have. `external_damping` is
+/// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
+/// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
+/// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py);
+/// those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
+/// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
+/// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
-/// The same for a shape of a cord held at both ends. The ends stay in their places.
 [[nodiscard]] Stability stability(const Cord& cord, const HeldCordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
-/// The offsets or velocities of a cord at time 0: none (all 0); values at `CordSwingOptions::arc_length`, linear
-/// between them; or a continuous function of the arc length. The value at the support must be 0.
+/// The offsets or velocities of a cord at time 0: none (all 0); values at
+/// `CordSwingOptions::arc_length`, linear between them; or a continuous function of the arc length;
+/// 0 at the support.
 using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
 
-/// The start of a swing, and the times and places of its results.
+/// The start of a swing, and the times and arc lengths of its results.
 struct CordSwingOptions {
     CordStart offset{};           ///< at time 0
     CordStart velocity{};         ///< at time 0
     std::vector<double> time{};   ///< of either sign, in any order
-    Vector<double> arc_length{};  ///< ascending, 0 (the free end) ... length; empty: 101 equally spaced places
+    Vector<double> arc_length{};  ///< ascending, 0 (free end) ... length; empty: 101, equal steps
     Index count = 40;             ///< of the slowest modes that are superposed
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;
 };
 
-/// A cord swinging in a plane with small amplitude: the sum of its modes, each at its own frequency.
+/// A cord swinging in a plane with small amplitude: the sum of its modes.
 struct CordSwing {
-    Vector<double> arc_length;         ///< (n) places of the offsets
-    Table<double> offset, velocity;    ///< (times, n) sums of the modes kept
-    Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
-    Vector<double> energy;             ///< (k,) of each mode, weight times length; it stays in the mode
+    Vector<double> arc_length;         ///< (n) of the offsets
+    Table<double> offset, velocity;    ///< (times, n) sums of `count` modes
+    Vector<double> angular_frequency;  ///< (k,) w = sqrt(g / lambda), ascending
+    Vector<double> energy;             ///< (k,) of each mode, weight times length; constant
     Table<double> shape;               ///< (k, n) of each mode, 1 at the free end
-    Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
-    double energy_left_out = 0;        ///< of the start, outside the modes kept
-    Vector<double> error_estimate;     ///< (n) of an offset at any time, from the modes up to number 2 k
+    Vector<double> cosine, sine;       ///< (k,) offset = sum of shape (cosine cos wt + sine sin wt)
+    double energy_left_out = 0;        ///< of the start, in all other modes
+    Vector<double> error_estimate;     ///< (n) of an offset at any time, from modes up to 2 k
 };
 
 /// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.
 ///
-/// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher modes, extrapolated
-/// from the decrease between modes k/2 ... k and k + 1 ... 2 k. For a start with a kink in a cord without a tip,
-/// convergence at the free end is slow, as k^-1/2, because waves meet there.
-/// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of swings. Measured
-/// against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800 places and more, 1 to 15 microseconds
-/// each.
-/// Throws InvalidArgument for starts that are not finite, continuous, of the length of `arc_length`, or 0 at the
-/// support, for places out of order, a count below 1 or above 1e4, gravity not positive and times not finite.
+/// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher
+/// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
+/// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
+/// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of
+/// swings; measured against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800
+/// arc lengths or more, 1 to 15 microseconds each.
+/// Throws InvalidArgument for starts that are not finite, continuous, of the length of
+/// `arc_length`, or 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,
+/// gravity not positive and times not finite.
 [[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 
 }  // namespace revchain

@@ -27,7 +27,7 @@ struct SpeedWindow {
     T high{};
 };
 
-/// As a count of modes: all there are.
+/// As a count of modes: all.
 inline constexpr Index all_modes = std::numeric_limits<Index>::max();
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
@@ -53,7 +53,7 @@ void check_window(std::string_view name, const T& low, const T& high) {
     if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
 }
 
-/// The modes in a window, of `all` there are; `above(height)` counts those whose height exceeds a height.
+/// The modes, of `all`, in a window of heights; `above(height)` counts those with larger ones.
 template <Real T, class Above>
 ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& above) {
     check_window("conical height", window.low, window.high);
@@ -62,7 +62,7 @@ ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& ab
     return {before + 1, std::max(all - before, Index(0))};
 }
 
-/// The modes in a window of speeds, of `all` there are; `below(speed)` counts the modes slower than a speed.
+/// The modes, of `all`, in a window of speeds; `below(speed)` counts slower modes.
 template <Real T, class Below>
 ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& below) {
     check_window("angular speed", window.low, window.high);
@@ -88,25 +88,26 @@ template <Real T>
 class LazyCounter;
 }
 
-/// Counts the modes of one chain above a conical height or below a speed, without computing any mode. The chain is
-/// assembled once; each count is one O(N) pass.
-///
-/// The count is proved: in T (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A
-/// conical height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of the given one counts as equal to it,
-/// so that neither exceeds the other.
+/// Counts the modes of one chain above a conical height or below a speed, without computing any
+/// mode. The chain is assembled once, and each count is one O(N) pass. The count is proved: in T
+/// (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A conical
+/// height within 2^20 roundings of `Wide<T>` (4e-25 in double) of the given one counts as equal to
+/// it.
 template <Real T>
 class ModeCounter {
    public:
-    explicit ModeCounter(const Chain<T>& chain) : mode_count_(chain.mode_count()), pencils_(chain) {}
+    explicit ModeCounter(const Chain<T>& chain)
+        : mode_count_(chain.mode_count()), pencils_(chain) {}
 
-    /// How many conical heights exceed `height`. Throws InvalidArgument unless it is positive and finite.
+    /// The number of conical heights above `height`. Throws InvalidArgument unless it is positive
+    /// and finite.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
         return above(Wide<T>(height), height);
     }
 
-    /// How many whirl speeds lie below `angular_speed`: the comparison is with g / n^2 in `Wide<T>`.
-    /// Throws InvalidArgument unless both are positive and finite.
+    /// The number of whirl speeds below `angular_speed`: conical heights are compared with g / n^2
+    /// in `Wide<T>`. Throws InvalidArgument unless both are positive and finite.
     [[nodiscard]] Index below_speed(const T& angular_speed, const T& gravity) const {
         detail::require_positive("count_modes", "angular speed", angular_speed);
         detail::require_positive("count_modes", "gravity", gravity);
@@ -114,71 +115,41 @@ class ModeCounter {
                      gravity / angular_speed / angular_speed);
     }
 
-    /// The modes whose heights lie in the window: those above `low` and not above `high`, by `above_height`. Adjacent
-    /// windows share no mode and miss none. Throws InvalidArgument unless 0 <= low < high.
+    /// The modes whose heights lie in the window. Adjacent windows share no mode and miss none.
+    /// Throws InvalidArgument unless 0 <= low < high.
     [[nodiscard]] ModeRange within(const HeightWindow<T>& window) const {
-        return detail::modes_within(window, mode_count_, [&](const T& height) { return above_height(height); });
+        return detail::modes_within(window, mode_count_,
+                                    [&](const T& height) { return above_height(height); });
     }
 
-    /// The modes whose speeds lie in the window, by `below_speed`. Throws InvalidArgument unless 0 <= low < high and
+    /// The modes whose speeds lie in the window. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
     [[nodiscard]] ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         detail::require_positive("modes", "gravity", gravity);
-        return detail::modes_within(window, mode_count_, [&](const T& speed) { return below_speed(speed, gravity); });
+        return detail::modes_within(window, mode_count_,
+                                    [&](const T& speed) { return below_speed(speed, gravity); });
     }
 
    private:
     friend detail::LazyCounter<T>;
-    /// `rough` is `height` in T: it says where the height has left the range of the scalar.
-    Index above(const Wide<T>& height, const T& rough) const {
-        using std::ldexp;
-        const T scaled = pencils_.scaled(rough);
-        using limits = std::numeric_limits<T>;
-        if (!(scaled < ldexp(T(1), limits::max_exponent - limits::digits))) return 0;
-        if (scaled < ldexp(T(1), limits::min_exponent + limits::digits)) return mode_count_;
-        const Wide<T> shift = pencils_.scaled(height);
-        const auto sure = pencils_.template certified_count<1>({shift});
-        if (sure[0].proved) return sure[0].above;
-        const Wide<T> tie(operation_error<Wide<T>>() * Narrow<Wide<T>>(1 << 20));
-        return pencil::certified_count<Wide<T>, 1>(pencils_.wide(), {shift + shift * tie})[0].above;
-    }
+    /// `rough` is `height` in T, which may leave the range of T.
+    Index above(const Wide<T>& height, const T& rough) const;
 
     Index mode_count_;
     detail::Pencils<T> pencils_;
 };
 
-namespace detail {
-
-/// The counter of a chain and its pencils, assembled when first needed, so that a stage of `modes` without counts does
-/// not pay for them. The chain must outlive it.
-template <Real T>
-class LazyCounter {
-   public:
-    explicit LazyCounter(const Chain<T>& chain) : chain_(chain) {}
-    const ModeCounter<T>& counter() {
-        if (!counter_) counter_.emplace(chain_);
-        return *counter_;
-    }
-    const Pencils<T>& pencils() { return counter().pencils_; }
-
-   private:
-    const Chain<T>& chain_;
-    std::optional<ModeCounter<T>> counter_;
-};
-
-}  // namespace detail
-
-/// The speed below which modes are counted. Give one of `conical_height` and `angular_speed`.
+/// The speed below which modes are counted. Give either `conical_height` or `angular_speed`.
 template <Real T>
 struct CountOptions {
-    std::optional<T> conical_height{};                  ///< modes whose conical height exceeds it
-    std::optional<T> angular_speed{};                   ///< rad/s: modes whose whirl speed lies below it
+    std::optional<T> conical_height{};                  ///< modes with a larger one
+    std::optional<T> angular_speed{};                   ///< rad/s: modes slower than it
     T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
 };
 
-/// The number of modes slower than a speed, proved. Greenhill (1908) section 8 (21).
-/// Accuracy and ties: see `ModeCounter`, which saves the assembly where many counts of one chain are wanted.
-/// Cost: 0.1 microseconds a link. Throws InvalidArgument unless exactly one of the two is given, positive and finite.
+/// The number of modes slower than a speed, proved; Greenhill (1908) §8 (21). Accuracy and ties:
+/// see `ModeCounter`, which is faster for many counts of one chain. Cost: 0.1 microseconds a link.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
 template <Real T>
 [[nodiscard]] Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
     detail::require_one_speed("count_modes", options);
@@ -188,3 +159,5 @@ template <Real T>
 }
 
 }  // namespace revchain
+
+#include "revchain/linear/count.hpp"

@@ -9,12 +9,12 @@
 #include "revchain/models/select.hpp"
 #include "revchain/modes.hpp"
 
-/// Which method `modes` tries first for a tolerance, and what the others would cost.
+/// The method that `modes` tries first for a tolerance, and the predicted costs of the others.
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
 ///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
 ///     e.methods[e.chosen].name;    // "continuous chain"
-///     const std::string table = e.text();  // every method with its error bound and its time, or why it cannot serve
+///     const std::string table = e.text();  // each method with its bound and time, or why not
 namespace revchain::inline REVCHAIN_BUILD {
 
 class Rig;   // revchain/rig.hpp
@@ -22,32 +22,31 @@ class Cord;  // revchain/cord.hpp
 template <class System>
 class Held;  // revchain/held.hpp
 
-/// The methods for some modes, each with what is known of it before it is used, and the one chosen.
+/// The methods for some modes, with their predicted properties, and the one chosen.
 struct Explanation {
-    std::vector<Estimate> methods;  ///< name, whether it applies, error bound (relative), cost (seconds)
+    std::vector<Estimate> methods;  ///< name, fit, error bound (relative), cost (seconds)
     std::size_t chosen = 0;         ///< index into `methods`
-    bool meets_tolerance = false;   ///< false: no method keeps the tolerance, and `chosen` is the most accurate
+    bool meets_tolerance = false;   ///< false: none does; `chosen` is the most accurate
 
-    /// A table for people, with a mark at the method chosen. Each line ends with a newline.
+    /// A table in plain text; the method chosen is marked. Each line ends with a newline.
     [[nodiscard]] std::string text() const;
 };
 
-/// The modes that `modes` would be asked for, and how accurately.
+/// The modes wanted, and how accurately: as in `ModesOptions`.
 struct ExplainOptions {
-    Index first = 1;               ///< number of the first mode, from 1 for the slowest
-    std::optional<Index> count{};  ///< how many, or `all_modes`; absent: 10, or all if fewer
-    std::optional<double> rtol{};  ///< relative tolerance of the conical heights; absent: full accuracy
+    Index first = 1;               ///< from 1 for the slowest
+    std::optional<Index> count{};  ///< or `all_modes`; absent: at most 10
+    std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first for these modes. No mode is computed.
-/// Where that method cannot prove its bound for the links of this chain, `modes` takes the next
-/// one; `Modes::method` names the method that was used. Accuracy: each method keeps its error
-/// bound; predicted times were within a factor of 3 of measured times (bench/models.cpp). Cost:
-/// some microseconds. Throws InvalidArgument as `modes` does.
+/// Returns the method that `modes` of a chain tries first. No mode is computed. Where that method
+/// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
+/// method used. Accuracy: each method meets its error bound; predicted times were within a factor
+/// of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws as `modes`.
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
-/// Deleted: modes of rigs, cords and held systems have one method for each kind of system, and
-/// nothing to choose. Call `modes` and read `RigModes::method`, `CordModes::method` or `Modes::method`.
+/// Deleted: modes of rigs, cords and held systems have one method for each kind of system. Call
+/// `modes` and read `RigModes::method`, `CordModes::method` or `Modes::method`.
 Explanation explain(const Rig& rig, const ExplainOptions& options = {}) = delete;
 Explanation explain(const Cord& cord, const ExplainOptions& options = {}) = delete;
 template <class System>

@@ -5,7 +5,7 @@
 
 #include "revchain/special/jacobi.hpp"
 
-/// The ball of a governor: a compound link hinged on a turning axis, swinging in the plane that turns with the axis.
+/// The ball of a governor: a link hinged on a turning axis, swinging in a plane that turns with it.
 ///
 ///     const revchain::analytic::GovernorMotion motion(
 ///         {.angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2});
@@ -13,17 +13,18 @@
 ///     motion.least_angle();     // 0.75646 rad; the greatest angle is 1.2 rad
 ///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
-/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, other units any consistent set.
+/// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, consistent units.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
 /// The data of the motion.
 struct Governor {
-    double angular_speed;        ///< n of the axis; 0 for a plain pendulum
-    double pendulum_length;      ///< l > 0, about the hinge
-    double gravity;              ///< g; negative if the axis is upside down
-    double angle;                ///< theta at time 0
-    double angle_rate = 0;       ///< theta' at time 0
-    double axial_inertia = 0.0;  ///< 0 ... 1: moment of inertia about the link's own line over that about the hinge
+    double angular_speed;    ///< n of the axis; 0 for a plain pendulum
+    double pendulum_length;  ///< l > 0, about the hinge
+    double gravity;          ///< g; negative if the axis is upside down
+    double angle;            ///< theta at time 0
+    double angle_rate = 0;   ///< theta' at time 0
+    /// 0 ... 1: moment of inertia about the link's own line over that about the hinge
+    double axial_inertia = 0.0;
 };
 
 /// Kinds of motion, §7 (4)-(13), with the functions that describe them.
@@ -31,7 +32,7 @@ enum class GovernorRegime {
     rest,         ///< an equilibrium, also the relative equilibrium at cos theta = lambda / l
     aside,        ///< between two angles on one side: dn
     asymptotic,   ///< towards an equilibrium that is never reached: sech, sinh
-    through,      ///< to and fro through the lowest point (the highest one for negative gravity): cn
+    through,      ///< to and fro through the lowest point (highest if gravity is negative): cn
     revolutions,  ///< round and round: tn
 };
 
@@ -47,24 +48,25 @@ struct GovernorState {
 
 /// The motion theta'' = n^2 sin theta cos theta - (g/l) sin theta, as a function of time.
 ///
-/// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the squares of theta' at the
-/// bottom and at the top. kappa and kappa' follow from e, f and b without a difference, also near the separatrices.
-/// Accuracy: 1e-14 (|theta| + |t theta'|), and as much of theta', unless e or f is lost in rounding: the start gives
-/// them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the conical height are resolved to their last digit.
-/// Cost: a microsecond to construct, 0.2 for each time.
+/// Method: with tau = tan(theta/2), 4 tau'^2 = e + 2 b tau^2 + f tau^4, where e and f are the
+/// squares of theta' at the bottom and at the top. kappa and kappa' follow from e, f and b without
+/// a difference, also near the separatrices.
+/// Accuracy: 1e-14 (|theta| + |t theta'|), and as much of theta', unless e or f is lost in
+/// rounding: the start gives them to 1e-16 (theta'^2 + n^2 + |g/l|). Pendulum lengths near the
+/// conical height are resolved to their last digit. Cost: a microsecond to construct, 0.2 a time.
 class GovernorMotion {
    public:
-    /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not positive, an axial inertia
-    /// outside 0 ... 1, and data so far apart that a modulus is lost.
+    /// Throws InvalidArgument for numbers that are not finite, a pendulum length that is not
+    /// positive, an axial inertia outside 0 ... 1, and data so far apart that a modulus is lost.
     explicit GovernorMotion(const Governor& given);
 
     GovernorRegime regime() const noexcept { return regime_; }
     /// Period of the motion, or of one revolution; infinite if asymptotic, 0 at rest.
     double period() const noexcept { return period_; }
-    /// The angles between which it moves, within (-pi, 2 pi); -infinity and infinity for revolutions.
+    /// The range of angles, within (-pi, 2 pi); -infinity and infinity for revolutions.
     double least_angle() const noexcept { return least_; }
     double greatest_angle() const noexcept { return greatest_; }
-    /// theta'^2 that the energy leaves at the bottom and at the top; negative where the motion cannot get there.
+    /// theta'^2 at the bottom and at the top; negative if the motion cannot reach that point.
     double energy_at_bottom() const noexcept { return bottom_; }
     double energy_at_top() const noexcept { return top_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
@@ -75,7 +77,7 @@ class GovernorMotion {
    private:
     enum class Form { constant, growing, cn, dn, tn };
 
-    /// opposite : adjacent = tan(angle/2) beyond so many whole turns; the rate of that angle.
+    /// opposite : adjacent = tan(angle/2) after `turns` whole turns; `rate` of that angle.
     struct Half {
         double opposite, adjacent, turns, rate;
     };
@@ -88,8 +90,8 @@ class GovernorMotion {
 
     GovernorRegime regime_ = GovernorRegime::rest;
     Form form_ = Form::constant;
-    bool upside_down_ = false;            // angles are counted from the top, so that gravity pulls downwards
-    double turns_ = 0;                    // whole turns between the angle given and the one computed
+    bool upside_down_ = false;            // angles from the top: gravity is positive
+    double turns_ = 0;                    // whole turns from the angle computed to the one given
     double angle_ = 0;                    // given
     double rate_ = 0, phase_ = 0;         // u = phase + rate t
     double opposite_ = 0, adjacent_ = 1;  // tan(theta/2): their ratio times cn, dn or tn

@@ -3,13 +3,14 @@
 
 #include "revchain/conical_pendulum.hpp"
 
-/// A closed chain that runs round in a circle, such as the rim of a wheel, and a nearly straight vibrating string.
+/// A closed chain that runs in a circle (the rim of a wheel), and a nearly straight string.
 ///
-///     revchain::hoop::tension(20.0);          // 40.7886 m of rim weigh as much as the tension at 20 m/s
-///     revchain::hoop::speed(10000.0);         // 313.156 m/s: a rim with a breaking length of 10 km bursts
+///     revchain::hoop::tension(20.0);   // 40.7886 m of rim weigh as much as the tension at 20 m/s
+///     revchain::hoop::speed(10000.0);  // 313.156 m/s bursts a rim with a breaking length of 10 km
 ///
-/// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that has this weight. Units: any consistent
-/// set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument unless every argument is positive and finite.
+/// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that has this weight.
+/// Units: any consistent set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument
+/// unless every argument is positive and finite.
 namespace revchain::inline REVCHAIN_BUILD::hoop {
 
 /// h = v^2 / g of a rim that runs with speed v; the same for every radius. §5 (6)
@@ -19,8 +20,8 @@ template <Real T>
     return speed / gravity * speed;
 }
 
-/// v = sqrt(g h): the speed of a rim whose tension is h, and the speed of transverse waves relative to a string with
-/// that tension. For h = breaking length it is the speed at which the rim bursts. §5 (3), (6)
+/// v = sqrt(g h): the speed of a rim with tension h, and of transverse waves relative to a string
+/// with that tension. For h = breaking length, the speed at which the rim bursts. §5 (3), (6)
 template <Real T>
 [[nodiscard]] T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     using std::sqrt;
@@ -31,8 +32,8 @@ template <Real T>
 /// Speeds in space of the two waves on a rim.
 template <Real T>
 struct WaveSpeeds {
-    T standing;  ///< of the wave that runs against the rim: 0, it stands still in space
-    T running;   ///< of the wave that runs with the rim: twice its speed
+    T standing;  ///< of the wave against the rim: 0, it stands still in space
+    T running;   ///< of the wave with the rim: twice its speed
 };
 
 /// Speeds of the waves on a rim that runs with `speed`. §5, after (6)
@@ -42,8 +43,8 @@ template <Real T>
     return {T(0), T(2) * speed};
 }
 
-/// Revolutions (or complete vibrations) per second of a nearly straight string in one half wave: sqrt(g h) / (2 span).
-/// With span 2a this is the paper's R = sqrt(g h / a^2) / 4. §5 (3)
+/// Revolutions (or complete vibrations) per second of a nearly straight string in one half wave:
+/// sqrt(g h) / (2 span). With span 2a this is the paper's R = sqrt(g h / a^2) / 4. §5 (3)
 template <Real T>
 [[nodiscard]] T string_revolutions_per_second(
     const T& span, const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {

@@ -16,46 +16,46 @@
 
 /// Whirl modes of small amplitude: speeds, shapes and nodes, each speed with a proved bound.
 ///
-///     // links are listed from the free end up
-///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),  // the lowest link first
+///                                          revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain, {.count = 2});
 ///     m.angular_speed(9.80665)[0];   // 3.80868 rad/s, the slowest mode
 ///     m.conical_height[0];           // 0.67604 = g/n^2, in the unit of the lengths
 ///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
-///     m.shape(0)[1];                 // offset of the second pin, free end first; shapes are computed now
+///     m.shape(0)[1];                 // offset of the second pin, free end first
 ///
-/// Greenhill (1908) section 8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung from a fixed
-/// point is the natural angular frequency of its plane swing.
+/// Greenhill (1908) §8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung
+/// from a fixed point is the natural angular frequency of its plane swing.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// How conical heights are found.
 enum class ModesMethod {
-    automatic,     ///< the cheapest method that keeps the tolerance (explain.hpp lists them with their costs)
+    automatic,     ///< the cheapest that meets the tolerance; see explain.hpp
     bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
-    condensed,     ///< the chain is condensed to blocks first: a few of the slowest modes of a long chain, to 2 ulp
+    condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
     aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
-    interpolated,  ///< the characteristic polynomial is interpolated: many modes
+    interpolated,  ///< for many modes: interpolates the characteristic polynomial
 };
 
-/// Which modes, and how accurately. Modes are chosen by number (`first`, `count`) or by one window, not both.
+/// Which modes, by number (`first`, `count`) or by one window, not both, and how accurately.
 template <Real T>
 struct ModesOptions {
-    Index first = 1;                                  ///< number of the first mode, from 1 for the slowest
-    std::optional<Index> count{};                     ///< how many, or `all_modes`; absent: 10, or all if fewer
+    Index first = 1;                                  ///< from 1 for the slowest
+    std::optional<Index> count{};                     ///< or `all_modes`; absent: at most 10
     std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
-    std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
+    std::optional<T> rtol{};  ///< relative tolerance of conical heights; absent: full accuracy
+    bool certify = false;     ///< also return `Certificate`
     T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed
-    Index threads = 1;                                  ///< for heights and shapes; 0: all processors
+    Index threads = 1;                                  ///< 0: all processors
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
-    /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
+    /// A method that does not apply is replaced by bisection; `Modes::method` names the one used.
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them. For mode k,
-/// `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed `upper`; `count_modes` returns
-/// the same numbers. An end is 0 or infinite where no count could be proved.
+/// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them.
+/// For mode k, `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed
+/// `upper`; `count_modes` returns the same numbers. An end is 0 or infinite if no count was proved.
 template <Real T>
 struct Certificate {
     Vector<T> lower;  ///< (k,) in the chain's unit of length
@@ -64,26 +64,27 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Whirl modes of a chain, slowest first. The k-th slowest mode is at index k - first. A window may hold no mode;
-/// `first` is then the number of the next faster mode.
+/// Whirl modes of a chain, slowest first. Mode k is at index k - first. In an empty window, `first`
+/// is the next faster mode.
 template <Real T>
 struct Modes {
     Index first = 1;               ///< number of the slowest mode here
     Vector<T> conical_height{};    ///< (k,) lambda, descending, in the chain's unit of length
     Vector<T> error_bound{};       ///< (k,) relative to the exact height of the stored numbers
     Certificate<T> certificate{};  ///< empty unless asked for
-    std::string method{};          ///< that found the heights
+    std::string method{};          ///< the one used
     Status status = Status::success;
 
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// (k, N+1) offsets of the pins, free end first, support last (0); the largest in size of each mode is 1, the free
-    /// end positive. Computed when first asked for and kept, as the next two are. Threads may share the result.
+    /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
+    /// magnitude is 1 and the free end positive. Computed when first called, as the next two;
+    /// thread-safe.
     const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
-    /// (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
-    const Vector<T>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
-    /// k lists: distances from the free end where the mode crosses the axis
-    const std::vector<Vector<T>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
+    /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
+    const Vector<T>& residual() const { return details().residual; }
+    /// k lists: distances from the free end at which the mode crosses the axis
+    const std::vector<Vector<T>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
@@ -94,12 +95,16 @@ struct Modes {
     [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::period<T>);
     }
-    Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
+    Vector<T> revolutions_per_second(
+        const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::revolutions_per_second<T>);
     }
 
    private:
     friend detail::ShapesBehind;
+    const detail::ModeShapes<T>& details() const {
+        return lazy_shapes_.details(size(), nullptr);
+    }
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
@@ -109,27 +114,28 @@ struct Modes {
     detail::LazyModeShapes<T> lazy_shapes_{};
 };
 
-/// The modes chosen by `options`; their shapes are computed when they are asked for.
+/// The modes chosen by `options`. Shapes are computed on demand.
 ///
-/// The cheapest method whose error bound is at most `rtol` is used; `Modes::method` names it. The methods range from
-/// closed forms, zeros of Bessel functions and coarse chains to the numerical ones of `ModesMethod`.
-/// Windows are decided by proved counts (`ModeCounter::within`), not by the rounded heights that are returned.
-/// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
-/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp), the bound at most 2 ulp and proved by counts. With `rtol` the
-/// bound is at most `rtol`, and proved by counts for the methods of `ModesMethod` and for coarse chains. For closed
-/// forms, continuous chains and asymptotic formulas it is derived and measured to hold; `certify` proves it for all.
-/// Shapes are within 5.6e-17 of the largest offset (3.5e-16 / gap where weights need several units), with a looser
-/// `rtol` within rtol / gap. The gap, at most 1, is the relative distance to the next height.
-/// Results are bitwise the same whatever the number of threads.
-/// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
-/// Method: modes are counted in T at eight trial heights in one pass. A twisted factorization then gives a shape, and
-/// the shape gives a Rayleigh quotient in `Wide<T>`. Its residual or two counts prove the bound. A chain of floats is
-/// solved in double. In long double and wider scalars, heights come from bisection.
-/// Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds eight at a time, shapes 0.006; one by one, as
-/// where weights need several units, 0.3. Memory O(N k) with shapes.
-/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >= high, numbers
-/// together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
-/// status is `Status::tolerance_not_met` and the bounds are those reached.
+/// Method: the cheapest whose error bound is at most `rtol`: closed forms, zeros of Bessel
+/// functions, coarse chains, or the numerical ones of `ModesMethod`. `Modes::method` names it. The
+/// numerical methods count modes in T at eight trial heights in one pass. A twisted factorization
+/// gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts prove the
+/// bound. A chain of floats is solved in double. Long double and wider scalars use bisection.
+/// Windows are decided by proved counts (`ModeCounter::within`), not by rounded heights.
+/// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored
+/// numbers (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2
+/// ulp, proved by counts. With `rtol`: the bound is at most `rtol`, proved by counts for the
+/// methods of `ModesMethod` and coarse chains; for closed forms, continuous chains and asymptotic
+/// formulas it is derived and measured to hold. `certify` proves it for all. Shapes are within
+/// 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a
+/// looser `rtol`), where gap, at most 1, is the relative distance to the next height. Where
+/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
+/// Results are bitwise the same for any number of threads.
+/// Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds eight at a time, shapes
+/// 0.006; one by one, as where weights need several units, 0.3. Memory O(N k) with shapes.
+/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >=
+/// high, numbers together with a window, and a tolerance that is negative or NaN. A tolerance out
+/// of reach gives `Status::tolerance_not_met` and the bounds reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
@@ -139,8 +145,10 @@ template <Real T>
 namespace revchain::inline REVCHAIN_BUILD {
 extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
 extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
-extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);
-extern template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&, const ModesOptions<DoubleDouble>&);
+extern template Modes<long double> modes(const Chain<long double>&,
+                                         const ModesOptions<long double>&);
+extern template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&,
+                                          const ModesOptions<DoubleDouble>&);
 }  // namespace revchain
 #else
 #include "revchain/questions/modes.hpp"

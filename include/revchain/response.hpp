@@ -9,59 +9,62 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
-/// Forced motion of small amplitude of a chain whose support moves on a circle, or to and fro (base excitation).
+/// Forced motion of a chain whose support moves on a circle or to and fro (base excitation).
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-///     const auto r = revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
+///     const auto r =
+///         revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
 ///     r.offset(0, 0);       // 0.0145272 m: the free end at 2 rad/s, on the side of the support
 ///     r.reversed[1];        // 1: at 5 rad/s it is opposite to the support
 ///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The speeds of the support, how far it moves, and which pins are wanted.
+/// The motion of the support, and the pins wanted. Give either `conical_height` or `angular_speed`.
 struct ResponseOptions {
-    std::vector<double> conical_height{};      ///< of the speeds: give these or `angular_speed`
-    std::vector<double> angular_speed{};       ///< rad/s; with a flywheel, negative ones turn the other way
+    std::vector<double> conical_height{};      ///< of the speeds
+    std::vector<double> angular_speed{};       ///< rad/s; with a flywheel of either sign
     double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
-    std::optional<std::vector<Index>> pins{};  ///< the pins wanted, in any order, 0 the free end; absent: all
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    std::optional<std::vector<Index>> pins{};  ///< in any order, 0 the free end; absent: all
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Index threads = 1;                                    ///< 0: all processors
-    Progress* progress = nullptr;                         ///< read and cancelled from another thread
+    Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// Steady forced motion of small amplitude; one row for each speed. For motion to and fro along a line the same numbers
-/// are amplitudes: offsets and forces are then these numbers times cos(n t).
+/// Steady forced motion of small amplitude, one row for each speed. For motion to and fro the
+/// numbers are amplitudes: multiply offsets and forces by cos(n t).
 struct Response {
     std::vector<Index> pins;
-    Table<double> offset;          ///< (speeds, pins) positive on the side of the support; NaN at resonance
-    Vector<double> error_bound;    ///< of every offset of the chain, over the largest; infinite at resonance
-    Vector<Index> modes_below;     ///< modes slower than the drive, proved; without the resonant one at a resonance
+    Table<double> offset;  ///< (speeds, pins) positive on the side of the support; NaN at resonance
+    Vector<double> error_bound;    ///< of every offset, over the largest; infinite at resonance
+    Vector<Index> modes_below;     ///< slower modes, proved; without a resonant one
     std::vector<char> reversed;    ///< whether the free end is opposite to the support
     std::vector<char> resonant;    ///< whether the speed cannot be told from a resonance
-    Vector<double> support_force;  ///< horizontal pull of the chain on what carries its support, outwards
+    Vector<double> support_force;  ///< horizontal pull of the chain on its support, outwards
     Vector<double> support_force_error;  ///< bound, in the unit of the weights
 };
 
-/// Forced motion of a chain whose support is carried round a circle of radius b, once free motions have died away:
-/// K y = M y / lambda with y = b at the support. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
+/// Forced motion of a chain whose support is carried round a circle of radius b, after free motions
+/// have died away: K y = M y / lambda with y = b at the support. One plummet, Greenhill (1908) §1
+/// (9): b lambda / (lambda - l).
 ///
-/// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several speeds to a pass, with
-/// a bound of its error. Ratios of neighbouring offsets then give the offsets from the support down. Speeds in doubt,
-/// next to a resonance or where a pin is nearly a node, are computed once more in interval arithmetic.
-/// Accuracy: half an ulp of each offset until within about 1e-12 of a resonance; `error_bound` is proved for every
-/// chain. Counts of modes are proved too: below all resonances the chain is on the side of its support, and each
-/// resonance reverses it. Results are bitwise the same whatever the number of threads.
-/// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with two
-/// (bench/response.cpp); memory that of the result, less where `pins` asks for a few.
-/// Throws InvalidArgument where heights and speeds are both given; for heights, radius or gravity that are not positive
-/// and finite; for speeds that are 0, not finite, or negative without a flywheel; for heights (given or g/n^2) not
-/// between 2^-250 and 2^250 times the longest link's length (rounded up to a power of 2); and for pins the chain does
-/// not have.
+/// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several
+/// speeds at once, with a bound of its error. Ratios of neighbouring offsets then give the offsets
+/// from the support down. Speeds in doubt, next to a resonance or where a pin is nearly a node, are
+/// computed again in interval arithmetic.
+/// Accuracy: half an ulp of each offset, up to about 1e-12 from a resonance; `error_bound` and
+/// `modes_below` are proved for every chain. Below all resonances the chain is on the side of its
+/// support; each resonance reverses it. Results are bitwise the same for any number of threads.
+/// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with
+/// two (bench/response.cpp). Memory: the result, which `pins` reduces.
+/// Throws InvalidArgument where both heights and speeds are given; for heights, radius or gravity
+/// not positive and finite; for speeds that are 0, not finite, or negative without a flywheel; for
+/// heights (given or g/n^2) not between 2^-250 and 2^250 times the longest link's length (rounded
+/// up to a power of 2); and for pins that do not exist.
 [[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
-/// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support. With a spring support
-/// the spring's place of rest is carried round. Lowest links that weigh nothing in a fluid that turns with them hang
-/// straight down from the lowest other pin.
+/// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support; of
+/// a spring support, the rest position is carried round. Lowest links that weigh nothing in a fluid
+/// that turns hang straight down from the next pin.
 [[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);
 
 }  // namespace revchain

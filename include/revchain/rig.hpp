@@ -13,42 +13,35 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
-/// A chain and what it is rigged with: a support that yields or is carried round, flywheels, a fluid, standing links.
+/// A chain and its rigging: a yielding or carried support, flywheels, a fluid, standing links.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(80.0, 0.5), revchain::plummet(20.0, 4.0)});
-///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});               // m
-///     const auto found = revchain::steady_shapes(carousel, {.angular_speed = 1.0});    // steady_shapes.hpp
-///     found.shapes[0].offset[0];                                                       // 6.46323 m: the seat's radius
+///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});             // m
+///     const auto found = revchain::steady_shapes(carousel, {.angular_speed = 1.0});  // steady_shapes.hpp
+///     found.shapes[0].offset[0];                                     // 6.46323 m: the seat's radius
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
-/// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
-/// given. Stiffness and momentum are double words: with masses for weights, newtons are divided by gravity without
-/// rounding to double, `Wide<double>(500.0) / Wide<double>(9.81)`. The questions about a rig: `modes` (rig_modes.hpp),
-/// `steady_shapes`, `branches`, `stability`, `response` and `sensitivity`. Greenhill (1908) sections 2, 7 and 8.
+/// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers
+/// are stored exactly as given. Stiffness and momentum are double words: with masses for weights,
+/// newtons are divided by gravity without rounding to double, `Wide<double>(500.0) /
+/// Wide<double>(9.81)`. Rigs have `modes` (rig_modes.hpp), `steady_shapes`, `branches`,
+/// `stability`, `response` and `sensitivity`. Greenhill (1908) §2, §7 and §8.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
     /// sideways, force over length; infinite where firm
     Wide<double> stiffness = std::numeric_limits<double>::infinity();
-    double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
-    double radius = 0;           ///< distance of the support's place of rest from the axis; 0 on the axis
+    double carriage_weight = 0;  ///< weight that moves sideways with a pin that yields
+    double radius = 0;           ///< distance of the support's rest position from the axis
 
     bool is_firm() const noexcept { return std::isinf(stiffness.high); }
     friend bool operator==(const Support&, const Support&) = default;
 };
 
-namespace detail {
-inline void require_yielding(std::string_view place, const std::string& name, const Support& support) {
-    if (support.is_firm() && support.carriage_weight > 0)
-        throw_invalid(place, name + " must have a stiffness: what moves sideways needs a support that yields; weight",
-                      support.carriage_weight);
-}
-}  // namespace detail
-
-/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small amplitudes it acts as a
-/// thread of length W/E, where W is the weight of the chain. Throws InvalidArgument unless stiffness > 0 and carriage
-/// weight >= 0, both finite.
+/// A pin that slides sideways on a spring of stiffness E, Greenhill (1908) §2 (7). For small
+/// amplitudes it acts as a thread of length W/E, where W is the weight of the chain. Throws
+/// InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
 [[nodiscard]] inline Support horizontal_spring(const Wide<double>& stiffness,
                                                double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness.high);
@@ -63,63 +56,43 @@ inline void require_yielding(std::string_view place, const std::string& name, co
     return {.radius = radius};
 }
 
-/// Angular momentum that a link carries along its own axis, positive from its lower pin to its upper one. For a hanging
-/// link this is the direction of a rotation of the whole with n > 0. One part is constant, the other turns with the
+/// Angular momentum of a link along its own axis, positive from its lower pin to its upper one: for
+/// a hanging link the direction of rotation for n > 0. One part is constant, one turns with the
 /// link:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
-    Wide<double> momentum{0.0};      ///< H, constant whatever the link does; weight times length times time, any sign
-    Wide<double> axial_moment{0.0};  ///< C >= 0, weight times length squared (over g: a moment of inertia)
+    Wide<double> momentum{0.0};      ///< H, constant; weight times length times time, any sign
+    Wide<double> axial_moment{0.0};  ///< C >= 0, weight times length squared (over g: an inertia)
 
     friend bool operator==(const Flywheel&, const Flywheel&) = default;
 };
 
-namespace detail {
-inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
-                                double gravity) {
-    require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
-    require_finite(place, "spin", spin);
-    require_positive(place, "gravity", gravity);
-    using S = Wide<double>;
-    int heavy = 0, far = 0;  // products of numbers near 1 have all digits of both words
-    const S part = S(std::frexp(weight, &heavy)), radius = S(std::frexp(radius_of_gyration, &far));
-    const S moment = ldexp(S(part * radius * radius), heavy + 2 * far), momentum = moment * spin / S(gravity);
-    if (!isfinite(moment) || !isfinite(momentum))
-        throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
-                      radius_of_gyration);
-    return {momentum, moment};
-}
-}  // namespace detail
+/// A wheel on free bearings: its spin is constant, `spin` rad/s about the link's axis as seen from
+/// outside. Throws InvalidArgument for a negative weight or radius of gyration, gravity <= 0,
+/// numbers not finite.
+[[nodiscard]] Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                                     double gravity = conical_pendulum::standard_gravity);
 
-/// A wheel on free bearings: it keeps its spin, `spin` rad/s about the link's axis as seen from outside.
-/// Throws InvalidArgument for negative weight or radius of gyration, gravity not positive, numbers not finite.
-[[nodiscard]] inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
-                                            double gravity = conical_pendulum::standard_gravity) {
-    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
-}
-
-/// A wheel that a motor turns with `spin` rad/s relative to its link. The link itself turns about its axis with the
-/// whole chain. Throws as free_flywheel does.
-[[nodiscard]] inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
-                                              double gravity = conical_pendulum::standard_gravity) {
-    return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
-}
+/// A wheel that a motor turns with `spin` rad/s relative to its link, which turns about its axis
+/// with the whole chain. Throws as free_flywheel.
+[[nodiscard]] Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                       double gravity = conical_pendulum::standard_gravity);
 
 /// The fluid around a chain: at rest, or turning bodily with it.
 enum class Fluid { still, turning };
 
-/// The fluid that a link displaces. Centre of buoyancy and radius of gyration are those of the fluid in its place.
+/// The fluid that a link displaces.
 struct Displaced {
-    double weight = 0;                 ///< B >= 0, of the fluid displaced
-    double centroid = 0;               ///< centre of buoyancy, from the upper pin, positive towards the lower pin
-    Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / length of the link)^2, about that centroid
-    double added_weight = 0;           ///< of the still fluid that moves with the link; distributed as B is
+    double weight = 0;    ///< B >= 0, of the fluid displaced
+    double centroid = 0;  ///< centre of buoyancy, from the upper pin, positive downwards
+    Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / link length)^2, about it
+    double added_weight = 0;  ///< of the still fluid that moves with the link; distributed as B
 
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
 
-/// The fluid that a body of one density displaces: it has the centre and the radius of gyration of the body.
+/// The fluid displaced by a body of one density: centre and radius of gyration are the body's.
 [[nodiscard]] inline Displaced displaced_by(const Link<double>& link, double weight,
                                             double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
@@ -136,12 +109,11 @@ struct Rigging {
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and its rigging: a support that yields or is carried round, links that stand, flywheels, a fluid that bears
-/// part of the weight. Use a `Chain` where there is no rigging: it costs less.
+/// A chain and its rigging. For a chain without rigging, `Chain` costs less.
 ///
-/// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
-/// not finite, a support without stiffness, a carriage at a firm support, and a negative carriage weight, radius, axial
-/// moment, weight displaced or added. Cost O(N) once.
+/// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the
+/// chain, numbers that are not finite, a support without stiffness, a carriage at a firm support,
+/// and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
@@ -153,15 +125,17 @@ class Rig {
     Fluid fluid() const noexcept { return with_.fluid; }
 
     bool stands(Index m) const {
-        return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
+        return !with_.posture.empty() &&
+               with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
     }
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
     }
-    /// The fluid that link m displaces. A link without an entry, or with a default one, displaces nothing; the centre
-    /// and the radius of gyration are then those of the link.
+    /// The fluid that link m displaces. Without an entry, or with a default one, the weights are 0,
+    /// and centroid and radius of gyration are those of the link.
     Displaced displaced(Index m) const {
-        const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+        const Displaced given =
+            with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
     /// Whether the fluid that link m displaces, if any, is distributed as the link's own weight.
@@ -171,10 +145,11 @@ class Rig {
         return (fluid.weight == 0 && fluid.added_weight == 0) ||
                (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
     }
-    /// Whether any link has a momentum of its own, so that the two directions of rotation differ.
+    /// Whether any link has a constant momentum, so that the two directions of rotation differ.
     bool has_momentum() const {
-        return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
-                           [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
+        return std::any_of(
+            with_.flywheels.begin(), with_.flywheels.end(),
+            [](const Flywheel& wheel) { return wheel.momentum != Wide<double>(0.0); });
     }
 
     friend bool operator==(const Rig&, const Rig&) = default;
@@ -186,41 +161,6 @@ class Rig {
     Rigging with_;
 };
 
-inline void Rig::check() const {
-    const auto as_long = [&](std::size_t stored, std::string_view name) {
-        if (stored != 0 && stored != static_cast<std::size_t>(size()))
-            detail::throw_invalid("Rig",
-                                  std::string(name) + " must be empty or have one entry for each of the " +
-                                      std::to_string(size()) + " links",
-                                  stored);
-    };
-    as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
-    as_long(with_.displaced.size(), "displaced");
-    const Support& support = with_.support;
-    if (!(support.stiffness.high > 0))
-        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness.high);
-    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
-                                 support.radius);
-    detail::require_yielding("Rig", "the support", support);
-    if (with_.flywheels.empty() && with_.displaced.empty()) return;
-    const auto check_link = [&](Index m, std::string_view place) {
-        const Flywheel wheel = flywheel(m);
-        detail::require_finite(place, "momentum", wheel.momentum.high);
-        detail::require_not_negative(place, "axial moment", wheel.axial_moment.high);
-        const Displaced fluid = displaced(m);
-        detail::require_not_negative(place, "weight displaced", fluid.weight);
-        detail::require_finite(place, "centre of buoyancy", fluid.centroid);
-        detail::require_not_negative(place, "added weight", fluid.added_weight,
-                                     "(radius of gyration / length)^2 of the fluid displaced",
-                                     static_cast<double>(fluid.gyration_ratio));
-    };
-    Index m = 0;
-    try {
-        for (; m < size(); ++m) check_link(m, "Rig");
-    } catch (const InvalidArgument&) {  // once more, with the place
-        check_link(m, "Rig: links[" + std::to_string(m) + "]");
-        throw;
-    }
-}
-
 }  // namespace revchain
+
+#include "revchain/system/rig.hpp"

@@ -10,7 +10,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/rig.hpp"
 
-/// Whirl modes of small amplitude of a rig: a chain with a support that yields, standing links, flywheels or a fluid.
+/// Whirl modes of a rig (small amplitude): yielding supports, standing links, flywheels, a fluid.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const revchain::Rig rig(chain, {.support = revchain::horizontal_spring(50.0)});
@@ -20,64 +20,66 @@
 ///     m.forward.shape(0)[1];           // offset of the second pin, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Which modes of a rig, as in `ModesOptions`. With momentum `first`, `count` and windows apply to
-/// each direction of rotation, a window of speeds to |n|. Mode numbers beyond those available give
-/// no modes, with momentum or without.
+/// As `ModesOptions`. With momentum `first`, `count` and windows apply to each direction of
+/// rotation, a window of speeds to |n|. Mode numbers beyond those available give no modes.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
-    std::optional<double> rtol{};                         ///< bounds above it are `Status::tolerance_not_met`
-    bool certify = false;                                 ///< also return `WhirlModes::certificate`
+    std::optional<double> rtol{};  ///< larger bounds give `Status::tolerance_not_met`
+    bool certify = false;          ///< also return `WhirlModes::certificate`
     double gravity = conical_pendulum::standard_gravity;  ///< for all speeds
     bool other = true;                                    ///< also find `RigModes::other`
-    Index threads = 1;                                    ///< for heights and shapes; 0: all processors
-    Progress* progress = nullptr;                         ///< read and cancelled from another thread
+    Index threads = 1;                                    ///< 0: all processors
+    Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// Whirl modes of a rig in one direction of rotation, slowest first. Mode k of `available` is at index k - first.
+/// Whirl modes of a rig in one direction of rotation, slowest first. Mode k is at index k - first.
+/// Shapes, residual and nodes are as in `Modes`, but a support that yields has an offset.
 struct WhirlModes {
     Index first = 1;
     Index available = 0;                 ///< number of modes in this direction, found or not
-    Vector<double> conical_height{};     ///< (k,) lambda = g/n^2, descending, in the chain's unit of length
-    Vector<double> error_bound{};        ///< (k,) of `conical_height`, relative to the exact one of the stored numbers
+    Vector<double> conical_height{};     ///< (k,) g/n^2, descending, in the chain's unit of length
+    Vector<double> error_bound{};        ///< (k,) of `conical_height`, relative to the exact one
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of `angular_speed`, relative
-    Certificate<double> certificate{};   ///< of the conical heights, with counts in this direction; if asked for
+    Certificate<double> certificate{};  ///< of the heights, counted in this direction; if asked for
 
     Index size() const noexcept { return conical_height.size(); }
-    /// As those of `Modes`; the support's offset is not 0 where it yields.
     const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
-    const Vector<double>& residual() const { return lazy_shapes_.details(size(), nullptr).residual; }
-    const std::vector<Vector<double>>& nodes() const { return lazy_shapes_.details(size(), nullptr).nodes; }
+    const Vector<double>& residual() const { return details().residual; }
+    const std::vector<Vector<double>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<double> shape(Index j) const { return lazy_shapes_.one(size(), j); }
 
    private:
     friend detail::ShapesBehind;
+    const detail::ModeShapes<double>& details() const {
+        return lazy_shapes_.details(size(), nullptr);
+    }
     detail::LazyModeShapes<double> lazy_shapes_{};
 };
 
-/// A solution that is not a steady motion: its conical height is negative or complex, or its speed is complex. If no
-/// force acts on a coordinate, it stays at rest anywhere: the height is then infinite and the speed 0.
+/// A solution that is not a steady motion: its height is negative or complex, or its speed is
+/// complex. If no force acts on a coordinate, it stays at rest anywhere: height infinite, speed 0.
 struct OtherMode {
-    std::complex<double> conical_height;  ///< lambda
-    std::complex<double>
-        angular_speed;       ///< n, rad/s, lambda n^2 = g: without momentum, of its two signs the one that grows
-    double growth_rate = 0;  ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
-    double error_bound = std::numeric_limits<double>::infinity();  ///< of the height, relative to its size; proved
+    std::complex<double> conical_height;  ///< lambda = g/n^2
+    std::complex<double> angular_speed;   ///< n, rad/s; without momentum, the sign that grows
+    double growth_rate = 0;               ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
+    double error_bound = std::numeric_limits<double>::infinity();  ///< relative, proved
 };
 
-/// A link whose effective tension, tension + n momentum/length, vanishes at a speed and is a thrust beyond it.
+/// A link whose effective tension, tension + n momentum/length, is 0 at a speed and negative beyond
+/// it.
 struct SlackLink {
     Index link = 0;            ///< from 0, lowest first
-    double angular_speed = 0;  ///< n, negative if opposite to the rotation of a wheel with positive momentum
+    double angular_speed = 0;  ///< n, negative if opposite to a wheel of positive momentum
 };
 
-/// How modes of a rig were found.
+/// The method that found the modes of a rig.
 enum class RigMethod {
-    modes,   ///< the rig is a plain chain: by `modes` of that chain
+    modes,   ///< the rig is a plain chain: `modes` of that chain
     counts,  ///< one after the other, by counts
     discs,   ///< all at once, each proved in a disc of its own
 };
@@ -88,59 +90,57 @@ enum class RigMethod {
 
 /// Whirl modes of a rig.
 struct RigModes {
-    bool has_momentum = false;     ///< whether a flywheel has momentum of its own
-    WhirlModes forward;            ///< n > 0; without such momentum both directions are alike, and all modes are here
-    WhirlModes backward;           ///< n < 0; empty without such momentum
-    Index other_available = 0;     ///< number of solutions that are not steady motions, listed or not
-    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and `method` is not `discs`
-    std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
-    /// Whether `forward.available`, `backward.available` and `other_available` are proved to be all there are.
-    bool complete = false;
+    bool has_momentum = false;  ///< whether a flywheel has momentum of its own
+    WhirlModes forward;         ///< n > 0; without momentum, all modes
+    WhirlModes backward;        ///< n < 0; empty without momentum
+    Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
+    std::vector<OtherMode> other;  ///< those, if `RigModesOptions::other` or `discs`
+    std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
+    bool complete = false;  ///< whether the three numbers available are proved
     RigMethod method = RigMethod::counts;
-    Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
+    Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };
 
-/// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
-/// flywheels. The radius of a support that is carried round has no effect.
+/// Whirl speeds of small amplitude of a rig, Greenhill (1908) §8 (21) with supports, standing
+/// links, floats and flywheels. The radius of a support carried round has no effect. A plain chain
+/// is solved as a chain, to `rtol`; all others to full accuracy, with proved bounds.
 ///
-/// Speeds are found to full accuracy, whatever `rtol`, and all bounds are proved, unless the rig is a plain chain: that
-/// is solved as a chain, to `rtol`.
-///
-/// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
-/// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
-/// `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each of its eigenvalues passes through 0 at most
-/// once on the way to either side of n = 0, so that counts number the speeds, 2N real ones where M > 0. Else all
-/// heights, or all speeds, are found at once (Ehrlich, Aberth), and proved in discs that hold one each: for at most
-/// 20,000 links and supports that yield.
-/// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
-/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains.
-/// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is positive and no mass is
-/// negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2, with momentum 0.3 (5000 links 7 s).
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window with low >= high, numbers
-/// together with a window, and discs beyond that limit. A bound that could not be proved is infinite and the
-/// status `tolerance_not_met`.
+/// Method without momentum: lambda K y = M y. All heights are real where K > 0 (every link hangs in
+/// net tension) or M >= 0 (no fluid that turns); counts number them (Sylvester), positive ones as
+/// modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each
+/// of its eigenvalues passes through 0 at most once on either side of n = 0, so counts number the
+/// speeds, 2N real ones where M > 0. Otherwise all heights or speeds are found at once (Ehrlich,
+/// Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
+/// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
+/// 0.501 ulp of the exact ones of the stored numbers; bounds 1 ulp by counts; shapes as for chains.
+/// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is
+/// positive and no mass negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2,
+/// with momentum 0.3 (5000 links 7 s).
+/// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
+/// high, numbers together with a window, and too many links for discs. A bound that is not proved
+/// is infinite, and the status `tolerance_not_met`.
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
 class RigRoots;
 }
 
-/// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once; each count is one
-/// O(N) pass. For a rig that needs discs (see `modes`), all roots are found when the counter is made.
-///
-/// Counts are proved as those of `ModeCounter`, and ties are decided in the same way.
+/// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once,
+/// and each count is one O(N) pass; for a rig that needs discs (see `modes`) the constructor finds
+/// all roots. Counts are proved and ties decided as by `ModeCounter`.
 class RigModeCounter {
    public:
     /// Throws InvalidArgument as `modes` does.
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
-    /// How many conical heights exceed `height`, in both directions together where there is momentum. Throws
-    /// InvalidArgument unless it is positive and finite, and where rounding leaves the number in doubt.
+    /// The number of conical heights above `height`, with momentum in both directions together.
+    /// Throws InvalidArgument unless that is positive and finite, and where rounding leaves a
+    /// doubt.
     [[nodiscard]] Index above_height(double height) const;
 
-    /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. With momentum its sign is the direction of
-    /// rotation; without, both directions are alike. Throws InvalidArgument unless it is finite and not 0, and where
-    /// rounding leaves the number in doubt.
+    /// The number of whirl speeds between 0 and `angular_speed`, rad/s; with momentum its sign is
+    /// the direction. Throws InvalidArgument unless it is finite, not 0, and where rounding leaves
+    /// a doubt.
     [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:
@@ -149,12 +149,12 @@ class RigModeCounter {
     std::shared_ptr<const detail::RigRoots> roots_;
 };
 
-/// The number of modes slower than a speed, proved: see `RigModeCounter`. Greenhill (1908) section 8 (21).
+/// The number of modes slower than a speed, proved: see `RigModeCounter`. Greenhill (1908) §8 (21).
 ///
 ///     count_modes(rig, {.angular_speed = -5.0});  // backward modes between 0 and 5 rad/s
 ///
-/// Cost: 0.1 microseconds a link; by discs that of `modes`. Throws InvalidArgument unless exactly one of conical height
-/// and angular speed is given, and as `RigModeCounter` does.
+/// Cost: 0.1 microseconds a link; by discs that of `modes`. Throws InvalidArgument unless exactly
+/// one of height and speed is given, and as `RigModeCounter`.
 Index count_modes(const Rig& rig, const CountOptions<double>& options);
 
 }  // namespace revchain

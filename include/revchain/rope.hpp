@@ -6,21 +6,22 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/special/jacobi.hpp"
 
-/// Ropes that whirl without gravity: the skipping rope between two points of its axis, and the rope that winds round
-/// it.
+/// Ropes that whirl without gravity: the skipping rope, and the rope that winds round its axis.
 ///
-///     const revchain::analytic::SkippingRope rope({.span = 2.0, .length = 3.0, .angular_speed = 10.0});
+///     namespace analytic = revchain::analytic;
+///     const analytic::SkippingRope rope({.span = 2.0, .length = 3.0, .angular_speed = 10.0});
 ///     rope.sag();                    // 1.03141 m
 ///     rope.tension_in_the_middle();  // 5.13717 m of rope weigh as much
 ///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
-/// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical height, and
-/// a tension is given as the length h of rope that has this weight. The shape depends on lambda h alone.
+/// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the
+/// conical height, and a tension is given as the length h of rope of this weight. Shapes depend on
+/// lambda h alone.
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 
-/// The data of a skipping rope. Give exactly two of these: span, length, slack, sag, and the pair of tension and
-/// angular speed. With two of the first four, tension or angular speed may be given as well. Give slack where span and
-/// length nearly agree.
+/// The data of a skipping rope. Give exactly two of: span, length, slack, sag, and the pair of
+/// tension and angular speed. With two of the first four, tension or angular speed may be added.
+/// Give slack if span and length nearly agree.
 struct RopeGiven {
     std::optional<double> span{}, length{}, slack{};  ///< of the whole rope; slack = length - span
     std::optional<double> sag{};                      ///< the largest offset
@@ -30,7 +31,7 @@ struct RopeGiven {
     double gravity = conical_pendulum::standard_gravity;  ///< relates n to lambda only
 };
 
-/// One place of a skipping rope.
+/// A point of a skipping rope.
 struct RopePoint {
     double x, arc;         ///< distance from an end along the axis, and along the rope
     double offset;         ///< y
@@ -38,14 +39,14 @@ struct RopePoint {
     double tension_ratio;  ///< tension over that in the middle of a half wave
 };
 
-/// The rope y = b sn(K x/a) with neighbouring nodes 2a apart and sag b. §5 (1)
-/// Accuracy: 1e-14 relative in everything that the data determine well. Cost: 20 microseconds to construct, 0.2 for a
-/// point, 10 for a point given by its arc.
+/// The rope y = b sn(K x/a) with neighbouring nodes 2a apart and sag b. §5 (1). Accuracy: 1e-14
+/// relative in everything that the data determine well. Cost: 20 microseconds to construct, 0.2 for
+/// a point, 10 for a point given by its arc.
 class SkippingRope {
    public:
-    /// Throws InvalidArgument for numbers that are not positive and finite, for too few or too many of them, and where
-    /// no rope exists: a length not above the span, a sag not below half the length, a rope too slow or too tight to
-    /// bend.
+    /// Throws InvalidArgument for numbers that are not positive and finite, for too few or too
+    /// many, and if no rope exists: a length not above the span, a sag not below half the length, a
+    /// rope too slow or too tight to bend.
     explicit SkippingRope(const RopeGiven& given);
 
     Index half_waves() const noexcept { return half_waves_; }
@@ -61,27 +62,30 @@ class SkippingRope {
     /// Moment of inertia about the axis over the mass per length: a length cubed.
     [[nodiscard]] double moment_of_inertia() const;
 
-    /// Whether angular speed or tension was given. If not, the next four functions throw InvalidArgument.
+    /// Whether angular speed or tension was given. Else the next four throw InvalidArgument.
     bool has_speed() const { return conical_height_.has_value(); }
     [[nodiscard]] double conical_height() const;
-    double angular_speed() const { return conical_pendulum::angular_speed(conical_height(), gravity_); }
+    double angular_speed() const {
+        return conical_pendulum::angular_speed(conical_height(), gravity_);
+    }
     double tension_in_the_middle() const { return strength() / conical_height() * strength(); }
     double tension_at_ends() const { return tension_in_the_middle() * tension_ratio_at_ends(); }
 
     /// The point at the distance x from an end, 0 <= x <= span. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at(double x) const;
-    /// The point at the length `arc` of rope from an end, 0 <= arc <= length. Throws InvalidArgument outside.
+    /// The point at the arc length `arc`, 0 <= arc <= length. Throws InvalidArgument outside.
     [[nodiscard]] RopePoint at_arc(double arc) const;
 
-    /// The rope after its ends were moved to another span, with the same length and angular momentum. The work done on
-    /// it is the gain in moment_of_inertia() n^2 / 2.
+    /// The rope with its ends moved to another span, with the same length and angular momentum. The
+    /// work done on it is the gain in moment_of_inertia() n^2 / 2.
     [[nodiscard]] SkippingRope drawn_to(double span) const;
 
    private:
     double waves() const { return static_cast<double>(half_waves_); }
     double kappa() const { return modulus().modulus(); }
     double complement() const { return modulus().complementary_modulus(); }
-    double strength() const { return quarter_ / (complement() * functions_.complete().K); }  // sqrt(lambda h)
+    /// sqrt(lambda h)
+    double strength() const { return quarter_ / (complement() * functions_.complete().K); }
     RopePoint at_argument(double u) const;
 
     double span_ = 0, slack_ = 0, length_ = 0, sag_ = 0, quarter_ = 0, gravity_ = 0;  // quarter: a
@@ -90,8 +94,8 @@ class SkippingRope {
     JacobiFunctions functions_{EllipticModulus::of(0)};
 };
 
-/// The data of a rope that winds round its axis, all positive; the least radius may be 0 (a plane rope). With equal
-/// radii the rope is a helix.
+/// The data of a rope that winds round its axis, all positive; the least radius may be 0 (a plane
+/// rope). With equal radii the rope is a helix.
 struct TortuousGiven {
     double least_radius, greatest_radius;
     double angular_speed;                                 ///< n
@@ -99,7 +103,7 @@ struct TortuousGiven {
     double gravity = conical_pendulum::standard_gravity;  ///< relates n to lambda only
 };
 
-/// One place of a tortuous rope.
+/// A point of a tortuous rope.
 struct TortuousPoint {
     double x, arc;         ///< along the axis and along the rope, from a place nearest to the axis
     double radius;         ///< distance from the axis
@@ -111,13 +115,14 @@ struct TortuousPoint {
 
 /// The rope that winds round its axis, with its ends off the axis. §5, text after (6)
 ///
-/// R is the square of the distance from the axis, R1 <= R <= R2, c^2 = lambda h and r = sqrt(R1 R2 + 4 c^4):
-///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),   u = d x / (2 c^2),
-///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,   theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
-/// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds to construct, 1 for a point.
+/// R is the squared distance from the axis, R1 <= R <= R2, c^2 = lambda h, r = sqrt(R1 R2 + 4 c^4):
+///     R3 = R1 + R2 + 2 r,   d = sqrt(R3 - R1),   kappa^2 = (R2 - R1)/(R3 - R1),  u = d x/(2 c^2),
+///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,
+///     theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
+/// Accuracy: 1e-14 relative, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds, 1 a point.
 class TortuousRope {
    public:
-    /// Throws InvalidArgument for data outside the ranges above, and where a result leaves the range of double.
+    /// Throws InvalidArgument for data outside the ranges above, and if a result overflows.
     explicit TortuousRope(const TortuousGiven& given);
 
     double least_radius() const noexcept { return first_; }
@@ -126,18 +131,19 @@ class TortuousRope {
     double height_times_tension() const noexcept { return strength2_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
-    // A half wave runs from one place nearest to the axis to the next. Its length along the axis, slack (length of rope
-    // minus length along the axis), length of rope, and angle round the axis (pi for a plane rope, which crosses it).
+    // A half wave runs from one place nearest to the axis to the next. Its length along the axis,
+    // slack (length of rope minus length along the axis), length of rope, and angle round the axis
+    // (pi for a plane rope, which crosses it).
     double half_wave() const { return 2 * functions_.complete().K * scale_; }
     [[nodiscard]] double half_wave_slack() const;
     [[nodiscard]] double half_wave_length() const { return half_wave() + half_wave_slack(); }
     [[nodiscard]] double half_wave_angle() const;
 
-    /// The point at any x of either sign. Throws InvalidArgument unless x is finite and the results are.
+    /// The point at x, of either sign. Throws InvalidArgument unless x and the results are finite.
     [[nodiscard]] TortuousPoint at(double x) const;
 
    private:
-    /// Whether the radii are so far apart that the angle is that of a plane rope to the last digit.
+    /// Whether the radii are so far apart that the angle is that of a plane rope in double.
     bool is_plane() const { return first_ <= 1e-20 * second_; }
 
     double first_, second_, third_;  // square roots of R1, R2, R3

@@ -9,64 +9,65 @@
 #include "revchain/modes.hpp"
 #include "revchain/rig.hpp"
 
-/// Derivatives of conical heights and whirl speeds with respect to the data, and uncertainties that follow from them.
+/// Derivatives of conical heights and whirl speeds with respect to the data, and uncertainties.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto m = revchain::modes(chain);
 ///     const auto s = revchain::sensitivity(chain, m);
-///     s.weight().value(0, 1);       // -0.0347969, d(height of the slowest mode)/d(weight of the upper link)
+///     s.weight().value(0, 1);       // -0.0347969, d(slowest height)/d(weight of the upper link)
 ///     s.weight().error_bound(0, 1); // its absolute error, proved
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The data of a link. While one of them changes, all other data of this link and of all links are constant. `length`
-/// moves the lower pin: the centroid and the radius of gyration do not change. `length_in_proportion` changes both in
+/// The data of a link. In a derivative all other data of all links are constant. `length` moves the
+/// lower pin: centroid and radius of gyration are constant. `length_in_proportion` changes both in
 /// proportion, as the length of a plummet's thread or of a rod does.
 enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
 
-inline constexpr std::array<std::string_view, 5> datum_names{"weight", "length", "centroid", "radius_of_gyration",
-                                                             "length_in_proportion"};
+inline constexpr std::array<std::string_view, 5> datum_names{
+    "weight", "length", "centroid", "radius_of_gyration", "length_in_proportion"};
 
 /// Derivatives of k conical heights with respect to one datum of each of N links, lowest first.
 template <Real T>
 struct Derivatives {
     Table<T> value;        ///< (k, N)
-    Table<T> error_bound;  ///< (k, N), absolute; proved. Infinite where a mode cannot be separated from its neighbour
+    Table<T> error_bound;  ///< (k, N), absolute, proved; infinite if a mode cannot be separated
 };
 
-/// d(conical height)/d(datum) for modes number `first`, `first + 1`, ...
+/// d(conical height)/d(datum) for modes number `first`, `first + 1`, ... The length of the lowest
+/// link has no effect; a radius of gyration never lowers a height.
 template <Real T>
 struct Sensitivity {
     Index first = 1;
     std::array<Derivatives<T>, datum_names.size()> by_datum;
 
     const Derivatives<T>& of(Datum datum) const { return by_datum[static_cast<std::size_t>(datum)]; }
-    const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< unit of length over unit of weight
-    const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below; 0 of the lowest link
+    const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< length over weight
+    const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below
     const Derivatives<T>& centroid() const { return of(Datum::centroid); }
-    const Derivatives<T>& radius_of_gyration() const { return of(Datum::radius_of_gyration); }  ///< never negative
+    const Derivatives<T>& radius_of_gyration() const { return of(Datum::radius_of_gyration); }
     /// (a d/da + h d/dh + rho d/drho)/a, never negative.
     const Derivatives<T>& length_in_proportion() const { return of(Datum::length_in_proportion); }
     Index size() const { return weight().value.rows(); }
 };
 
-/// Derivatives of the conical heights of `modes`, which must be those of this chain, with respect to every datum of
-/// every link. They are the derivatives of lambda = y^T M y / y^T K y at the exact shape, where a change of the shape
-/// has no effect of first order:
+/// Derivatives of the conical heights of `modes`, which must be those of this chain, with respect
+/// to every datum of every link. They are the derivatives of lambda = y^T M y / y^T K y at the
+/// exact shape, where a change of the shape has no effect of first order:
 ///     (y^T dM y - lambda y^T dK y) / y^T K y.
-/// Each is formed from offset and slope of its link; that of a weight also has the sum of a s^2 over the links above,
-/// which carry it.
-/// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda. A link's part of this sum, a times
-/// `length_in_proportion`, is its share of y^T K y. So a longer link, in proportion, never lowers a height.
-/// Accuracy: every entry is within its error bound, which is proved; measured 0.51 ulp of the entry, or 1e-28 of the
-/// largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
-/// Cost: 1.5 microseconds a link and mode; O(N k) memory.
-/// Throws InvalidArgument where the chain's weights are more than 1e123 apart.
+/// Each is formed from offset and slope of its link; that of a weight also has the sum of a s^2
+/// over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho
+/// d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is its share of y^T
+/// K y, so a longer link, in proportion, never lowers a height.
+/// Accuracy: every entry is within its error bound, which is proved; measured 0.51 ulp of the
+/// entry, or 1e-28 of the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in
+/// `modes` need not be accurate. Cost: 1.5 microseconds a link and mode; O(N k) memory. Throws
+/// InvalidArgument where the chain's weights are more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
-/// How uncertain one datum is: one standard deviation for all links, one for each (N), or a covariance (N, N).
-/// Deviations of different links are independent unless a covariance is given. Those of different data are always
-/// independent.
+/// The uncertainty of one datum: one standard deviation for all links, one for each (N), or a
+/// covariance (N, N). Deviations of different links are independent unless a covariance is given;
+/// those of different data are always independent.
 template <Real T>
 struct Deviation {
     Vector<T> standard{};  ///< (1) or (N); empty where a covariance is given
@@ -77,67 +78,67 @@ struct Deviation {
 template <Real T>
 using Deviations = std::array<std::optional<Deviation<T>>, datum_names.size()>;
 
-/// Standard deviations of k modes, to first order: deviations of the heights are taken as linear in those of the data.
+/// Standard deviations of k modes, to first order in those of the data.
 template <Real T>
 struct Uncertainty {
-    Vector<T> conical_height;                        ///< (k,) standard deviations, in the unit of the heights
-    Vector<T> relative;                              ///< (k,) over the heights; of speeds and periods half as much
-    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) each, of the variance; those of a mode add up to 1
+    Vector<T> conical_height;  ///< (k,) standard deviations, in the unit of the heights
+    Vector<T> relative;        ///< (k,) over the heights; half as much for speeds and periods
+    std::array<Table<T>, datum_names.size()> share;  ///< (k, N) of each variance; sum 1
     std::vector<Datum> datum;                        ///< (k,) the datum that contributes most
     std::vector<Index> link;                         ///< (k,) the link of that datum, from 0
 };
 
-/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2 var x, or d^T C d
-/// for a datum with a covariance C. The error is of second order: the relative error of the variance is some
-/// (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large where a derivative is nearly 0.
-/// Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for lists that are neither of one number nor of N,
-/// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
-/// not as many as the sensitivity's.
+/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2
+/// var x, or d^T C d for a datum with a covariance C. The error is of second order: the relative
+/// error of the variance is some (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large where
+/// a derivative is nearly 0. Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for
+/// lists that are neither of one number nor of N, deviations negative or not finite, a covariance
+/// not N by N, not symmetric or with a negative variance, and for another number of heights.
 template <Real T>
 [[nodiscard]] Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                                          const std::type_identity_t<Vector<T>>& conical_height,
                                          const Deviations<T>& deviations);
 
-/// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have either sign. The first
-/// five are for the links' own data, as in `Datum`; flywheels keep their momentum, and the displaced fluid its data.
+/// d(whirl speed)/d(datum) of one mode of a rig with all other data constant. Speeds may have
+/// either sign. The first five are for the links' own data, as in `Datum`; the momentum of
+/// flywheels and the data of the displaced fluid are constant.
 struct RigSensitivity {
     Vector<double> weight;                ///< (N,)
     Vector<double> length;                ///< (N,) the lower pin moved; 0 of the lowest link
     Vector<double> centroid;              ///< (N,)
     Vector<double> radius_of_gyration;    ///< (N,)
     Vector<double> length_in_proportion;  ///< (N,) (a d/da + h d/dh + rho d/drho)/a
-    Vector<double> momentum;              ///< (N,) of each flywheel's H, per weight times length times time
-    Vector<double> displaced_weight;      ///< (N,) of the weight of the fluid displaced
-    Vector<double> added_weight;          ///< (N,) of the still fluid that moves with the link
-    double stiffness;                     ///< of the support; 0 where it is firm
-    double carriage_weight;               ///< 0 where the support is firm
+    Vector<double> momentum;  ///< (N,) of each flywheel's H, per weight times length times time
+    Vector<double> displaced_weight;  ///< (N,) of the weight of the fluid displaced
+    Vector<double> added_weight;      ///< (N,) of the still fluid that moves with the link
+    double stiffness;                 ///< of the support; 0 where it is firm
+    double carriage_weight;           ///< 0 where the support is firm
 };
 
-/// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the support's pin last). They
-/// follow from y^T (K + n G - n^2 M/g) y = 0, which is quadratic in n and stationary in y:
+/// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the
+/// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
-/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. Formed in double-double.
-/// The error comes from the offsets: if these are within e of the largest offset, it is some 4 e (|K| + |n G| + n^2
-/// |M|/g) over the denominator.
-/// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, offsets not N + 1.
+/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. Formed
+/// in double-double: offsets with errors e of the largest give an error of some 4 e (|K| + |n G| +
+/// n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0 or not
+/// finite, gravity not positive, offsets not N + 1.
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,
                                          double gravity = conical_pendulum::standard_gravity);
 
-/// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl speed of some mode,
-/// all else constant. It is unique: momentum adds to the tension, and at that speed the parts below and above the link
-/// act as springs at its pins. Formed in double-double: error 1e-15, relative to the tension
-/// (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of range, and
-/// where no finite momentum has that effect.
+/// The momentum of the flywheel of the link at index `link` with which `angular_speed` is a whirl
+/// speed of some mode, all else constant. It is unique: momentum adds to the tension, and at that
+/// speed the parts below and above the link act as springs at its pins. Formed in double-double:
+/// error 1e-15, relative to the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N). Throws
+/// InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of
+/// range, and if no finite momentum has that effect.
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);
 
-/// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode, all else constant.
-/// At that speed the chain and the carriage act on the spring as one more spring. Formed in double-double, as
-/// `momentum_for_speed` is. Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, and where no positive finite
-/// stiffness has that effect.
+/// The stiffness of the support's spring with which `angular_speed` is a whirl speed of some mode,
+/// all else constant. At that speed the chain and the carriage act on the spring as one more
+/// spring. Accuracy and cost as `momentum_for_speed`. Throws InvalidArgument for a speed that is 0
+/// or not finite, gravity not positive, and if no positive finite stiffness has that effect.
 [[nodiscard]] double stiffness_for_speed(const Rig& rig, double angular_speed,
                                          double gravity = conical_pendulum::standard_gravity);
 
@@ -151,8 +152,10 @@ extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const 
 extern template Sensitivity<double> sensitivity(const Chain<double>&, const Modes<double>&);
 extern template Uncertainty<double> uncertainty(const Sensitivity<double>&, const Vector<double>&,
                                                 const Deviations<double>&);
-extern template Sensitivity<long double> sensitivity(const Chain<long double>&, const Modes<long double>&);
-extern template Uncertainty<long double> uncertainty(const Sensitivity<long double>&, const Vector<long double>&,
+extern template Sensitivity<long double> sensitivity(const Chain<long double>&,
+                                                     const Modes<long double>&);
+extern template Uncertainty<long double> uncertainty(const Sensitivity<long double>&,
+                                                     const Vector<long double>&,
                                                      const Deviations<long double>&);
 }  // namespace revchain
 #else

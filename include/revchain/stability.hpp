@@ -11,10 +11,10 @@
 /// Stability of a steady shape: whether a small disturbance grows.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 1.0)});
-///     const auto found = revchain::steady_shapes(chain, {.conical_height = 0.5});   // steady_shapes.hpp
+///     const auto found = revchain::steady_shapes(chain, {.conical_height = 0.5});
 ///     const auto s = revchain::stability(chain, found.shapes[0]);
 ///     s.verdict == revchain::Verdict::minimum;   // true
-///     s.exponents.back().imag();                 // 1.32288: it swings with 1.32288 times the turning speed
+///     s.exponents.back().imag();                 // 1.32288 times the turning speed
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
@@ -23,13 +23,13 @@ class Rig;           // revchain/rig.hpp
 
 /// How a chain can move when it is disturbed.
 enum class StabilityFrame {
-    free,    ///< ball joints, no torque about the axis: it moves in and out of the plane of the shape
-    driven,  ///< hinges in a plane that a motor turns at constant speed: it moves in that plane only
+    free,    ///< ball joints, no torque about the axis: motion in and out of the shape's plane
+    driven,  ///< hinges in a plane that turns at constant speed: motion in that plane only
 };
 
-/// What becomes of a small disturbance of a steady shape.
+/// Whether a small disturbance of a steady shape grows.
 enum class Verdict {
-    minimum,            ///< it stays small: the energy (free: at fixed angular momentum) has a minimum at the shape
+    minimum,            ///< it stays small: the energy is least (free: at fixed angular momentum)
     spectrally_stable,  ///< no minimum, but gyroscopic forces keep it from growing, to first order
     unstable,           ///< it grows
     undecided,          ///< unknown, because of the errors of the exponents
@@ -39,78 +39,84 @@ enum class Verdict {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-/// Stability of one shape. Exponents, growth rate and margin are over the turning speed n: times n they are in 1/s.
+/// Stability of one shape. Times the turning speed n, exponents, growth rate and margin are in 1/s.
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
-    std::vector<std::complex<double>>
-        exponents;                  ///< s of exp(s n t), by imaginary part; free: without the double 0 of a rotation
-    std::vector<double> exponent_error;  ///< of each, an estimate: by rounding, of the shape and its pulls, too
-    double growth_rate = 0;         ///< largest real part of an exponent, at least 0; NaN if not known
-    double margin = 0;              ///< the largest of these errors
-    Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)
-    /// The effect of a small damping c on each exponent, to first order: this number times g c is added to the real
-    /// part of s n. NaN where two exponents coincide. Internal: c is the moment at every pin over the rate at which its
-    /// links turn against one another, seen from the turning chain; in 1/(weight length^2). External: c is the drag of
-    /// still air on a link over its length and its velocity in space; in length/weight.
+    /// s of exp(s n t), by imaginary part; if free, without the double 0 of a rotation
+    std::vector<std::complex<double>> exponents;
+    std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
+    double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
+    double margin = 0;       ///< the largest of these errors
+    /// negative eigenvalues of the energy's Hessian; if free, amended, without the rotation
+    Index negative_directions = 0;
+    /// The effect of a small damping c on each exponent, to first order: this number times g c is
+    /// added to the real part of s n. NaN where two exponents coincide. Internal: c is the moment
+    /// at a pin over the relative angular velocity of its links in the turning frame; 1/(weight
+    /// length^2). External: c is drag of still air on a link over its length and velocity;
+    /// length/weight.
     std::vector<double> internal_damping, external_damping;
 };
 
 /// Returns the stability of a steady shape of `chain`.
 ///
-/// A rotation of the shape about the axis does not change the energy. In the free frame it is removed with the help of
-/// the constant angular momentum, so that no double zero blurs the exponents. This adds 4 b b' / (y0'M y0) to the
-/// stiffness in the plane, with b = B y0, y0 the shape's offsets, M the mass matrix and B the gyroscopic coupling.
-/// Links are rods without inertia about their own axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer
-/// where links have no weight, because two links that meet in a pin without mass stay in line.
-/// Exponents and verdict contain no damping. A minimum stays stable with friction at the pins. A shape that is only
-/// spectrally stable is held by gyroscopic forces: friction makes the motions of negative energy grow (Kelvin, Tait,
-/// Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and `external_damping` tell which motions grow, to first
-/// order; the torque that balances the mean drag of the air has an effect of second order only. Drag in proportion to
-/// mass, in place of length, would add -1/2 of drag over mass to each growth rate, for any shape.
-/// Accuracy: exponents to about 1e-13 of the largest where they are simple; `exponent_error` estimates the error of
-/// each, and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, and up to 100
-/// motions, they are computed with twice the digits: with masses 1e16 apart mostly to 2e-13 of the largest (3e-11 at
-/// worst of 900 shapes), on arms and springs 5e-9, as the shape is given in double (tests/python/test_light_links.py).
-/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40, less where every motion out of the plane has positive energy;
-/// a hundred times as much with twice the digits. N = 1: omega = n sqrt(1 + 3 cos^2 d) free,
-/// n sin d driven (section 7 (6)).
-/// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
+/// A rotation of the shape about the axis does not change the energy. In the free frame the
+/// constant angular momentum removes it, so that no double zero spoils the exponents: 4 b b' /
+/// (y0'M y0) is added to the stiffness in the plane, where b = B y0, y0 are the shape's offsets, M
+/// is the mass matrix and B the gyroscopic coupling. Links are rods without inertia about their own
+/// axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer with massless links, because
+/// two links that meet in a pin without mass stay in line. N = 1: n sqrt(1 + 3 cos^2 d) free, n sin
+/// d driven, §7 (6).
+/// Exponents and verdict contain no damping. A minimum stays stable with friction at the pins. A
+/// shape that is only spectrally stable is held by gyroscopic forces: friction makes the motions of
+/// negative energy grow (Kelvin, Tait, Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and
+/// `external_damping` tell which motions grow, to first order; the torque that balances the mean
+/// drag has an effect of second order only. Drag in proportion to mass instead of length adds -1/2
+/// of drag over mass to each growth rate, for any shape.
+/// Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each error,
+/// and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, up
+/// to 100 motions are computed with twice the digits: masses 1e16 apart mostly to 2e-13 of the
+/// largest (3e-11 at worst of 900 shapes), on arms and springs 5e-9, as the shape is given in
+/// double (tests/python/test_light_links.py).
+/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
+/// positive energy, 100 times as much with twice the digits.
+/// Throws InvalidArgument if numbers or lengths of links differ; weights are not compared.
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
-/// Returns the stability of a shape with both ends held. Firm ends stay where they are, those on springs move across
-/// the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity; each
-/// end on a spring adds 4, or 2. Arms turn at a constant speed: between ends off the axis no rotation is removed, and
-/// there are 2 more exponents if free.
-/// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3/2.
-/// Throws InvalidArgument as above, and for a pin that moves and carries no mass, except at the upper end.
+/// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
+/// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
+/// gravity; each end on a spring adds 4, or 2. Arms turn at constant speed: between ends off the
+/// axis no rotation is removed, which adds 2 exponents if free.
+/// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
+/// (4 N)^3/2. Throws InvalidArgument as above, and for a massless moving pin below the upper end.
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {
     StabilityFrame frame = StabilityFrame::free;
-    Rotation direction = Rotation::forward;               ///< it matters to flywheels
-    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels
+    Rotation direction = Rotation::forward;               ///< for flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< for flywheels
 };
 
-/// Returns the stability of a steady shape of `rig`; exponents, damping, accuracy and cost as of a chain.
+/// The stability of a steady shape of `rig`; exponents, damping, accuracy and cost as for a chain.
 ///
-/// A support on the axis, firm or not, passes no torque about it in the free frame: angular momentum is constant, as
-/// for a chain. A support that is carried round keeps its speed, and no rotation is removed: N links have 4 N
-/// exponents, and the energy is that in the frame that turns at this speed. A support that yields moves in all
-/// directions across the axis (driven: in the plane), which adds 4 exponents (2); if it and the link below have no mass
-/// at that pin, motion out of the plane adds none.
-/// In the free frame each link keeps its angular momentum about its own axis, with that of its wheel, on free bearings
-/// or driven: ball joints pass no torque along a link. In the driven frame links turn with the plane, and wheels on
-/// free bearings keep their momentum.
-/// Still fluid: buoyancy and added mass, in every direction of motion.
-/// Fluid that turns: its motion around a disturbed link (inertial waves, which depend on the walls) is not modelled, so
-/// there are no exponents. The energy tells whether a shape is a minimum, at constant speed and apart from a rotation.
-/// A minimum is stable in any fluid, viscous or not. Otherwise the verdict is undecided, and the growth rate NaN.
-/// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; for a flywheel that
-/// acts on a massless upper end.
+/// In the free frame a support on the axis, firm or not, passes no torque about it: angular
+/// momentum is constant, as for a chain. A support that is carried round has a constant speed, and
+/// no rotation is removed: N links have 4 N exponents, and the energy is that in the frame that
+/// turns at this speed. A support that yields moves in all directions across the axis (driven: in
+/// the plane), which adds 4 exponents (2); without mass there, only motion in the plane adds any.
+/// In the free frame the angular momentum of each link and its wheel about the link's axis is
+/// constant, on free bearings or driven: ball joints pass no torque along a link. In the driven
+/// frame links turn with the plane, and wheels on free bearings have constant momentum.
+/// Still fluid adds buoyancy and added mass, in every direction of motion. For a fluid that turns,
+/// its motion around a disturbed link (inertial waves, which depend on the walls) is not modelled,
+/// so there are no exponents. The energy tells whether a shape is a minimum, at constant speed and
+/// apart from a rotation. A minimum is stable in any fluid, viscous or not; otherwise the verdict
+/// is undecided and the growth rate NaN.
+/// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; and
+/// for a flywheel that acts on a massless upper end.
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});
 

@@ -11,34 +11,35 @@
 ///     const auto chain = revchain::Chain<double>::uniform_plummets(2, 2.0);
 ///     const auto branch = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
 ///     const auto windows = revchain::stability_windows(chain, branch);
-///     windows.size();                                                // 2 windows
-///     windows[0].verdict == revchain::Verdict::spectrally_stable;    // true, from the vertical on
-///     windows[1].verdict == revchain::Verdict::unstable;             // true: faster than that
-///     windows[1].height_from;                                        // 0.135704 m: the conical height of the edge
+///     windows.size();                                               // 2 windows
+///     windows[0].verdict == revchain::Verdict::spectrally_stable;   // true, from the vertical on
+///     windows[1].verdict == revchain::Verdict::unstable;            // true: faster than that
+///     windows[1].height_from;      // 0.135704 m: the conical height of the edge
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// A part of a branch in which all sampled shapes have the same verdict.
 struct StabilityWindow {
     double arc_from, arc_to;
-    double height_from, height_to;  ///< conical heights there; `from` is nearer to where the branch begins
+    double height_from, height_to;  ///< conical heights; `from` is nearer to the first point
     Verdict verdict;
 };
 
 struct StabilityWindowsOptions {
     StabilityFrame frame = StabilityFrame::free;
     double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
-    int samples = 8;          ///< equal parts of the step between two points; a verdict at each end of a part
+    int samples = 8;  ///< equal parts of the step between two points; verdicts at their ends
 };
 
-/// Returns the parts of a branch with one verdict each, in the order of the arc. They cover the branch from its first
-/// point off the vertical to its end.
+/// Returns the parts of a branch with one verdict each, in the order of the arc, from the first
+/// point off the vertical to the end.
 ///
-/// Method: `stability` at every point of the branch and at `samples - 1` places between two points. Where the verdict
-/// changes, the step is halved until it is as short as `tolerance`; what is undecided within it, between two verdicts,
-/// is the edge. A window shorter than the distance of two places can be missed: the result is not proved.
-/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
-/// some (4 N)^3 for every place.
-/// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples` below 1.
+/// Method: `stability` at every point of the branch and at `samples - 1` points between two. Where
+/// the verdict changes, the step is halved until it is as short as `tolerance`; an undecided part
+/// between two verdicts counts as the edge. A window shorter than the distance of two samples can
+/// be missed: the result is not proved.
+/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the
+/// critical height). Cost: some (4 N)^3 a sample. Throws InvalidArgument if the numbers of links
+/// differ, for a tolerance not above 0 and for `samples` below 1.
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});
 

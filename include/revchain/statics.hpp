@@ -4,68 +4,72 @@
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 
-/// Force diagrams of steady shapes, and weights on a thread between two supports, at rest and oscillating.
+/// Force diagrams of steady shapes; weights on a thread between supports, at rest and oscillating.
 ///
 ///     Eigen::VectorXd weight(2), place(4);
 ///     weight << 1, 2;
 ///     place << 0, 1, 2, 3;  // the first support, both weights, the last support
-///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);  // horizontal tension 4
-///     polygon.height[1];                                                             // -0.333333
+///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);
+///     polygon.height[1];      // -0.333333, with horizontal tension 4
 ///     const auto m = revchain::transverse_modes<double>(weight, place, 4.0);
-///     m.conical_height[0];                                                           // 0.394338
+///     m.conical_height[0];    // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The graphical construction of a steady shape, Figs. 3 and 5, as data. Links are listed lowest first, pins free end
-/// first; each row is a point (x from the axis, z upwards).
+/// The graphical construction of a steady shape, Figs. 3 and 5, as data. Links are lowest first,
+/// pins free end first; a row is a point (x from the axis, z upwards).
 ///
-/// The vertices of the funicular polygon are the pins, its sides the links, its loads `load`. In the diagram of force,
-/// the line of load goes vertically upwards from the pole O, with one segment for each load. The ray OQ_m ends at the
-/// level of its segment's end; it is parallel to link m, and its length is the tension along the link. The weight of a
-/// plummet is on its pin, and Q_m is also the reaction. A link of another kind divides its weight and centrifugal force
-/// between its pins by balance about them, and the reaction at a pin lies between the rays of the links that meet
-/// there.
+/// The vertices of the funicular polygon are the pins, its sides the links, its loads `load`. In
+/// the diagram of force the line of load goes vertically upwards from the pole O, one segment for
+/// each load. The ray OQ_m ends at the level of its segment's end; it is parallel to link m, and
+/// its length is the tension along the link. The weight of a plummet is on its pin, and Q_m is also
+/// the reaction. A link of another kind divides its weight and centrifugal force between its pins
+/// by balance about them, and the reaction at a pin lies between the rays of its links.
 struct ForceDiagram {
     Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
-    Table<double> load;      ///< (N, 2) on every pin but the support: centrifugal force outwards, weight (negative)
+    Table<double> load;      ///< (N, 2) on all pins but the support: centrifugal force, -weight
     Table<double> ray;       ///< (N, 2) Q_m from O
-    Table<double> reaction;  ///< (N, 2) from O: force at each link's upper pin on all that hangs below it
-    Vector<double> lifted;   ///< (N) x where the line of each load from O meets the horizontal line lambda below O: the
-                             ///< x of a plummet; infinite for a load without weight, the x of the pin without load
-    Table<double> centre_of_gravity;  ///< (N, 2) G_m of link m and all below it. With K_m on the axis lambda above the
-                                      ///< level of G_m, G_m K_m is parallel to the reaction
-    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis; infinite if it never does
+    Table<double> reaction;  ///< (N, 2) from O: force at a link's upper pin on all that hangs below
+    /// (N) x where the line of each load from O meets the horizontal line lambda below O: the x of
+    /// a plummet; infinite for a load without weight, the x of the pin without load
+    Vector<double> lifted;
+    /// (N, 2) G_m of link m and all below it. With K_m on the axis lambda above the level of G_m,
+    /// G_m K_m is parallel to the reaction.
+    Table<double> centre_of_gravity;
+    Vector<double> crossing;  ///< (N) z of C_m, where link m's line meets the axis; or infinite
     double conical_height = 0;
 };
 
-/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from inclinations, so that
-/// comparing them with the links checks the shape: they are parallel to 5 ulp of the sum of all loads' magnitudes
-/// (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument unless the shape has as many links as the chain.
+/// The diagram of a steady shape of this chain. Rays are sums of loads, not computed from
+/// inclinations, so comparing them with the links checks the shape: they are parallel to 5 ulp of
+/// the sum of all loads' magnitudes (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument
+/// unless the shape has as many links as the chain.
 [[nodiscard]] ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
-/// The straight chain with the weights of the shape moved to the axis at their levels: its links are as long as those
-/// of the shape are high. Its mode at the shape's conical height has the offsets of the shape, at any inclination and
-/// for links of any kind. Its stiffness is also the shape's stiffness perpendicular to the turning plane.
-/// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
+/// The straight chain with the weights of the shape moved to the axis at their levels: each link is
+/// as long as its link in the shape is high. Its mode at the shape's conical height has the offsets
+/// of the shape, at any inclination and for links of any kind, and its stiffness is that of the
+/// shape perpendicular to the turning plane. Accuracy: lengths to 2 ulp of the shape's heights.
+/// Throws InvalidArgument as `force_diagram`.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
-/// Weights on a thread between two supports, at rest in a vertical plane, from the first support to the last.
+/// Weights on a thread between two supports, at rest in a vertical plane.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;    ///< (n + 2) x of supports and weights
-    Vector<T> height;   ///< (n + 2) z
-    Vector<T> rise;     ///< (n + 1) vertical component of each side's tension; in the diagram of force the ray from
-                        ///< the pole (0, 0) ends at (horizontal_tension, rise)
-    Vector<T> tension;  ///< (n + 1) of each side, the length of its ray
-    T horizontal_tension{};  ///< the same in all sides
+    Vector<T> place;   ///< (n + 2) x of supports and weights
+    Vector<T> height;  ///< (n + 2) z
+    Vector<T> rise;    ///< (n + 1) vertical component of each side's tension
+    Vector<T> tension;       ///< (n + 1) of each side, the length of its ray
+    T horizontal_tension{};  ///< of every side
 };
 
-/// The polygon with a given horizontal component of tension: sides are parallel to the rays from the pole to the line
-/// of load. `weight` (n), `place` (n + 2) with both supports.
-/// Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
-/// weights are positive, places increase, and all numbers, also the results, are finite.
+/// The polygon with a given horizontal component of tension: sides are parallel to the rays from
+/// the pole (0, 0) to (horizontal_tension, rise) on the line of load. `weight` (n); `place` (n + 2)
+/// with both supports. Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost
+/// O(n). Throws InvalidArgument unless weights are positive, places increase, and numbers and
+/// results are finite.
 template <Real T>
 [[nodiscard]] FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
                                                     const std::type_identity_t<Vector<T>>& place,
@@ -78,21 +82,22 @@ template <Real T>
 struct TransverseModes {
     Vector<T> conical_height;  ///< (n) of the conical pendulum with the same period
     Vector<T> error_bound;     ///< (n) relative
-    Table<T> shape;            ///< (n, n + 2) offsets of supports and weights; largest 1, that of the first weight >= 0
+    Table<T> shape;            ///< (n, n + 2) offsets; largest 1, that of the first weight >= 0
 
     /// Seconds, 2 pi sqrt(conical_height / g).
     [[nodiscard]] Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return conical_height.unaryExpr([&](const T& height) { return conical_pendulum::period(height, gravity); });
+        return conical_height.unaryExpr(
+            [&](const T& height) { return conical_pendulum::period(height, gravity); });
     }
 };
 
-/// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also the modes of a
-/// funicular polygon with this horizontal tension, perpendicular to its plane: a side of length a and tension T resists
-/// with T/a, which is the horizontal component over the horizontal length. `weight` (n), `place` (n + 2) with both
-/// supports. The modes are those of an equivalent hanging chain (`modes`).
-/// Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the proved bound of
-/// `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless there are weights, all positive,
-/// places increase, and all numbers, also the heights, are finite.
+/// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also
+/// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane: a
+/// side of length a and tension T resists with T/a, the horizontal component over the horizontal
+/// length. `weight` (n); `place` (n + 2) with both supports. Method: an equivalent hanging chain
+/// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the
+/// proved bound of `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless
+/// there are weights, all positive, places increase, and all numbers, also the heights, are finite.
 template <Real T>
 [[nodiscard]] TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
                                                   const std::type_identity_t<Vector<T>>& place,

@@ -14,7 +14,7 @@
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     revchain::Vector<double> start(3);
-///     start << 0.02, 0.0, 0.0;                 // the free end is drawn 2 cm aside, and released at rest
+///     start << 0.02, 0.0, 0.0;         // the free end is drawn 2 cm aside, and released at rest
 ///     const auto s = revchain::swing(chain, {.offset = start, .time = {0.0, 0.5, 1.0}});
 ///     s.offset(2, 0);                          // where the free end is after one second, m
 ///     s.angular_frequency[0];                  // 3.80868 rad/s, as of `modes`
@@ -22,91 +22,91 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// The start of the chain, and the times of the results.
 struct SwingOptions {
-    Vector<double> offset{};       ///< (N) or (N + 1) of the pins at time 0, free end first; empty: on the axis
-    Vector<double> velocity{};     ///< the same at time 0; empty: at rest
-    std::vector<double> time{};    ///< of either sign, in any order
-    std::optional<Index> count{};  ///< of the slowest modes that are superposed; absent: all
+    Vector<double> offset{};     ///< (N) or (N + 1) of the pins at time 0, free end first; empty: 0
+    Vector<double> velocity{};   ///< likewise; empty: at rest
+    std::vector<double> time{};  ///< of either sign, in any order
+    std::optional<Index> count{};  ///< of the slowest modes; absent: all
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;  ///< read and cancelled from another thread
 };
 
-/// A hanging chain swinging in a plane with small amplitude: the sum of its modes, each at its own frequency.
+/// A hanging chain swinging in a plane with small amplitude: the sum of its modes.
 struct Swing {
-    Table<double> offset;              ///< (times, N+1) of the pins, free end first, the support's 0 last
+    Table<double> offset;              ///< (times, N+1) free end first, the support's 0 last
     Table<double> velocity;            ///< (times, N+1)
-    Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
-    Vector<double> energy;             ///< (k,) of each mode, weight times length; it stays in the mode
+    Vector<double> angular_frequency;  ///< (k,) w = sqrt(g / lambda), ascending
+    Vector<double> energy;             ///< (k,) of each mode, weight times length; constant
     Table<double> shape;               ///< (k, N+1) as those of `modes`
-    Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
-    Vector<double> start;              ///< (N+1) offsets at time 0: those given, except for pins without inertia
+    Vector<double> cosine, sine;       ///< (k,) offset = sum of shape (cosine cos wt + sine sin wt)
+    Vector<double> start;              ///< (N+1) offsets at time 0
     bool projected = false;            ///< whether `start` differs from the given offsets
-    double energy_left_out = 0;        ///< bound of the energy outside the first `count` modes, weight times length
-    Vector<double> truncation_error;   ///< (N+1) bound, at any time, of the part of each offset in those other modes
-    Vector<double> error_bound;        ///< (times,) of every offset, a length, without `truncation_error`
+    double energy_left_out = 0;        ///< bound of the energy in other modes, weight times length
+    Vector<double> truncation_error;   ///< (N+1) bound of the part of each offset in other modes
+    Vector<double> error_bound;        ///< (times,) of every offset, without `truncation_error`
 };
 
-/// Small oscillations of a hanging chain in a plane, superposed from its modes: their conical heights lambda are those
-/// of whirling, the frequencies sqrt(g / lambda).
+/// Small oscillations of a hanging chain in a plane, superposed from its modes.
 ///
-/// The start of a pin without inertia (between massless threads) is not free: it goes at once where its neighbours pull
-/// it. `start` holds the offsets of least potential energy with the same momenta; `projected` is true if they differ
-/// from those given.
+/// The start of a pin without inertia (between massless threads) is not free: its neighbours pull
+/// it at once into place. `Swing::start` has the offsets of least potential energy with the same
+/// momenta; `projected` is true if they differ from the given ones.
 ///
-/// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with compensation. Two bounds
-/// hold for every offset at every time, both proved (docs/theory/motion.md): `truncation_error`, from
-/// the energy outside the modes kept and y_m^2 <= 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from
-/// residuals of the shapes, angles and rounding.
+/// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with
+/// compensation. Two bounds hold for every offset at every time, both proved
+/// (docs/theory/motion.md): `truncation_error`, from the energy outside the modes used and y_m^2 <=
+/// 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from residuals, angles and rounding.
 /// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.
 /// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
-/// Throws InvalidArgument for starts that are not finite or of another length, a support that would move, a count of
-/// more modes than there are, gravity not positive, times not finite, and weights more than 1e123 apart.
+/// Throws InvalidArgument for starts that are not finite or of another length, a support that
+/// moves, a count above the number of modes, gravity <= 0, times not finite, weights more than
+/// 1e123 apart.
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
-/// Small oscillations in a plane of a rig after release. The rig may have a support that yields, with its carriage,
-/// still fluid with buoyancy and added mass, and standing links if it is stable at rest. Where the support yields, its
-/// offset and velocity may be given, last in each start; a carriage without weight goes where the chain pulls it.
-///
-/// Links do not turn about their own axes: axial moments of wheels have no effect. Accuracy, bounds and cost as above.
-/// Throws InvalidArgument as above; where a flywheel has momentum of its own, which turns the plane of the swing
-/// (`whirl_swing`); for a support that is carried round (`response`); for a fluid that turns; where the straight rig is
-/// unstable or in neutral balance (the message says how fast it falls); for lowest links without any inertia.
+/// The same for a rig that is stable at rest: a support that yields, with its carriage, still fluid
+/// with buoyancy and added mass, standing links. If the support yields, its offset and velocity may
+/// be given, last in each start; a carriage without weight goes where the chain pulls it. Links do
+/// not turn about their own axes, so axial moments of wheels have no effect.
+/// Also throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support
+/// that is carried round (`response`); for a fluid that turns; where the straight rig is unstable
+/// or in neutral balance (the message says how fast it falls); for lowest links without inertia.
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
 /// How a rig with flywheels starts. Offsets are x + i y, in the two level directions.
 struct WhirlSwingOptions {
-    Vector<std::complex<double>> offset{};    ///< (N) or (N + 1) of the pins at time 0, free end first; empty: 0
-    Vector<std::complex<double>> velocity{};  ///< the same at time 0; empty: at rest
+    Vector<std::complex<double>> offset{};  ///< (N) or (N + 1) at time 0, free end first; empty: 0
+    Vector<std::complex<double>> velocity{};  ///< likewise; empty: at rest
     std::vector<double> time{};               ///< of either sign, in any order
-    std::optional<Index> count{};             ///< of the slowest whirls in both directions; absent: all
+    std::optional<Index> count{};  ///< of the slowest whirls in both directions; absent: all
     double gravity = conical_pendulum::standard_gravity;
     Progress* progress = nullptr;
 };
 
-/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, each a rigid shape turning at its speed.
+/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, rigid shapes.
 struct WhirlSwing {
-    Table<std::complex<double>> offset;      ///< (times, N+1) of the pins, free end first, the support last
+    Table<std::complex<double>> offset;      ///< (times, N+1) free end first, support last
     Table<std::complex<double>> velocity;    ///< (times, N+1)
     Vector<double> angular_speed;            ///< (k,) n, rad/s, of either sign, slowest first
-    Vector<std::complex<double>> amplitude;  ///< (k,) offsets are the sum of amplitude shape exp(i n t)
-    Vector<double> energy;                   ///< (k,) of each whirl, weight times length; may be less than 0
-    Table<double> shape;                     ///< (k, N+1)
-    double energy_left_out = 0;              ///< bound of the energy outside the whirls kept, weight times length
-    Vector<double> truncation_error;         ///< (N+1) bound, at any time, of the part of each offset in the others
-    Vector<double> error_bound;              ///< (times,) of every offset, a length, without `truncation_error`
+    Vector<std::complex<double>> amplitude;  ///< (k,) offset = sum of amplitude shape exp(i n t)
+    Vector<double> energy;            ///< (k,) of each whirl, weight times length; of either sign
+    Table<double> shape;              ///< (k, N+1)
+    double energy_left_out = 0;       ///< bound of the energy in all others, weight times length
+    Vector<double> truncation_error;  ///< (N+1) bound of the part of each offset in the others
+    Vector<double> error_bound;       ///< (times,) of every offset, without `truncation_error`
 };
 
-/// Small oscillations of a rig with flywheels: (1/g) M u'' - i G u' + K u = 0, u = x + i y, G their momenta on the
-/// links. Whirls u = y exp(i n t) have the speeds and shapes of `modes`, in both directions. Each link keeps the
-/// angular momentum about its own axis and does not turn about it, so axial moments have no effect. Any two whirls
-/// satisfy y_j^T (G - (n_j + n_k) M/g) y_k = 0. So the coefficient of whirl j in a start (u, u') is
+/// Small oscillations of a rig with flywheels: (1/g) M u'' - i G u' + K u = 0, u = x + i y, where G
+/// has their momenta on the links. Whirls u = y exp(i n t) have the speeds and shapes of `modes`,
+/// in both directions. The angular momentum of a link about its own axis is constant and the link
+/// does not turn about it, so axial moments have no effect. Any two whirls satisfy y_j^T (G - (n_j
+/// + n_k) M/g) y_k = 0, so the coefficient of whirl j in a start (u, u') is
 ///     c_j = y_j^T [(n_j M/g - G) u - i M/g u'] / y_j^T (2 n_j M/g - G) y_j.
 ///
-/// Bounds as of `swing`, proved where every link hangs in tension at rest. Where only the momenta keep standing links
-/// from falling, the bounds are infinite.
+/// Bounds as of `swing`, proved where every link hangs in tension at rest. Where only the momenta
+/// keep standing links from falling, the bounds are infinite.
 /// Accuracy measured (tests/cpp/whirl_swing.cpp): 1e-15 of the sum of the amplitudes.
 /// Cost: 4 microseconds for each link and whirl, then 4 ns for each link, whirl and time.
-/// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says how fast it falls);
-/// for pins without inertia.
+/// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says
+/// how fast it falls); for pins without inertia.
 [[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 
 }  // namespace revchain

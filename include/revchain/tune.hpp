@@ -13,7 +13,9 @@
 /// The value of one datum of a chain that gives one of its modes a wanted speed.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-///     const auto t = revchain::tune(chain, {.mode = 1, .link = 0, .datum = revchain::Datum::length_in_proportion,
+///     const auto t = revchain::tune(chain, {.mode = 1,
+///                                           .link = 0,
+///                                           .datum = revchain::Datum::length_in_proportion,
 ///                                           .angular_speed = 3.0});
 ///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
@@ -24,7 +26,7 @@ class Cord;  // revchain/cord.hpp
 template <class System>
 class Held;  // revchain/held.hpp
 
-/// The mode, the height or speed that it is to have, the datum to change, and the range of its values.
+/// The mode, its wanted height or speed (give one), the datum to change, and its range.
 struct TuneOptions {
     Index mode = 1;                                       ///< from 1 for the slowest
     Index link = 0;                                       ///< from 0, the lowest
@@ -32,9 +34,9 @@ struct TuneOptions {
     std::optional<double> conical_height{};               ///< give this or `angular_speed`
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
-    /// The range searched. Absent: for a weight or length, from 1/1000 to 1000 times the present value (for a massless
-    /// link, of the whole chain's weight); for a centroid or radius of gyration, from 0 to the link's length, extended
-    /// to the present value if that is outside.
+    /// The range searched. Absent: for a weight or length, from 1/1000 to 1000 times the present
+    /// value (for a massless link, of the whole chain's weight); for a centroid or radius of
+    /// gyration, from 0 to the link's length or the present value, if that is outside.
     std::optional<double> low{}, high{};
 };
 
@@ -45,21 +47,23 @@ enum class TuneStatus {
 };
 
 [[nodiscard]] inline std::string_view to_string(TuneStatus status) noexcept {
-    return status == TuneStatus::found ? "found" : status == TuneStatus::no_value ? "no_value" : "undecided";
+    constexpr std::string_view names[]{"found", "no_value", "undecided"};
+    return names[static_cast<std::size_t>(status)];
 }
 
 struct Tuned {
     TuneStatus status = TuneStatus::undecided;
     double present{};                                         ///< the datum of the chain given
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< the one of `values` nearest to `present`, or NaN
-    /// Absolute error bound of `value`: proved counts of modes at this distance on either side of it differ.
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< nearest to `present`
+    /// Absolute error bound of `value`: proved counts at this distance on either side differ.
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< all values found, ascending
-    /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of the quadratic to a
-    /// mode. Always false for a weight: the search finds only the nearest solution on each side of the present value.
+    /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of
+    /// the quadratic to a mode. Always false for a weight: only the nearest solution on each side
+    /// is searched.
     bool complete = false;
     double low{}, high{};  ///< the range searched, without the part in which the link would stand
-    /// Extremes of the mode's height seen in that range. Set for a weight, and for every datum if no value is found.
+    /// Extremes of the mode's height seen in that range, for a weight, and if no value is found.
     double lowest_height = std::numeric_limits<double>::infinity();
     double highest_height = 0;
     std::optional<Chain<double>> chain{};  ///< with `value` in place
@@ -67,21 +71,22 @@ struct Tuned {
 
 /// The value of a datum that gives a mode a conical height or whirl speed.
 ///
-/// At a given height the chain below and above a link acts as a spring at each of its pins. A length, a centroid or a
-/// radius of gyration that gives any mode this height is then a root of an equation of degree 1 or 2. Proved counts on
-/// each side of a root tell whether it belongs to this mode, and bound its error. A weight loads all links above; its
-/// nearest value on each side is approached in steps that provably skip no value.
-/// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not small, measured
-/// (tests/cpp/tune.cpp). Where no value is found, the extremes of the heights are those seen at 33 places.
-/// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
-/// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
-/// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
+/// At a given height the chain below and above a link acts as a spring at each of its pins. A
+/// length, a centroid or a radius of gyration that gives any mode this height is then a root of an
+/// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
+/// its error. A weight loads all links above; its nearest value on each side is found in steps that
+/// provably skip none.
+/// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not
+/// small, measured (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
+/// values. Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
+/// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is
+/// given, for a range in which the link always stands (a part in which it stands is cut off), and
+/// for weights more than 1e123 apart.
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. For a
 /// rig use `momentum_for_speed` or `stiffness_for_speed` (sensitivity.hpp). Heights of a cord are
-/// proportional to its length: multiply the length by the wanted height over that of `modes`. For a
-/// `Held` change its system, make a new `Held` of it and call `modes` again.
+/// proportional to its length. For a `Held` change its system, make a new `Held` and call `modes`.
 Tuned tune(const Rig& rig, const TuneOptions& options) = delete;
 Tuned tune(const Cord& cord, const TuneOptions& options) = delete;
 template <class System>

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "revchain/count.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD {
+
+template <Real T>
+Index ModeCounter<T>::above(const Wide<T>& height, const T& rough) const {
+    using std::ldexp;
+    const T scaled = pencils_.scaled(rough);
+    using limits = std::numeric_limits<T>;
+    if (!(scaled < ldexp(T(1), limits::max_exponent - limits::digits))) return 0;
+    if (scaled < ldexp(T(1), limits::min_exponent + limits::digits)) return mode_count_;
+    const Wide<T> shift = pencils_.scaled(height);
+    const auto sure = pencils_.template certified_count<1>({shift});
+    if (sure[0].proved) return sure[0].above;
+    const Wide<T> tie(operation_error<Wide<T>>() * Narrow<Wide<T>>(1 << 20));
+    return pencil::certified_count<Wide<T>, 1>(pencils_.wide(), {shift + shift * tie})[0].above;
+}
+
+namespace detail {
+
+/// The counter of a chain and its pencils, assembled when first needed. The chain must outlive it.
+template <Real T>
+class LazyCounter {
+   public:
+    explicit LazyCounter(const Chain<T>& chain) : chain_(chain) {}
+    const ModeCounter<T>& counter() {
+        if (!counter_) counter_.emplace(chain_);
+        return *counter_;
+    }
+    const Pencils<T>& pencils() { return counter().pencils_; }
+
+   private:
+    const Chain<T>& chain_;
+    std::optional<ModeCounter<T>> counter_;
+};
+
+}  // namespace detail
+}  // namespace revchain
