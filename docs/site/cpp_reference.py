@@ -210,8 +210,8 @@ def purpose(header: Path) -> str:
 
 GROUPS = {
     "Systems": "chain rig cord held",
-    "Questions": "modes rig_modes count explain steady_shapes branches stability stability_windows response swing sensitivity "
-    "tune batch statics recurrence",
+    "Questions": "modes methods rig_modes count explain steady_shapes branches stability stability_windows response swing "
+    "sensitivity tune batch statics recurrence",
     "Closed forms of the paper": "conical_pendulum compound_link two_links hoop rope governor gyrostatic_string bell buffer",
     "All at once": "revchain analytic",
 }

@@ -28,9 +28,9 @@
 /// from a fixed point is the natural angular frequency of its plane swing.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// How conical heights are found.
+/// How conical heights are found. The last three are in methods.hpp.
 enum class ModesMethod {
-    automatic,     ///< the cheapest that meets the tolerance; see explain.hpp
+    automatic,     ///< the cheapest of those there are that meets the tolerance
     bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
     condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
     aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
@@ -116,26 +116,24 @@ struct Modes {
 
 /// The modes chosen by `options`. Shapes are computed on demand.
 ///
-/// Method: the cheapest whose error bound is at most `rtol`: closed forms, zeros of Bessel
-/// functions, coarse chains, or the numerical ones of `ModesMethod`. `Modes::method` names it. The
-/// numerical methods count modes in T at eight trial heights in one pass. A twisted factorization
-/// gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts prove the
-/// bound. A chain of floats is solved in double. Long double and wider scalars use bisection.
-/// Windows are decided by proved counts (`ModeCounter::within`), not by rounded heights.
-/// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored
-/// numbers (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2
-/// ulp, proved by counts. With `rtol`: the bound is at most `rtol`, proved by counts for the
-/// methods of `ModesMethod` and coarse chains; for closed forms, continuous chains and asymptotic
-/// formulas it is derived and measured to hold. `certify` proves it for all. Shapes are within
-/// 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a
-/// looser `rtol`), where gap, at most 1, is the relative distance to the next height. Where
-/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
-/// Results are bitwise the same for any number of threads.
-/// Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds eight at a time, shapes
-/// 0.006; one by one, as where weights need several units, 0.3. Memory O(N k) with shapes.
-/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >=
-/// high, numbers together with a window, and a tolerance that is negative or NaN. A tolerance out
-/// of reach gives `Status::tolerance_not_met` and the bounds reached.
+/// Method: bisection. Modes are counted in T at eight trial heights in one pass. A twisted
+/// factorization gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts
+/// prove the bound. A chain of floats is solved in double. methods.hpp adds methods that are faster
+/// for long chains, many modes and loose tolerances, with the same bounds; where a program links
+/// `revchain::compiled` they are here, too. `Modes::method` names the method used. Windows are
+/// decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy without
+/// `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
+/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp, proved by counts.
+/// With `rtol`: the bound is at most `rtol`, proved by counts. Shapes are within 5.6e-17 of the
+/// largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a looser `rtol`),
+/// where gap, at most 1, is the relative distance to the next height. Where `Wide<T>` is T itself
+/// (DoubleDouble, a scalar of your own) errors and bounds grow with N. Results are bitwise the same
+/// for any number of threads. Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds
+/// eight at a time, shapes 0.006; one by one, as where weights need several units, 0.3. Memory O(N
+/// k) with shapes. Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a
+/// window with low >= high, numbers together with a window, a tolerance that is negative or NaN,
+/// and a method that needs methods.hpp. A tolerance out of reach gives `Status::tolerance_not_met`
+/// and the bounds reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
