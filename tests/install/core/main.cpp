@@ -2,6 +2,7 @@
 // The quick start, as a user would type it.
 #include <cstdio>
 #include <revchain/revchain.hpp>
+#include <string>
 #include <vector>
 
 double slowest_height_of_rods(int count);  // the second translation unit
@@ -16,6 +17,15 @@ int main() {
     auto m = revchain::modes(chain, {.count = 3});
     std::printf("height %.15g, error below %.1g, speed %.15g, tip %.15g; rods %.15g\n", m.conical_height[0],
                 m.error_bound[0], m.angular_speed(9.80665)[0], m.shape(0)[0], slowest_height_of_rods(10));
+#if !defined(REVCHAIN_COMPILED)
+    bool refused = false;  // what modes.hpp alone does not have
+    try {
+        (void)revchain::modes(chain, {.method = revchain::ModesMethod::aberth});
+    } catch (const revchain::InvalidArgument& error) {
+        refused = std::string(error.what()).find("#include <revchain/methods.hpp>") != std::string::npos;
+    }
+    if (m.method != "bisection" || !refused) return 2;
+#endif
     // The exact value for many rods is 4 / j01^2 = 0.6917; ten rods are 1 % from it.
     return m.conical_height[0] > m.conical_height[1] && slowest_height_of_rods(10) > 0.68 ? 0 : 1;
 }
