@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,69 +22,69 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in
-/// the pencil's scalar; `height` in the pencil's unit.
+/// Stores the shape of mode `j` and, if there is room, nodes and residual; `height` in pencil
+/// units.
 template <Real T, Real S>
-void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil,
-               const T& height, const pencil::Eigenvector<T>& vector) {
+void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
+               const pencil::ElementPencil<S>& pencil, const T& height,
+               const pencil::Eigenvector<T>& vector) {
     shapes.offset.row(j) = vector.offset.transpose();
     if (shapes.residual.size() == 0) return;
     shapes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
-    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
+    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, pin_places(chain), vector.crossings);
 }
 
-/// Shapes of the modes that `shapes` has room for, eight at a time, and their residuals if there is
-/// room for those. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)`
-/// tells a mode's root, `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)`
-/// whatever else is wanted of the others.
+/// Shapes of the modes of `shapes`, eight at a time, and residuals if there is room. Pins of the
+/// pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a mode's root,
+/// `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)` receives the others.
 template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
-void shapes_in_eights(ModeShapes<T>& shapes, const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
+void shapes_in_eights(ModeShapes<T>& shapes,
+                      const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
                       const Root& root, const Alone& alone, const Take& take, Progress* progress) {
     const FloatingPointStateGuard quiet;
     const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
-    const auto stride = static_cast<std::size_t>(shapes.offset.cols()), pins = stride - static_cast<std::size_t>(idle);
-    pencil::for_eights<T>(static_cast<std::size_t>(shapes.offset.rows()), pencil.elements.size(),
-                          [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-                              pencil::RootsInLanes<T> roots;
-                              for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-                                  root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i],
-                                       roots.rounded[i]);
-                              pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
-                              found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
-                              for (std::size_t i = 0; i < there; ++i) {
-                                  const auto j = static_cast<Index>(first + i);
-                                  if (found.found[i]) {
-                                      if (details) shapes.residual[j] = found.residual[i];
-                                      take(j, found, i);
-                                  } else {
-                                      alone(j);
-                                  }
-                                  advance(progress, 1.0);  // may be cancelled
-                              }
-                          });
+    const auto stride = static_cast<std::size_t>(shapes.offset.cols());
+    const auto count = static_cast<std::size_t>(shapes.offset.rows()), pins = stride - static_cast<std::size_t>(idle);
+    const auto find = [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+        pencil::RootsInLanes<T> roots;
+        for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
+            root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i], roots.rounded[i]);
+        pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
+        found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
+        for (std::size_t i = 0; i < there; ++i) {
+            const auto j = static_cast<Index>(first + i);
+            if (found.found[i]) {
+                if (details) shapes.residual[j] = found.residual[i];
+                take(j, found, i);
+            } else {
+                alone(j);
+            }
+            advance(progress, 1.0);  // may be cancelled
+        }
+    };
+    pencil::for_eights<T>(count, pencil.elements.size(), find);
 }
 
-/// Finds shapes of some modes of a chain, from heights in the units of its pencils.
+/// Finds shapes of modes of a chain from heights in the units of its pencils.
 template <Real T>
 class ShapeFinder {
    public:
-    /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else
-    /// shapes are found in `Wide<T>` at the height before it was rounded. `condense`: whether a
-    /// long chain may be condensed first.
+    /// `height[i]`: of mode `first + i`. `loose`: T suffices at the given height; else `Wide<T>` at
+    /// the unrounded height. `condense`: a long chain may be condensed.
     ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
         : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
 
-    /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals
-    /// and nodes.
+    /// The shapes of `count` modes from index `from` on; residuals and nodes if asked.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
         const auto begin = height_.begin() + from;
         const Heights<T> height(begin, begin + count);
+        const ChainUnits units = chain_.units();
         if constexpr (std::is_same_v<T, double>)
-            if (condense_ && chain_.size() > most_for_lanes && condensation_pays(chain_, {first_ + from, count}) &&
-                chain_.has_one_weight_unit() &&
-                std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
-                const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
+            if (condense_ && chain_.size() > most_for_lanes &&
+                condensation_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
+                std::abs(units.weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
+                const T unit = std::ldexp(T(1), units.length_exponent) / LinkColumns<T>(chain_).unit_length;
                 const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
                 ModeShapes<T> shapes = room_for_shapes(chain_, count);
                 if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
@@ -110,17 +109,17 @@ class ShapeFinder {
     static constexpr Index most_for_lanes = static_cast<Index>(pencil::most_kept_links);  // where they beat blocks
 
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
+        const T& height = at.eigenvalue;
         if (loose_)
-            set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
-                      pencil::eigenvector(pencils.rounded(), at.eigenvalue));
+            set_shape(shapes, j, chain_, pencils.rounded(), height, pencil::eigenvector(pencils.rounded(), height));
         else
-            set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue, fine_shape<T>(pencils.wide(), at.unrounded));
+            set_shape(shapes, j, chain_, pencils.wide(), height, fine_shape<T>(pencils.wide(), at.unrounded));
     }
 
     void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
                   Progress* progress) const {
         const bool details = shapes.residual.size() > 0;
-        const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
+        const auto places = details ? pin_places(chain_) : std::vector<Wide<T>>();
         const auto root = [&](Index j, Wide<T>& exact, Wide<T>& rounded) {
             const Height<T>& at = height[static_cast<std::size_t>(j)];
             exact = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;

@@ -8,13 +8,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Two doubles as a scalar of its own, 106 bits: `Chain<DoubleDouble>`, `modes`, ... at about 32 digits.
+/// Two doubles as a scalar of 106 bits: `Chain<DoubleDouble>`, `modes`, ... to about 32 digits.
 ///
-/// Not DoubleWord<double> itself: that is the arithmetic in which answers in double are certified, where sizes, errors
-/// and weights are kept in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
-/// DoubleDouble are DoubleDouble, and bounds grow with the number of links.
-/// Accuracy of one operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31. Exponents
-/// are those of double; the second word is lost below 1e-292.
+/// DoubleWord<double> is the arithmetic that certifies answers in double, with sizes, errors and
+/// weights in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
+/// DoubleDouble are DoubleDouble, and bounds grow with the number of links. Accuracy of one
+/// operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31.
+/// Exponents are those of double; the second word is lost below 1e-292.
 class DoubleDouble {
    public:
     constexpr DoubleDouble() = default;
@@ -106,13 +106,5 @@ inline constexpr revchain::DoubleDouble std::numbers::pi_v<revchain::DoubleDoubl
 
 template <>
 struct Eigen::NumTraits<revchain::DoubleDouble> : Eigen::GenericNumTraits<revchain::DoubleDouble> {
-    enum {
-        IsComplex = 0,
-        IsInteger = 0,
-        IsSigned = 1,
-        RequireInitialization = 1,
-        ReadCost = 2,
-        AddCost = 20,
-        MulCost = 20
-    };
+    enum { ReadCost = 2, AddCost = 20, MulCost = 20 };
 };

@@ -20,14 +20,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// How many threads `parallel_for` uses where the thread that made this object calls it, while the object lives. A
-/// question makes one from its option `threads`; 0 means one for each processor. Without one the number is 1, as it is
-/// on the threads that `parallel_for` starts: work is not shared out twice. Throws InvalidArgument if negative.
+/// While it exists, `parallel_for` called on the thread that made it uses this many threads, or
+/// with 0 all processors. Otherwise, and on threads that it starts, it uses 1. Throws
+/// InvalidArgument if negative.
 class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {
         if (threads < 0) throw_invalid(place, "threads must not be negative", threads);
-        used_ = threads > 0 ? threads : std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency()));
+        const auto processors = static_cast<Index>(std::thread::hardware_concurrency());
+        used_ = threads > 0 ? threads : std::max<Index>(1, processors);
     }
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
@@ -39,15 +40,15 @@ class Threads {
     Index before_;
 };
 
-/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads. Ranges begin at
-/// multiples of `chunk`; with one thread, or one chunk, there is one range and no thread is started. Results do not
-/// depend on the number of threads if f treats each chunk by itself.
-/// The exception thrown first reaches the caller, after all threads have ended: the others stop at their next `look`.
-/// The caller calls `look` at least every 50 ms, if f does.
-/// Cost: 50 microseconds for each thread started.
+/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads.
+/// Ranges begin at multiples of `chunk`; with one thread or chunk there is one range, and no thread
+/// is started. Results do not depend on the number of threads if f treats each chunk by itself. The
+/// first exception reaches the caller after all threads have ended; they stop at their next `look`.
+/// The caller calls `look` every 50 ms, if f does. Cost: 50 microseconds for each thread started.
 template <std::integral I, class F>
 void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
-    const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
+    const I chunks = (count + chunk - 1) / chunk;
+    const I threads = std::min(static_cast<I>(Threads::used()), chunks);
     if (threads <= 1) {
         if (count > 0) f(I(0), count);
         return;
@@ -74,14 +75,14 @@ void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
         const FloatingPointStateGuard quiet;
         abandoned = &stop;
         attempt(ranges);
-        abandoned = nullptr;  // the thread may serve others after this
+        abandoned = nullptr;  // the thread may be reused
     };
     std::vector<std::future<void>> helpers;  // their destructors wait
     attempt([&] {
         try {
             for (I t = 1; t < threads; ++t) helpers.push_back(std::async(std::launch::async, helper));
         } catch (const std::system_error&) {
-        }  // no more threads: those there are do the work
+        }  // no more threads: those started do the work
         ranges();
         for (const auto& each : helpers)
             while (each.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) look();
