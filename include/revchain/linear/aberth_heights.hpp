@@ -74,7 +74,7 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     if (top) {
         const double flexibility = 1 / top->stiffness, mass = mass_above + top->carriage;
         trace += (hung.value() + top->carriage) * flexibility;
-        if (links.rigid) {  // K y^2 of the uppermost link and the spring together, over its mass alone
+        if (links.rigid) {  // K y^2 of the top link and the spring over its mass alone
             const double p = links.lower_share[n - 1], turn = links.turn[n - 1];
             const double spring = top->stiffness * (p * p + turn / links.weight[n - 1]);
             greatest = std::max(greatest, (stiffness_below + spring) / turn);

@@ -121,8 +121,8 @@ template <class Where>
 /// rho^2/a^2: stiffness k = (W p + S)/a, and the mass of a rigid body about its two pins, A = W
 /// (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the relative
 /// `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256 links,
-/// more where a centroid above the pin makes W h + a S cancel. Otherwise units are weights at upper
-/// pins within a factor 2^(max_exponent/8). Cost O(N).
+/// more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice, units
+/// are upper pins' weights within 2^(max_exponent/8). Cost O(N).
 template <Real T>
 AssembledChain<T> assemble(const Chain<T>& chain) {
     using std::abs, std::frexp, std::ldexp;

@@ -112,7 +112,6 @@ bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
     return real;
 }
 
-/// How the chains of a batch are computed.
 struct BatchPlan {
     Index count = 0;           ///< modes of each chain
     std::vector<Index> alone;  ///< chains not for the lanes, ascending
@@ -145,8 +144,7 @@ BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count
     if (plan.count > fewest)
         throw_invalid("conical_heights",
                       name_of_chain(batch, which) + " has only " + std::to_string(fewest) +
-                          " modes; count must not exceed them",
-                      plan.count);
+                          " modes; count must not exceed them", plan.count);
     return plan;
 }
 

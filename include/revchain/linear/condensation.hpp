@@ -19,8 +19,7 @@ constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<In
 /// nearly always suffice (`condensed_chain` checks what they leave out).
 constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
 
-/// Roundings (half units) in the moment a1 and the other coefficients of a leaf:
-/// docs/theory/blocks.md.
+/// Roundings (half units) in a1 and the other coefficients of a leaf: docs/theory/blocks.md.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 
@@ -70,7 +69,6 @@ struct ColumnReader {
     }
 };
 
-/// The columns of a chain that the condensation reads.
 template <class T>
 struct LinkColumns {
     ColumnReader<T> weight, length, centroid;

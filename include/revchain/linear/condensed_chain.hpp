@@ -58,7 +58,6 @@ pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& bui
     return run;
 }
 
-/// Lane `lane` of runs condensed together.
 template <class T, class V>
 pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index links) {
     using S = Wide<T>;
@@ -143,7 +142,7 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
                    builder.template is_complete<leaf_degree>(one);
             if (!fits) break;
             const T leaf = runs.leaf_phase[lane] / builder.least_shift();
-            if (leaf_terms(length) < leaf_degree) {  // a4 + d4, b1 c3: leaf^4/64 at most; twice: see note_truncation
+            if (leaf_terms(length) < leaf_degree) {  // a4 + d4, b1 c3: at most leaf^4/64, doubled
                 const T cut = leaf * leaf * leaf / T(31);
                 fits = cut <= epsilon<T>() / T(16);
                 if (!fits) break;

@@ -14,10 +14,9 @@ bool condensation_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
-/// An estimate of the height of mode `number` of a chain of like lengths, in the unit of its
-/// `LinkColumns`: from uniform rods with the weights of pieces of the chain (a few per cent too
-/// low) or, for more modes than those have, from the phase integral sqrt(dW df) of waves (WKB: a
-/// few per cent for like links). Cost: 5 microseconds.
+/// The height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few per
+/// cent: from uniform rods with the weights of pieces of the chain or, for more modes than those
+/// have, from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
 template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
@@ -58,7 +57,7 @@ std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pen
     using P = DoubleWord<V>;
     V start, number;
     for (std::size_t lane = 0; lane < pack_size; ++lane) {
-        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last one fills the pack
+        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last fills up
         start.set(lane, pencil::between(brackets[j].lower, brackets[j].upper));
         number.set(lane, static_cast<T>(first + 1 + static_cast<Index>(j)));
     }
@@ -87,8 +86,7 @@ struct CondensedHeights {
 /// Stage 1 of `modes` for a few slow modes of a long chain; nothing where the bound misses the
 /// tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts in T, two
 /// Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound includes what
-/// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: `condensed_chain` and 20 us a
-/// mode.
+/// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: condensing and 20 us a mode.
 template <std::floating_point T>
 std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
                                                            const HeightsOptions<T>& options) {

@@ -83,7 +83,6 @@ struct Balance {
     V worst{}, largest{};
 };
 
-/// Goes on with the balance across the chunk, from the top down.
 template <class T>
 void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top, bool held, const Pack<T>* offset,
            Balance<Pack<T>>& balance) {
@@ -140,7 +139,6 @@ struct ShapePack {
             for (P& y : between) y = y * by;
         return true;
     }
-    /// Enters block b at its upper pin.
     void enter(std::size_t b) {
         const P& upper = between[b + 1];
         const P force = (between[b] - upper) * elements[b].spring + elements[b].upper * upper;

@@ -20,8 +20,7 @@ struct FoundRoot {
     double margin = std::numeric_limits<double>::infinity();
 };
 
-/// The roots x > 0 of Q(side x), number 0 the largest: base + sign (negative eigenvalues of Q)
-/// exceed x.
+/// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
 class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
@@ -86,7 +85,6 @@ class CountedRoots {
         return {found->middle(), found->reach(given_out(found->middle()))};
     }
 
-    /// A proved count of the roots above x.
     pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
 
     /// The y with Q y = 0 at a root.
@@ -129,9 +127,8 @@ Index number_above(const RigWord& x, bool quadratic, std::string_view place, dou
         if (const auto found = count(at); found.proved) return found.above;
     }
     throw_invalid(place,
-                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one a little beside "
-                  "it",
-                  value);
+                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
+                  "a little beside it", value);
 }
 
 /// The roots of one sense of rotation, counted without finding them.
@@ -144,7 +141,6 @@ struct CountedSense {
         : roots(std::move(counted)),
           available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
 
-    /// The number of roots above x, see `number_above`.
     Index above(const RigWord& x, std::string_view place, double value) const {
         const bool quadratic = roots.pencil().quadratic;
         if (available.proved && !(x > least_root(quadratic))) return available.count;

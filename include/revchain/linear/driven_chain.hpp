@@ -85,7 +85,7 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
                 else
                     pencil::driven_lanes<false, fused, V>(elements, padded, wanted, found, offset);
                 const bool sharp = std::all_of(found, found + taken, [](const pencil::Driven& each) {
-                    return !each.decided || each.error_bound <= 0x1p-56;  // beside rounding to double
+                    return !each.decided || each.error_bound <= 0x1p-56;
                 });
                 if (!sharp && chain.turning)
                     pencil::sharpen<true, fused, V>(elements, padded, found, scratch, chain.end);

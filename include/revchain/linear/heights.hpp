@@ -51,8 +51,7 @@ void restore_order(Heights<T>& heights) {
 
 /// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved
 /// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
-/// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a mode for the
-/// proof.
+/// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
 inline std::optional<Heights<double>> loose_heights(
     const Chain<double>& chain, const ModeRange& range, double goal,
     const std::function<void(Index)>& finished = {}) {

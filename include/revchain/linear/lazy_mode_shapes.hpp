@@ -38,7 +38,6 @@ class LazyModeShapes {
     const Table<T>& offsets(Index count, Progress* progress) const {
         return known(count, false, progress).offset;
     }
-    /// Shapes with residuals and nodes.
     const ModeShapes<T>& details(Index count, Progress* progress) const { return known(count, true, progress); }
     Vector<T> one(Index count, Index j) const {
         if (j < 0 || j >= count)

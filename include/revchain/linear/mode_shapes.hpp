@@ -22,8 +22,7 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, if there is room, nodes and residual; `height` in pencil
-/// units.
+/// Stores the shape of mode `j` and, if there is room, its nodes and residual; `height` scaled.
 template <Real T, Real S>
 void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
                const pencil::ElementPencil<S>& pencil, const T& height,
@@ -106,7 +105,7 @@ class ShapeFinder {
     }
 
    private:
-    static constexpr Index most_for_lanes = static_cast<Index>(pencil::most_kept_links);  // where they beat blocks
+    static constexpr Index most_for_lanes = static_cast<Index>(pencil::most_kept_links);
 
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
         const T& height = at.eigenvalue;

@@ -6,8 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The modes of a rig in one sense of rotation, with the numbers, heights and shapes of `modes`;
-/// for those who need few modes, to begin branches there.
+/// A few modes of a rig in one sense of rotation, with the numbers, heights and shapes of `modes`.
 class ModesOfOneSense {
    public:
     /// Without momentum both directions are alike. Throws what `RigRoots` throws.
@@ -25,7 +24,6 @@ class ModesOfOneSense {
         if (roots_.spectrum()) return static_cast<Index>(isolated_.size());
         return roots_.rig().pencil.size() == 0 ? 0 : sense().available.count;
     }
-    /// Whether the number of modes is proved.
     bool complete() const {
         const RigPencil& rig = roots_.rig();
         if (roots_.spectrum()) return roots_.spectrum()->proved;

@@ -16,7 +16,7 @@ struct MasslessForm {
 };
 
 /// The small-amplitude theory of a rig as elements: for each link stiffness sign (tension + n
-/// spin)/ length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
+/// spin)/length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
 /// that yields, a massless spring with the carriage at its lower pin. Weights in units of
 /// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
 /// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
@@ -155,9 +155,9 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
 }
 
 /// The pencil of a rig, or with `lower_end` of one whose lower end is held too: then no link
-/// stands, spins or is in a fluid. Every number has an error bound, from the sizes of the terms
-/// that `rig_links` adds. Cost O(N). Throws InvalidArgument as rig_links does, unless gravity > 0,
-/// and for a stiffness or a tension beyond the range of weights.
+/// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
+/// InvalidArgument as rig_links does, unless gravity > 0, and for a stiffness or tension beyond the
+/// range.
 inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
                             const std::optional<detail::LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;

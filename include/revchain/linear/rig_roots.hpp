@@ -36,7 +36,6 @@ inline CountedSense counted_speeds(const RigPencil& rig, bool forward) {
     return {CountedRoots(forward ? rig.pencil : rig.pencil.reversed(), rig.pace, 0, 1, 1), count};
 }
 
-/// Largest number of elements whose roots are isolated in discs.
 inline constexpr Index most_isolated = 20'000;
 
 /// The roots of a rig's pencil: counted in each sense or, if that fails, all isolated in discs.

@@ -41,7 +41,6 @@ class RigShape {
     }
 
    private:
-    /// The links on which offsets change sign, and where.
     template <class Offsets>
     static std::vector<pencil::Crossing<double>> crossings_of(const Offsets& offset) {
         std::vector<pencil::Crossing<double>> crossings;
@@ -92,8 +91,7 @@ class RigShapeFinder {
     const RigWord& root(Index j) const { return roots_[static_cast<std::size_t>(j)]; }
 
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
-        shapes_in_eights(
-            shapes, *elements_, shape_.idle(),
+        shapes_in_eights(shapes, *elements_, shape_.idle(),
             [&](Index j, RigWord& exact, RigWord& rounded) { exact = rounded = root(from + j); },
             [&](Index j) { shape_.find(shapes, j, root(from + j)); },
             [&](Index j, const auto&, std::size_t) { shape_.complete(shapes, j); }, progress);

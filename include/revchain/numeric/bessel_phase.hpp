@@ -45,7 +45,7 @@ class PhaseSeries {
             const double term = coefficient[m] * power;
             total += term;
             const double size = std::abs(term);
-            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // single coefficients may vanish
+            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // one may vanish
             before = size;
         }
         return total;

@@ -20,8 +20,7 @@ class DoubleDouble {
     constexpr DoubleDouble() = default;
     /// Exact for every built-in number but a long double of more than 106 bits.
     template <class Number>
-    requires std::is_arithmetic_v<Number>
-    constexpr DoubleDouble(Number x)
+    requires std::is_arithmetic_v<Number> constexpr DoubleDouble(Number x)
         : word_(split(x)) {}  // NOLINT(google-explicit-constructor): like a built-in number
     constexpr explicit DoubleDouble(const DoubleWord<double>& word) : word_(word) {}
     /// high + low, in any order of size.
@@ -99,7 +98,6 @@ struct std::numeric_limits<revchain::DoubleDouble> : std::numeric_limits<revchai
     static constexpr revchain::DoubleDouble epsilon() { return revchain::DoubleDouble(Word::epsilon()); }
 };
 
-/// pi in two words.
 template <>
 inline constexpr revchain::DoubleDouble std::numbers::pi_v<revchain::DoubleDouble>{0x1.921fb54442d18p+1,
                                                                                    0x1.1a62633145c07p-53};

@@ -35,7 +35,6 @@ struct DoubleWord {
     [[gnu::always_inline]] constexpr explicit operator T() const { return high; }
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
-    // high first, then low
     friend constexpr auto operator<=>(const DoubleWord& x,
                                       const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
@@ -172,12 +171,13 @@ inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
     return fast_two_sum(s, rest.high / (s + s));
 }
 
-/// a where x < y, else b, lane by lane.
 template <IsPack V>
 [[gnu::always_inline]] inline DoubleWord<V> if_less(const V& x, const V& y, const DoubleWord<V>& a,
                                                     const DoubleWord<V>& b) {
     return {if_less(x, y, a.high, b.high), if_less(x, y, a.low, b.low)};
 }
+
+namespace detail {
 
 /// x in every lane of a pack.
 template <IsPack V>
@@ -185,7 +185,6 @@ template <IsPack V>
     return {V(x.high), V(x.low)};
 }
 
-namespace detail {
 template <class T>
 struct Wider : std::type_identity<T> {};
 template <>

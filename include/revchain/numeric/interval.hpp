@@ -72,7 +72,6 @@ Interval<T> without_faint_ends(const Interval<T>& x) {
     }
 }
 
-/// The interval x - error ... x + error.
 inline Interval<Wide<double>> around(const Wide<double>& x, double error) {
     using S = Wide<double>;
     return {x - S(error), x + S(error)};

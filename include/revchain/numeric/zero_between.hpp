@@ -70,7 +70,6 @@ Vector<double> zeros_between(const Vector<double>& places, double end, const F& 
     return zeros;
 }
 
-/// A number and the value of a function there.
 template <Real T>
 struct ValueAt {
     T x, value;

@@ -115,7 +115,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         const T width = s.upper - s.lower;
         const bool alone = s.last - s.first == 1;
         const T middle = between(s.lower, s.upper);
-        const bool divisible = s.lower < middle && middle < s.upper;  // not so among subnormal numbers
+        const bool divisible = s.lower < middle && middle < s.upper;  // subnormals may not be
         if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
             work.push_back(s);
         } else {

@@ -43,7 +43,7 @@ struct Element {
     S lower{}, upper{}, cross{};                   ///< A, B, and X, of any sign
     S turning{};                                   ///< c, the inertia against turning; or c W
     std::conditional_t<OwnErrors, S, M> weight{};  ///< W
-    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s, of any sign
+    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s
     [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>> error{};
 
     /// An element given by its stiffness, spin and masses.
@@ -67,7 +67,6 @@ struct Element {
         using std::abs;
         return Spins || OwnErrors ? abs(L) : L;
     }
-    /// |mass|.
     template <class X>
     [[gnu::always_inline]] static X mass_size(const X& mass) {
         using std::abs;
@@ -147,9 +146,8 @@ struct ElementPencil {
     std::vector<Element<S, Spins, OwnErrors>> elements;
     /// With own errors: the element that ties the lowest pin to the ground, if that pin is held.
     std::optional<Element<S, Spins, OwnErrors>> ground{};
-    bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s; with own errors L = x k if spins are 0
-    /// Where one unit does not serve all weights: element m is in units of 2^units[m], exponents
-    /// that never decrease upwards and end at 0. Else empty.
+    bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s, not L = x k
+    /// If one unit does not suffice: element m is in units of 2^units[m], ascending to 0.
     std::vector<int> units;
     /// Without own errors: the relative error of every number, for the cross mass relative to
     /// |X| + 2 c, besides underflow: `least_pivot` in masses, `stiffness_underflow` in stiffnesses.

@@ -63,7 +63,7 @@ template <bool fused, bool sized, class V, class Terms, bool Spins, class T, cla
                                                const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
     const std::size_t n = pencil.elements.size();
     const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
-        return times<fused>(x, in_all_lanes<V>(y));
+        return times<fused>(x, revchain::detail::in_all_lanes<V>(y));
     };
     Pair<V> from_below{};
     V size{}, lower = offset(0);

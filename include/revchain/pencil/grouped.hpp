@@ -21,8 +21,7 @@ namespace detail {
 template <std::floating_point T>
 class Group {
    public:
-    /// With one more element on top. No terms cancel (cross masses would, for large radii of
-    /// gyration).
+    /// With one more element on top. No terms cancel; cross masses would for large inertia.
     Group with(const Element<T>& e) const {
         Group more = *this;
         const T c = flexibility_, f = T(1) / e.stiffness, leaning = (e.cross + e.upper) * f;

@@ -25,7 +25,6 @@ struct ProvedRoot {
     }
 };
 
-/// Roots, or nothing where the method fails.
 template <std::floating_point T>
 using ProvedRoots = std::optional<std::vector<ProvedRoot<T>>>;
 

@@ -13,13 +13,12 @@
 /// Roots (heights or, with spins, x) of several modes from Rayleigh quotients of twisted vectors.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Roots and their errors.
 template <std::floating_point T>
 struct QuotientsInLanes {
     std::array<T, shape_lanes> start;             ///< given: nearly right
-    std::array<DoubleWord<T>, shape_lanes> root;  ///< where y^T Q(x) y = 0 for the vector y at `start`
-    std::array<T, shape_lanes> reach;             ///< proved: an exact root is within this of the quotient's
-    std::array<T, shape_lanes> blur;              ///< distance of `root` from the quotient's exact root
+    std::array<DoubleWord<T>, shape_lanes> root;  ///< y^T Q(x) y = 0, y the vector at `start`
+    std::array<T, shape_lanes> reach;             ///< proved distance of an exact root from it
+    std::array<T, shape_lanes> blur;              ///< error of `root` as the quotient's root
 };
 
 namespace detail {
@@ -104,14 +103,13 @@ template <class Where, class Terms, bool Spins, class T>
     const V twist = twisted_in_lanes(terms, pencil, start, s).pin;
     V y{}, hung{}, hung_error{}, square{}, stiffness{}, work{}, work_size{}, work_error{}, turned{};
     V slope{}, slope_size{}, pull{};  // of y^T Q(x) y: d/dx, and the squared norm of d/dx (L y)
-    forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(start, V{}),
+    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(start, V{}),
         [&](std::size_t m) REVCHAIN_INLINED { return y = next_offset(s, m, twist, y); },
         [&](std::size_t m, const V& force, const V& sizes, const V& offset, const V& stretch) REVCHAIN_INLINED {
             const auto& e = pencil.elements[m];
             const V k(e.stiffness.high);
             V error = V(unit) * sizes + V(T(2) * u) * abs(force);
-            if constexpr (!Terms::lumped) {  // the error of the cross mass, relative to |X| + 2 c, at both pins
+            if constexpr (!Terms::lumped) {  // error of |X| + 2 c, at both pins
                 const V of_link = V(T(2) * unit * e.turning.high) * (abs(offset) + abs(stretch));
                 error += turned + of_link;
                 turned = of_link;
@@ -179,8 +177,7 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, boo
 }
 
 /// Better roots from `quotients.start`; NaN or infinite where numbers leave the range of T.
-/// Preconditions: those of `shapes_in_lanes`, K > 0, no mass negative; `shapes`: scratch. Cost: 6
-/// ns a link and root.
+/// Preconditions: as `shapes_in_lanes`, K > 0, no mass negative. Cost: 6 ns a link and root.
 template <std::floating_point T, bool Spins>
 void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, ShapesInLanes<T>& shapes,
                         QuotientsInLanes<T>& quotients) {

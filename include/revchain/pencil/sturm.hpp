@@ -102,7 +102,7 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     if (!pencil.units.empty())
         return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
-        return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
+        return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, for any compiler
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using V = Pack<T, width, L / width>;
             const detail::PlainCarry<Pencil, V, false> carry{pencil};
@@ -140,7 +140,6 @@ struct BoundedStiffness {
     }
 };
 
-/// Carries D and its error bound across elements.
 template <class Pencil>
 class BoundedCarry;
 
@@ -288,10 +287,10 @@ class BoundedCarry<SignedPencil<S>> {
     }
 
    private:
-    static M underflow() { return M(64) * std::numeric_limits<M>::denorm_min(); }  // of an operation
+    static M underflow() { return M(64) * std::numeric_limits<M>::denorm_min(); }
     static M size_of(const S& x) {
         using std::abs;
-        return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // taken from a rounded number
+        return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // x is rounded
     }
     const SignedPencil<S>& pencil_;
 };

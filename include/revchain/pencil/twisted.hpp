@@ -35,9 +35,8 @@ struct Across {
 
 /// Carries stiffness across an element from `near` at one pin, by the one of equations (1) and (2)
 /// that rounds less; `near_mass` and `far_mass` are the element's masses at the two pins. `Lumped`:
-/// the element is a point mass. The ratio is computed from its difference to 1 where that is small:
-/// the slope of a smooth mode is then not the difference of two rounded offsets. That difference is
-/// a `Ratio`: offsets rounded to a narrower scalar need no more.
+/// the element is a point mass. A ratio near 1 is computed from its difference to 1, a `Ratio`: the
+/// slope of a smooth mode is then not the difference of rounded offsets.
 template <class Ratio, bool Lumped = false, class E, class S, class Mass>
 [[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near, const Mass& near_mass,
                                                const Mass& far_mass) {
@@ -64,8 +63,7 @@ template <class Ratio, bool Lumped = false, class E, class S, class Mass>
         const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass), over = size(inverse);
         const V of_coupling = V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
         const V of_weight = (k + far_size) * (size(near) * over) + e.resisted_size(k, over);
-        result.stiffness = computed_if_less(
-            of_coupling + (k + far_size), of_weight,
+        result.stiffness = computed_if_less(of_coupling + (k + far_size), of_weight,
             [&]() REVCHAIN_INLINED { return propagate_by_coupling(stiffness, far, coupling, inverse); },
             [&]() REVCHAIN_INLINED { return propagate(e, stiffness, near, far, inverse); });
     }
@@ -96,8 +94,7 @@ struct Twisted {
 /// where the mode is largest; from there offsets follow outwards by ratios. `rise(m, D)` returns D
 /// above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and the
 /// inverse ratio. Both convert to the unit of element m. `forces(m)` returns the size of the terms
-/// at the lower pin of element m; `footing` is D at the lowest pin. S may be a pack, with a mode in
-/// each lane.
+/// at the lower pin of element m; `footing` is D at the lowest pin. S may be a pack.
 template <class S, class Rise, class Sink, class Forces>
 [[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
                                                  const Forces& forces, const S& footing = S{}) {
@@ -130,9 +127,9 @@ template <class S, class Rise, class Sink, class Forces>
     return result;
 }
 
-/// Returns a function (element, pin) for offsets in one unit for all elements where their own units
-/// differ: forces are as offsets times weights (`share` 1), energies as squares of offsets times
-/// weights (`share` 2). The largest is then of the order of 1.
+/// Returns a function (element, pin) for offsets in one unit for all elements, the largest about 1:
+/// forces are offsets times weights (`share` 1), energies squares of offsets times weights (`share`
+/// 2).
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
 auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
     using std::frexp, std::ldexp;
@@ -220,7 +217,7 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     const auto sink = [&](std::size_t m, S& above) {
         const auto& e = elements[m];
         const S stiffness = e.stiffness_at(x);
-        if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // infinitely stiff above
+        if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // rigid
         above = detail::rescaled(above, -pencil.step_down(m + 1));
         return detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
     };

@@ -12,7 +12,6 @@
 /// lane, and one correction from residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The number of modes found at once.
 inline constexpr std::size_t shape_lanes = 8;
 
 /// Heights or, with spins, x of some modes, exact and rounded.
@@ -25,12 +24,12 @@ struct RootsInLanes {
 template <std::floating_point T>
 struct ShapesInLanes {
     static constexpr T least_offset{1e-290};
-    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest of each lane is 1
-    std::array<T, shape_lanes> residual;         ///< as `relative_residual` of the rounded root and offsets
-    std::array<bool, shape_lanes> found;         ///< whether the correction was small, hence complete
+    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest is 1
+    std::array<T, shape_lanes> residual;         ///< `relative_residual` as rounded
+    std::array<bool, shape_lanes> found;         ///< the correction was small
     std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours need the ratios
     std::array<std::size_t, shape_lanes> twist;  ///< below this pin `down` is used, from it on `up`
-    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of the offsets of neighbours
+    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of neighbours
     std::vector<T> below, above, rest, change;   ///< scratch
 
     void make_room(std::size_t links) {
@@ -115,8 +114,8 @@ template <class Terms, bool Spins, class V, class T>
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    // Up: the stiffness of all below each pin, and ratios of offsets; down: that of all above. The
-    // two alternate, because each waits for its divisions.
+    // Stiffness of all below each pin, upwards, and of all above, downwards; each waits for
+    // divisions.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);
@@ -191,8 +190,7 @@ template <class Where, class Terms, bool Spins, class T>
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
-    forces_left<fused, false, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
+    forces_left<fused, false, V>(terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -248,8 +246,7 @@ template <class Where, class Terms, bool Spins, class T>
     }
     if (!residuals) return;
     V worst{}, meeting{};
-    forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
+    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
         [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));

@@ -64,7 +64,6 @@ struct Pack {
             set(0, a), set(1, b), set(2, c), set(3, d);
     }
 
-    /// From and to `size` numbers in memory.
     [[gnu::always_inline]] static Pack load(const T* from) {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { r = reinterpret_cast<const typename RegisterOf::InMemory*>(from)[i]; });
@@ -147,7 +146,6 @@ struct Pack {
         return found < 0;
     }
 
-    /// a where the answer is yes, else b.
     [[gnu::always_inline]] friend Pack select(const Mask& yes, const Pack& a, const Pack& b) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = yes.part[i] ? a.part[i] : b.part[i]; });
     }

@@ -14,7 +14,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Integers as large as T.
 template <class T>
 using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
@@ -61,7 +60,7 @@ struct RegisterOf {
 #if defined(__clang__)
         to = x - Numbers{};
 #else
-        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; GCC 12 else makes several
+        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction in GCC 12
 #endif
     }
     /// `detail::unfused`
@@ -75,7 +74,6 @@ struct RegisterOf {
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    /// x y - p with one rounding, on processors that have it.
     [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x, const Numbers& y,
                                                          const Numbers& p) {
 #if defined(REVCHAIN_FUSED_INSTRUCTIONS)
@@ -131,7 +129,6 @@ struct RegisterOf {
 #endif
             to = x > y;
     }
-    /// a where x < y, else b.
     [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y, const Numbers& a,
                                                const Numbers& b) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)

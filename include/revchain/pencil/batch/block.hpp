@@ -38,8 +38,8 @@ struct LaneTaylor {
 
 namespace detail {
 
-/// Powers of two that bring the total weight and the largest length near 1: exact, and results do
-/// not depend on units. `ordinary`: no product leaves the range.
+/// Powers of two that bring total weight and largest length near 1. `ordinary`: products stay in
+/// range.
 template <class V>
 struct LaneUnits {
     V per_weight, per_length;

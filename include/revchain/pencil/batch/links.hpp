@@ -57,13 +57,11 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         y.value = y.value + flexibility * f.value;
     }
 
-    /// The same for the values alone.
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, V& y, V& f) const {
         f = f - (x * get(m, 0)) * y;
         y = y + get(m, 2) * f;
     }
 
-    /// The same for the shape.
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
         const V push = get(m, 0) * s.offset;
         s.inertia = s.inertia + push * s.offset;
@@ -87,7 +85,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
    private:
     [[gnu::always_inline]] void stretch(std::ptrdiff_t m, LaneShape<V>& s) const {
         const V next = s.offset + get(m, 2) * s.force;
-        const V stretched = next - s.offset;  // as rounded: the quotient then has an error of second order
+        const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         s.stiffness = s.stiffness + (get(m, 1) * stretched) * stretched;
         s.offset = next;
     }
@@ -196,7 +194,7 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
     [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
         const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
         const V next = s.offset + (s.force - (x * pull) * s.offset) / (k + x * get(m, cross));
-        const V stretched = next - s.offset;  // as rounded: the quotient then has an error of second order
+        const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         const V moment = near * s.offset + far * next;
         s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment + (get(m, turn) * stretched) * stretched);
         s.stiffness = s.stiffness + (k * stretched) * stretched;

@@ -55,7 +55,7 @@ template <class V>
     under = select(under < V(0.0), V(0.0), under);
     const V root = rough_sqrt(under);
     const V step = n * value / (slope + select(slope < V(0.0), -root, root));
-    return select(abs(step) < V(0x1p1000), step, V(0.0));  // none where x is a zero to the last digit
+    return select(abs(step) < V(0x1p1000), step, V(0.0));  // 0 where x is the zero
 }
 
 /// The zero of c[0] + ... + c[degree] x^degree above `from`, to about 1e-10; divides it out.
@@ -73,7 +73,7 @@ template <class V>
         const V n(static_cast<double>(degree)), rest(static_cast<double>(degree - 1));
         const V step = laguerre_step(value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
         x = select(active, x - step, x);
-        active = active & (V(last_step) * abs(x) < abs(step));  // the last step's error is about its cube
+        active = active & (V(last_step) * abs(x) < abs(step));  // its error is about its cube
     }
     V carried = c[degree];
     for (std::ptrdiff_t j = degree; j-- > 0;) {

@@ -22,8 +22,7 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
 
 /// A gyroscopic system with mirror symmetry: with x, y exp(s t) so is x, -y exp(-s t).
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
-/// A and M symmetric and positive definite, K and C symmetric. In the unit of time B is about A and
-/// M.
+/// A and M symmetric and positive definite, K and C symmetric; in units with B about A and M.
 template <class S>
 struct MirroredPencil {
     Matrix<S> A, B, M, K, C;
@@ -41,7 +40,7 @@ struct MirroredModes {
     Vector<std::complex<S>> square;
     Vector<double> error;
     ComplexColumns<S> x, y;
-    bool is_symmetric = false;  ///< of a symmetric matrix: all squares are real, even if two coincide
+    bool is_symmetric = false;  ///< a symmetric matrix: all squares are real
 };
 
 /// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u =
@@ -90,7 +89,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index i = 0; i < n + k; ++i) T.col(i) *= unit[i], T.row(i) /= unit[i];
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
-        const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: real part, then imaginary part
+        const Matrix<S> parts = solver.pseudoEigenvectors();  // a pair: real, imaginary
         ComplexColumns<S> right = u, left;
         for (Index j = 0; j < n + k; ++j) {
             const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);

@@ -13,7 +13,7 @@ struct ComplexWord {
     S real{}, imag{};
 
     ComplexWord() = default;
-    ComplexWord(const S& x) : real(x) {}  // NOLINT(google-explicit-constructor): a real number is one
+    ComplexWord(const S& x) : real(x) {}  // NOLINT(google-explicit-constructor)
     ComplexWord(const S& x, const S& y) : real(x), imag(y) {}
     explicit ComplexWord(const std::complex<double>& z) : real(z.real()), imag(z.imag()) {}
     explicit operator std::complex<double>() const { return {static_cast<double>(real), static_cast<double>(imag)}; }
@@ -95,7 +95,9 @@ template <class Where>
     }
     const Z x{W(V::load(part[0]), V::load(part[1])), W(V::load(part[2]), V::load(part[3]))};
     const Z square = x * x;
-    const auto number = [](const Wide<double>& word) REVCHAIN_INLINED { return in_all_lanes<V>(word); };
+    const auto number = [](const Wide<double>& word) REVCHAIN_INLINED {
+        return revchain::detail::in_all_lanes<V>(word);
+    };
     constexpr double eps = std::numeric_limits<double>::epsilon();
     const double u = 16 * operation_error<Wide<double>>();
     const V slack(1 + 8 * eps), inflate(1 + 64 * eps), one(1.0), tiny(2 * least_pivot<double>());
@@ -131,8 +133,7 @@ template <class Where>
         const V next_size = size_of(below);
         const V roundings = unit8 *
                                 ((L_size + V(upper)) * D_size + L_size * V(lower + upper + 2 * cross) +
-                                 V(lower * upper + cross * cross)) *
-                                inverse_least +
+                                 V(lower * upper + cross * cross)) * inverse_least +
                             next_size * (p_rounding * inverse_least + unit4);
         const V lost =
             underflow * (one + L_size + V(upper + lower + upper + 2 * cross) + D_size) * (one + inverse_least);

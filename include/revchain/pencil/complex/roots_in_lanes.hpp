@@ -15,7 +15,6 @@
 /// Unproved starts for all roots of det Q(x), in double, one in each lane of a pack.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A complex number in each lane.
 template <class V>
 struct ComplexLanes {
     V re{}, im{};

@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// A root x with the radius of a disc that holds the exact root.
 struct EnclosedRoot {
-    ComplexWord x{};                                          ///< to some 30 digits where roots are apart
+    ComplexWord x{};                                          ///< to about 30 digits if isolated
     std::complex<double> value{};                             ///< rounded
     double radius = std::numeric_limits<double>::infinity();  ///< about `value`; proved if finite
     bool is_real = false;
@@ -47,7 +47,6 @@ void for_lanes(const std::vector<std::size_t>& which, const std::function<void(d
     });
 }
 
-/// P at the roots `which`.
 inline void evaluate(const SignedPencil<Wide<double>>& pencil,
                      const std::vector<ComplexWord>& roots, const std::vector<std::size_t>& which,
                      std::vector<ScaledValue>& values, const std::function<void(double)>& advance) {
@@ -60,7 +59,6 @@ inline void evaluate(const SignedPencil<Wide<double>>& pencil,
     });
 }
 
-/// The steps of the roots `which` from the values of P there.
 inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index zeros,
                               const std::vector<ComplexWord>& roots,
                               const std::vector<std::size_t>& which,

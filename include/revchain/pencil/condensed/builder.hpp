@@ -63,7 +63,7 @@ class CondensedPencilBuilder {
     /// The second coefficients of the series, times mu, relative to the first: how spring and
     /// masses depend on mu, and the force on two free pins, which merging turns into mass.
     struct SecondTerms {
-        T spring{}, mass{}, force{};  ///< b2 / b1, (a2 + d2) / (b1 c0), c1 / c0; each at most 1/4 of the phase
+        T spring{}, mass{}, force{};  ///< b2/b1, (a2 + d2)/(b1 c0), c1/c0: at most 1/4 of the phase
     };
 
     SecondTerms second_terms(const Run& run) const {
@@ -138,8 +138,7 @@ class CondensedPencilBuilder {
         T stiffness{}, mass{};
     };
 
-    /// The sum of a series with log-concave coefficients beyond the last two kept, `last` and
-    /// `before` (with their powers of mu), relative to `last`.
+    /// The sum of a series with log-concave coefficients beyond its terms `before` and `last`.
     static T tail(const T& last, const T& before) {
         if (!(last > T(0))) return T(0);
         const T ratio = last / before;
@@ -155,7 +154,7 @@ class CondensedPencilBuilder {
         const T moved = tail(t.a[Kept - 1] * power * mu_, t.a[Kept - 2] * power) +
                         tail(t.d[Kept - 1] * power * mu_, t.d[Kept - 2] * power);
         return {tail(t.b[Kept] * power * mu_ * mu_, t.b[Kept - 1] * power * mu_) / flexibility,
-                weight == T(0) ? T(0) : moved / (flexibility * weight)};  // a massless run leaves nothing out
+                weight == T(0) ? T(0) : moved / (flexibility * weight)};  // nothing is omitted
     }
 
     /// Puts `upper` on top of `lower`, if the result is still small enough.

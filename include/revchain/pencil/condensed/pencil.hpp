@@ -140,7 +140,7 @@ CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const
         V error{};
         CertifiedCounts<V> result{zero, one};
         for (const Block<T>& block : pencil.blocks) {
-            const LumpedElement<S> e = element_at<S>(block, shift);  // fills the wait for the division
+            const LumpedElement<S> e = element_at<S>(block, shift);  // while the division waits
             const S hung = below - e.lower;
             const S pivot = hung + e.spring;
             const V spring = abs(e.spring.high), size = abs(pivot.high);
@@ -192,7 +192,6 @@ std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     });
 }
 
-/// A shift and by how much it has changed.
 template <class S>
 struct Improved {
     S shift{};

@@ -40,7 +40,6 @@ inline void append_mass(Transfer<V, Degree>& run, const V& mass) {
     for (std::size_t i = 0; i < Degree; ++i) run.d[i] += mass * run.b[i];
 }
 
-/// Adds a spring above the upper pin.
 template <class V, std::size_t Degree>
 inline void append_spring(Transfer<V, Degree>& run, const V& flexibility) {
     for (std::size_t i = 0; i < Degree; ++i) run.a[i] += flexibility * run.c[i];
@@ -104,7 +103,6 @@ inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transf
     return run;
 }
 
-/// The same polynomials with room for more terms.
 template <std::size_t To, class V, std::size_t From>
 inline Transfer<V, To> extended(const Transfer<V, From>& run) {
     static_assert(From <= To);

@@ -15,17 +15,17 @@ struct Driving {
 
 /// The response of a string of elements to one moved end; offsets are relative to that end's.
 struct Driven {
-    bool decided = false;    ///< if not, the drive may be at resonance, and only `negative` is valid
-    double error_bound = 0;  ///< of every offset before rounding to double, over the largest of a pin
+    bool decided = false;    ///< else maybe at resonance, and only `negative` is valid
+    double error_bound = 0;  ///< of unrounded offsets, over the largest of a pin
     bool reversed = false;   ///< whether the lowest pin moves against the moved end
     Index negative = 0;      ///< negative pivots, without those in doubt
-    double stiffness = 0;    ///< force at the moved end over its offset, in units of the last element
+    double stiffness = 0;    ///< force over offset at the moved end, in units of the last element
     double stiffness_error = 0;
 };
 
 namespace detail {
 
-using revchain::detail::around;
+using revchain::detail::around, revchain::detail::in_all_lanes;
 
 inline Interval<Wide<double>> rescaled(const Interval<Wide<double>>& x, int step) {
     return {ldexp(x.low, step), ldexp(x.high, step)};

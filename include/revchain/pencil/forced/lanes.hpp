@@ -97,7 +97,6 @@ template <bool turning, bool fused, class V>
 
 }  // namespace detail
 
-/// The number of drives computed together.
 template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
 inline constexpr std::size_t most_driven_together = 2 * most_doubles;
@@ -105,9 +104,8 @@ inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 /// `driven` for `driven_together` drives, one to a SIMD lane, in words of two doubles, with a
 /// running bound like that of `certified_count`. All elements are in one unit. Drives near a
 /// resonance, or with a pin nearly a node, are left undecided. Calls `offset(lane, which, value)`
-/// for each pin wanted, highest first; the bound is the relative error of the value. Cost: 8 to 20
-/// ns for each link and drive with AVX-512, 26 to 40 ns with registers of two doubles
-/// (`bench_response`).
+/// for each pin wanted, highest first; the bound is the relative error of the value. Cost a link
+/// and drive: 8 to 20 ns with AVX-512, 26 to 40 ns with two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
 [[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements,
                                                 const Driving* at, DrivenPins& wanted, Driven* result,
@@ -187,7 +185,7 @@ template <bool turning, bool fused, class V>
         }
     }
     for (std::size_t p = 0; p < P; ++p) {
-        const V known = V(4.0) * walks[p].doubt + V(0x1p-48);  // relative, of a ratio squared and of a pivot
+        const V known = V(4.0) * walks[p].doubt + V(0x1p-48);  // of squared ratios and pivots
         V y(1.0), largest(end), g(0.0), slack(0.0), sum(0.0), worst(0.0);
         for (std::size_t m = n; m-- > 0;) {
             const double* from = scratch.data() + (m * P + p) * stored * L;

@@ -202,7 +202,7 @@ template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
         constexpr bool several = any_packs<Registers>;
-        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
+        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;
         const std::size_t n = links.size;
         const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;
         Roots roots;

@@ -22,7 +22,7 @@ struct Roundings {
     double energies = 0;  ///< y^T M y and y^T K y together
     double mass = 0;      ///< lumped masses
     double drop = 0;      ///< a computed force over k + mu X, with its division and product
-    double centroid = 0;  ///< in y^T M y from the centroids' offsets, where one is not in the middle
+    double centroid = 0;  ///< in y^T M y, of centroids that are not in the middle
 };
 
 /// A chain as lumped masses at the pins, springs between them, and the mass -X on the difference of
@@ -65,7 +65,6 @@ constexpr std::size_t walked(std::size_t count) {
     constexpr std::size_t together = several ? 4 : 4 * packs_at_once;
     return (count + together - 1) / together * together;
 }
-/// Room for the shifts walked for `most_links` of them.
 inline constexpr std::size_t most_walked = walked<false>(most_links);
 
 /// Calls f(P packs, first lane) for all packs.
@@ -100,7 +99,6 @@ struct Offset {
     }
 };
 
-/// An offset with its derivative.
 template <bool rigid>
 struct OffsetAndSlope {
     Four value{1.0}, force{0.0}, slope{0.0}, force_slope{0.0};
@@ -219,7 +217,7 @@ template <bool rigid, bool tall, std::size_t P>
             const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
             const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
             const Four square = gap * gap * Four(flexibility_above[m]);
-            const Four other = joined.square * energy, own = square * joined.energy;  // never for a NaN
+            const Four other = joined.square * energy, own = square * joined.energy;  // NaN: no
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);

@@ -157,7 +157,7 @@ template <class V>
         if ((f[i - 1] < 0) != (f[i] < 0)) low.push_back(x[i - 1]), high.push_back(x[i]);
     std::vector<double> root = refined<V>(p, {}, low, high, 1e-9);
     for (bool more = true; more && static_cast<Index>(root.size()) < count;) {
-        for (std::size_t i = 0; i < points; i += V::size) {  // the logarithmic slope, without the zeros known
+        for (std::size_t i = 0; i < points; i += V::size) {  // logarithmic slopes, deflated
             V value, slope;
             deflated(p, root, V::load(&x[i]), value, slope);
             slope.store(&f[i]);
@@ -178,8 +178,7 @@ template <class V>
     return root;
 }
 
-/// Whether every root is known to 1/1000 of its distance to the next, with errors estimated from
-/// rounding in the values and the coefficients cut off.
+/// Whether every root is known to 1/1000 of its distance to the next, by the last coefficients.
 template <class V>
 [[gnu::always_inline]] inline bool certain(const Chebyshev& p, const std::vector<double>& root) {
     double noise = 0;

@@ -12,7 +12,6 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace spectrum {
 
-/// An eigenvalue that is being proved.
 struct Candidate {
     double shift = 0;           ///< mu the vector was computed at
     ProvedRoot<double> root{};  ///< its Rayleigh quotient, and the rounding error of that
@@ -102,7 +101,6 @@ class Candidates {
         return proved(first, last);
     }
 
-    /// By counts alone.
     std::vector<Certified<double>> counted(Index first, Index last, double guess) const {
         std::vector<Certified<double>> result;
         const double width = 2 * epsilon<double>();
@@ -231,7 +229,6 @@ class Candidates {
         return result;
     }
 
-    /// The distance to the next start.
     double room(std::size_t i) const {
         const double below = i > 0 ? starts_[i] - starts_[i - 1] : starts_[i];
         const double above = i + 1 < starts_.size() ? starts_[i + 1] - starts_[i] : starts_[i];

@@ -46,13 +46,13 @@ struct LumpedChain {
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
     double tip_mass_rest = 0;
-    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md), sum of k_j flexibility_above[j]
+    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md)
     std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
     double largest_cross_ratio = 0;     ///< max X/k
-    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
-    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): cancellation of a link's two offsets
+    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k, growth in a link over mu
+    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): cancellation
     double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
-    double data_error = 0;              ///< relative error of any number from the wide entries' error
+    double data_error = 0;              ///< relative error from the wide entries
     bool has_cross = false;             ///< whether some X is not 0
     bool fit = true;                    ///< masses >= 0, and squares of all numbers are normal
 
@@ -75,7 +75,7 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         const Element<S>& e = wide.elements[m];
         const S cross = e.cross, mass = carried + (e.lower + cross);
         const double x = static_cast<double>(cross);
-        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // what its error is relative to
+        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // for errors
         const double size = carried_size + (static_cast<double>(e.lower) + cross_size);
         carried = e.upper + cross;
         carried_size = static_cast<double>(e.upper) + cross_size;
@@ -111,7 +111,7 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
     for (std::size_t m = 0; m < n; ++m) {
         const LumpedLink& link = chain.links[m];
         Bounds& b = chain.bounds[m / longest_leg];
-        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
+        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // held pin
         b.cross_ratio = std::max(b.cross_ratio, link.cross_ratio);
         chain.largest_cross_ratio = std::max(chain.largest_cross_ratio, link.cross_ratio);
         b.root = std::max(b.root, root);
@@ -137,10 +137,9 @@ inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift
     return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
 }
 
-/// Whether some of the sizes between `least` and `most` have to be scaled back near 1.
 template <class V>
 [[gnu::always_inline]] inline bool strays(const V& least, const V& most) {
-    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // NaN included
+    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // or NaN
 }
 
 }  // namespace revchain::pencil::spectrum

@@ -28,7 +28,7 @@ struct Walk {
     V mu, offset, force;
     CompensatedSum<V> inertia, stiffness;  // of plain sums over legs
     V forces;                              ///< bound on the sum of (force/k)^2 k over the links
-    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
+    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over upper pins; for cross masses
 };
 
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin
@@ -59,7 +59,8 @@ template <bool has_cross, bool up, class V>
             const V square = d * d;
             stiffness[p] += e.stiffness * square;
             if constexpr (has_cross) {
-                const V centroid = e.lower_share * (up ? before : offset[p]) + e.upper_share * (up ? offset[p] : before);
+                const V lower = up ? before : offset[p], upper = up ? offset[p] : before;
+                const V centroid = e.lower_share * lower + e.upper_share * upper;
                 inertia[p] += e.weight * (centroid * centroid);
                 inertia[p] += e.turn * square;
             }
@@ -110,8 +111,8 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// How walks are cut: `leg` links between two checks of sizes and sums; twists at pins 0, leg, 2
-/// leg, ... `last` leg < n, tried from number `low` to `high`.
+/// `leg` links between two checks; twists at pins 0, leg, ... `last` leg < n, number `low` to
+/// `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
@@ -126,8 +127,8 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined
 /// at the pin with the least residual from `lowest` to `highest` that `longest`, a power of 2,
-/// divides. Its error is the square of the vector's. Cost (AVX-512): 0.45 ns a link, 0.86 with
-/// cross masses.
+/// divides. Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86
+/// ns a link.
 template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                              std::size_t highest, std::size_t longest, Quotient* result,
@@ -232,8 +233,7 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
 inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                            const std::vector<std::size_t>& places = {},
                                            std::size_t longest = longest_leg) {
-    return in_packs<Quotient, quotient_packs>(
-        chain, shifts, places,
+    return in_packs<Quotient, quotient_packs>(chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
             Quotient* found) REVCHAIN_INLINED {
             std::vector<AtPin<Pack<double, registers.doubles>>> scratch;

@@ -184,8 +184,7 @@ template <bool has_cross, bool fused, class V>
 inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                                     const std::vector<std::size_t>& places,
                                                     std::size_t longest = longest_leg) {
-    return in_packs<FineQuotient, fine_packs>(
-        chain, shifts, places,
+    return in_packs<FineQuotient, fine_packs>(chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
             FineQuotient* found) REVCHAIN_INLINED {
             std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;

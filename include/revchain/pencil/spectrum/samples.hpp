@@ -126,7 +126,7 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
 /// too only if it contains the mode; from there on the offsets, given by signs, differ.
 inline std::size_t place(const std::uint64_t* one, const std::uint64_t* other, std::size_t links) {
     const std::size_t steps = links / history_step;
-    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements; least where the mode begins
+    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and their least
     std::size_t at = 0;
     for (std::size_t i = 0; i < steps; ++i) {
         const std::size_t word = i / 64, used = std::min<std::size_t>(64, steps - word * 64);

@@ -37,8 +37,8 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
 }
 
 /// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
-/// `most` eigenvalues, by counts; the first and the last window may hold more eigenvalues than
-/// asked. Ascending. Cost: about 2 (last - first)/most counts.
+/// `most` eigenvalues, by counts; the first and the last may hold more. Cost: about 2 (last -
+/// first)/most counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
     // The whole range: mu by powers of 4 until the count suffices. Not round numbers: part of a
@@ -158,7 +158,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         const std::size_t words = history_words(chain.size());
         std::vector<Window> failed;
         struct Neighbours {
-            std::size_t number, below, above;  // of the candidate, and of the next samples on either side
+            std::size_t number, below, above;  // of the candidate and the samples beside it
         };
         std::vector<Neighbours> placed;
         std::vector<double> between_roots;
@@ -182,7 +182,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
                 candidates[number].shift = roots[i];
                 Neighbours around{number, at + cell, at + cell - 1};
-                if (i > 0 && before == cell) {  // two between the same nodes: another sample between them
+                if (i > 0 && before == cell) {  // two between nodes: another sample
                     placed.back().above = around.below = samples.size() + between_roots.size();
                     between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
                 }
