@@ -20,10 +20,9 @@ struct MasslessForm {
 /// that yields, a massless spring with the carriage at its lower pin. Weights in units of
 /// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
 /// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
-/// if it is firm, the lowest link.
-///
-/// Steady motion is Q y = 0: without momentum Q = lambda K - M and x = lambda; with momentum Q =
-/// x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+/// if it is firm, the lowest link. Steady motion is Q y = 0: without momentum Q = lambda K - M and
+/// x = lambda; with momentum Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n
+/// G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;

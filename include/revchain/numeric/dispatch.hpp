@@ -65,10 +65,9 @@ inline Processor processor() {
 /// REVCHAIN_DISPATCH it is compiled for SSE2, AVX2 and AVX-512, and the best is chosen at run time:
 /// a portable build is then a few per cent slower than one for the machine, and compiles in twice
 /// the time. The Python module and revchain::compiled are built that way. Another kind of processor
-/// may change last digits (products and sums are fused where the compiler may do so).
-///
-/// f and everything it calls that handles packs must be always_inline. Other functions remain code
-/// for the oldest processor, and packs must not be passed to them by value.
+/// may change last digits (products and sums are fused where the compiler may do so). f and
+/// everything it calls that handles packs must be always_inline. Other functions remain code for
+/// the oldest processor, and packs must not be passed to them by value.
 template <class F>
 auto simd(const F& f) {
 #if defined(REVCHAIN_SEVERAL_TARGETS)

@@ -9,7 +9,6 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two doubles as a scalar of 106 bits: `Chain<DoubleDouble>`, `modes`, ... to about 32 digits.
-///
 /// DoubleWord<double> is the arithmetic that certifies answers in double, with sizes, errors and
 /// weights in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
 /// DoubleDouble are DoubleDouble, and bounds grow with the number of links. Accuracy of one
@@ -34,18 +33,10 @@ class DoubleDouble {
     constexpr explicit operator long double() const { return static_cast<long double>(word_.high) + word_.low; }
 
     friend constexpr DoubleDouble operator-(const DoubleDouble& x) { return DoubleDouble(-x.word_); }
-    friend constexpr DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ + y.word_);
-    }
-    friend constexpr DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ - y.word_);
-    }
-    friend DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ * y.word_);
-    }
-    friend DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ / y.word_);
-    }
+    friend constexpr DoubleDouble operator+(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ + y.word_); }
+    friend constexpr DoubleDouble operator-(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ - y.word_); }
+    friend DoubleDouble operator*(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ * y.word_); }
+    friend DoubleDouble operator/(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ / y.word_); }
     DoubleDouble& operator+=(const DoubleDouble& y) { return *this = *this + y; }
     DoubleDouble& operator-=(const DoubleDouble& y) { return *this = *this - y; }
     DoubleDouble& operator*=(const DoubleDouble& y) { return *this = *this * y; }

@@ -12,12 +12,11 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T. A type of its
-/// own, because no maintained header-only library offers one without Boost.
-///
-/// Relative error of one operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in
-/// u^3. `operation_error<DoubleWord<T>>()` is at least twice that, for compilers that contract a
-/// product and a sum into one fused operation. Valid while no low part underflows. Algorithms 4, 6,
-/// 9, 12, 15 and 17 of Joldes, Muller, Popescu (2017), doi:10.1145/3121432.
+/// own, because no maintained header-only library offers one without Boost. Relative error of one
+/// operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3.
+/// `operation_error<DoubleWord<T>>()` is at least twice that, for compilers that contract a product
+/// and a sum into one fused operation. Valid while no low part underflows. Algorithms 4, 6, 9, 12,
+/// 15 and 17 of Joldes, Muller, Popescu (2017), doi:10.1145/3121432.
 template <Word T>
 struct DoubleWord {
     static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");

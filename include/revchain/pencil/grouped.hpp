@@ -71,9 +71,7 @@ class Group {
 /// flexibility of an element, q its centroid's position, |q| <= 2, and F of its group, the terms
 /// are at most W, W q f/F and B f/F, each at most 8 lambda k in a group; cross masses enter as X +
 /// B = W q with an error of |X| + B <= 2 B + 2.5 W. In total at most 120 times the errors of
-/// elements and sums.
-///
-/// Preconditions: one unit; shifts lambda >= `least`. Cost: 6 ns an element.
+/// elements and sums. Preconditions: one unit; shifts lambda >= `least`. Cost: 6 ns an element.
 template <std::floating_point T>
 GroupedPencil<T> grouped(const ElementPencil<T>& pencil, const T& least, const T& spread) {
     GroupedPencil<T> result;

@@ -20,10 +20,9 @@ namespace revchain::inline REVCHAIN_BUILD {
 inline constexpr std::size_t pack_size = 4;
 
 /// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers, or in an
-/// array where the compiler has no vector types. No lane depends on others: choices are masks.
-///
-/// How packs are passed by value depends on the processor compiled for: every function that does so
-/// is always_inline, so that none is called between different ones. No memcpy: GCC 12 copies by 16
+/// array where the compiler has no vector types. No lane depends on others: choices are masks. How
+/// packs are passed by value depends on the processor compiled for: every function that does so is
+/// always_inline, so that none is called between different ones. No memcpy: GCC 12 copies by 16
 /// bytes whatever the registers, and the failed store forwarding costs a factor of four.
 template <std::floating_point T, std::size_t Width = pack_size, std::size_t Count = 1>
 struct Pack {

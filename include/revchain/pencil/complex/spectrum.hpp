@@ -210,13 +210,11 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
 }  // namespace detail
 
 /// Every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least one
-/// element.
-///
-/// Method: all roots at once in double (Ehrlich and Aberth, from the roots of two halves), then one
-/// step in two words, with discs proved to hold one root each; where discs meet, roots are first
-/// refined in two words. A disc about a real approximation holds a real root, because it would also
-/// hold the conjugate of another. Cost, N elements (AVX-512): 0.15 microseconds N^2, with momentum
-/// 0.3. `advance(share)` is called after every sweep and may throw, on any thread.
+/// element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two halves),
+/// then one step in two words, with discs proved to hold one root each; where discs meet, roots are
+/// first refined in two words. A disc about a real approximation holds a real root, because it
+/// would also hold the conjugate of another. Cost, N elements (AVX-512): 0.15 microseconds N^2,
+/// with momentum 0.3. `advance(share)` is called after every sweep and may throw, on any thread.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
     const Index degree = detail::leading_term(pencil).degree - zeros;
