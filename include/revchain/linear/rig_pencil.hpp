@@ -17,12 +17,13 @@ struct MasslessForm {
 
 /// The small-amplitude theory of a rig as elements: for each link stiffness sign (tension + n
 /// spin)/length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
-/// that yields, a massless spring with the carriage at its lower pin. Weights in units of
+/// that yields: a massless spring, the carriage at its lower pin. Weights in units of
 /// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
 /// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
-/// if it is firm, the lowest link. Steady motion is Q y = 0: without momentum Q = lambda K - M and
-/// x = lambda; with momentum Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n
-/// G - (n^2/g) M.
+/// if it is firm, the lowest link.
+///
+/// Steady motion is Q y = 0: without momentum Q = lambda K - M and x = lambda; with momentum Q =
+/// x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;
@@ -39,7 +40,7 @@ struct RigPencil {
 
 namespace detail {
 
-/// What a link's mass holds: nothing, one combination of its pins' offsets, or both.
+/// The pins that a link's mass holds: none, one combination of its pins' offsets, or both.
 enum class HeldPins { nothing, lower, upper, one, both };
 
 inline HeldPins held_by(const Rig& rig, Index m) {
@@ -155,7 +156,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
 
 /// The pencil of a rig, or with `lower_end` of one whose lower end is held too: then no link
 /// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
-/// InvalidArgument as rig_links does, unless gravity > 0, and for a stiffness or tension beyond the
+/// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
 /// range.
 inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
                             const std::optional<detail::LowerEnd>& lower_end = {}) {

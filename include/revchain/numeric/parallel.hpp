@@ -21,8 +21,7 @@
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// While it exists, `parallel_for` called on the thread that made it uses this many threads, or
-/// with 0 all processors. Else, and on threads that it starts, it uses 1. Negative:
-/// InvalidArgument.
+/// with 0 all processors. Else, and on threads that it starts, it uses 1. Throws if negative.
 class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {

@@ -123,8 +123,7 @@ M least_pivot() {
     return ldexp(M(1), limits::min_exponent + (limits::digits + 1) / 2 + 3);
 }
 
-/// The pivot, or something tiny and positive: eigenvalues at the shift are not above it. `size`:
-/// |L|.
+/// The pivot, or a tiny positive number: eigenvalues at the shift are not above it. `size`: |L|.
 template <class S>
 [[gnu::always_inline]] inline S not_zero(const S& pivot, const S& size) {
     using std::abs;

@@ -152,7 +152,7 @@ template <class Where, class Terms, bool Spins, class T>
 }  // namespace detail
 
 /// Roots to eleven digits or more from brackets of the roots number `first`, `first` + 1, ... (from
-/// 0, descending): inverse iteration with Rayleigh quotients, kept within brackets by its counts.
+/// 0, descending): inverse iteration with Rayleigh quotients, limited to brackets by its counts.
 /// Cost: 2.5 ns a link, root and round; three rounds from a factor of two, two from three per cent.
 template <std::floating_point T, bool Spins>
 std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, Index first,

@@ -127,9 +127,8 @@ template <class S, class Rise, class Sink, class Forces>
     return result;
 }
 
-/// Returns a function (element, pin) for offsets in one unit for all elements, the largest about 1:
-/// forces are offsets times weights (`share` 1), energies squares of offsets times weights (`share`
-/// 2).
+/// Returns a function (element, pin) for offsets in one unit for all elements, the largest about 1.
+/// `share`: 1 for forces (offsets times weights), 2 for energies (squares of offsets).
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
 auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
     using std::frexp, std::ldexp;

@@ -114,8 +114,7 @@ template <class Terms, bool Spins, class V, class T>
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    // Stiffness of all below each pin, upwards, and of all above, downwards; each waits for
-    // divisions.
+    // Stiffness below each pin, upwards, and above it, downwards; they fill each other's waits.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);

@@ -38,8 +38,7 @@ struct LaneTaylor {
 
 namespace detail {
 
-/// Powers of two that bring total weight and largest length near 1. `ordinary`: products stay in
-/// range.
+/// Powers of two that bring total weight and largest length near 1. `ordinary`: no overflow.
 template <class V>
 struct LaneUnits {
     V per_weight, per_length;

@@ -154,16 +154,17 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 /// The `count` largest conical heights of `block_lanes` chains, descending, [j * block_lanes + i],
 /// in the unit of the lengths. If `verified[i]` is not 0, counts in double at both ends of an
 /// interval of 16 + size/4 ulp (relative) about each height of chain i show that it holds the mode
-/// of that number and no other; otherwise nothing is known. First approximations by Laguerre's
-/// iteration from the left on y at the support as a polynomial in mu = 1/lambda, known zeros
-/// divided out; then the Rayleigh quotient of the shape there, whose error is the square of the
-/// shape's. A lane depends on its own numbers alone, so results are bitwise the same wherever a
-/// chain stands; another kind of processor may change last digits. `aberth_spectrum` has its shifts
-/// of one chain side by side, this function has chains: a third of the time for all modes of 10
-/// links (as long for 40). The lumped masses used there would cancel where centroids lie below
-/// their links. Preconditions: weights, lengths and centroids positive and finite, radii of
-/// gyration not negative, pendulum lengths >= centroid; 1 <= count <= size; size <= 16 for
-/// `coefficients`.
+/// of that number and no other; otherwise nothing is known.
+///
+/// First approximations by Laguerre's iteration from the left on y at the support as a polynomial
+/// in mu = 1/lambda, known zeros divided out; then the Rayleigh quotient of the shape there, whose
+/// error is the square of the shape's. A lane depends on its own numbers alone, so results are
+/// bitwise the same wherever a chain stands; another kind of processor may change last digits.
+/// `aberth_spectrum` has its shifts of one chain side by side, this function has chains: a third of
+/// the time for all modes of 10 links (as long for 40). The lumped masses used there would cancel
+/// where centroids lie below their links. Preconditions: weights, lengths and centroids positive
+/// and finite, radii of gyration not negative, pendulum lengths >= centroid; 1 <= count <= size, 16
+/// for `coefficients`.
 inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work,
                           double* height, std::int64_t* verified) {
     simd([&](auto registers) REVCHAIN_INLINED {

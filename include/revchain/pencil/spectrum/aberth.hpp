@@ -249,14 +249,15 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
 
 /// All eigenvalues lambda of lambda K y = M y for a small chain, each with a proved bound of at
 /// most `tolerance` and 2^-32. False, with no valid result, where neighbours are too close or
-/// numbers leave the range of double. Method: the characteristic polynomial, without division, at 2
-/// or 3 points an eigenvalue; all its zeros at once by Ehrlich's and Aberth's iteration, mostly
-/// three rounds; Rayleigh quotients of twisted vectors, whose error is the square of the vectors';
-/// residuals that give as many disjoint intervals as eigenvalues, and so number them. Accuracy,
-/// measured: 4 ulp; proved: about 20 ulp for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds
-/// for 10 plummets, 0.9 for 10 rods, 54 and 80 for 100 (bench_small). Preconditions: 1 <= size <=
-/// most_links; X >= 0, M positive definite. Also refused: masses, stiffnesses, flexibilities and
-/// shifts beyond 2^-64 ... 2^64.
+/// numbers leave the range of double.
+///
+/// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its
+/// zeros at once by Ehrlich's and Aberth's iteration, mostly three rounds; Rayleigh quotients of
+/// twisted vectors, whose error is the square of the vectors'; residuals that give as many disjoint
+/// intervals as eigenvalues, and so number them. Accuracy, measured: 4 ulp; proved: about 20 ulp
+/// for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54
+/// and 80 for 100 (bench_small). Preconditions: 1 <= size <= most_links; X >= 0, M positive
+/// definite. Also refused: numbers beyond 2^-64 ... 2^64.
 inline bool aberth_spectrum(const aberth::LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return links.rigid ? aberth::solve<true>(links, tolerance, result) : aberth::solve<false>(links, tolerance, result);
 }

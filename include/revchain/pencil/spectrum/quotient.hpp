@@ -111,8 +111,7 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// `leg` links between two checks; twists at pins 0, leg, ... `last` leg < n, number `low` to
-/// `high`.
+/// `leg` links between checks; twists at pins 0, leg, ... `last` leg < n, number `low` to `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
@@ -126,9 +125,8 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 }
 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined
-/// at the pin with the least residual from `lowest` to `highest` that `longest`, a power of 2,
-/// divides. Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86
-/// ns a link.
+/// at the pin of least residual from `lowest` to `highest` that `longest`, a power of 2, divides.
+/// Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86 ns a link.
 template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                              std::size_t highest, std::size_t longest, Quotient* result,

@@ -37,8 +37,8 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
 }
 
 /// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
-/// `most` eigenvalues, by counts; the first and the last may hold more. Cost: about 2 (last -
-/// first)/most counts.
+/// `most` eigenvalues, by counts; the end ones may hold more. Cost: about 2 (last - first)/most
+/// counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
     // The whole range: mu by powers of 4 until the count suffices. Not round numbers: part of a
