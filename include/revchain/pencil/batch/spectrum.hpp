@@ -171,11 +171,10 @@ inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMeth
         // Eight doubles to a register were slower than four (N = 10, Zen 4).
         using V = Pack<double, std::min(registers.doubles, pack_size), 4>;
         for (std::ptrdiff_t lane = 0; lane < block_lanes; lane += static_cast<std::ptrdiff_t>(V::size)) {
-            if (block.centroid == nullptr) {
+            if (block.centroid == nullptr)
                 detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height, verified);
-            } else {
+            else
                 detail::spectrum<V, RigidLanes>(block, count, method, lane, work, height, verified);
-            }
         }
     });
 }

@@ -38,9 +38,8 @@ template <bool has_cross, bool up, class V>
                                              Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
-    for (std::size_t p = 0; p < P; ++p) {
+    for (std::size_t p = 0; p < P; ++p)
         mu[p] = walk[p].mu, offset[p] = walk[p].offset, force[p] = walk[p].force;
-    }
     for (std::size_t i = begin; i < end; ++i) {
         const LumpedLink e = chain.links[up ? i : begin + (end - 1 - i)];
 #pragma GCC unroll 8
@@ -216,11 +215,10 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
                 for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
                 const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
                 const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-                if (chain.has_cross) {
+                if (chain.has_cross)
                     solve(registers, std::true_type(), padded, lowest, highest, found);
-                } else {
+                else
                     solve(registers, std::false_type(), padded, lowest, highest, found);
-                }
                 for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
             }
         });
