@@ -59,6 +59,7 @@ concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>
 // Results hold the next two, which get their memory from `malloc` whatever the compiler's flags.
 // How Eigen allocates other matrices depends on the instruction set.
 
+/// A column of numbers.
 template <class T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
