@@ -10,17 +10,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A spring that holds the support of a chain sideways, and the weight of what moves with it, in `chain.units()`.
+/// A spring that holds the support sideways, and the weight that moves with it, in `chain.units()`.
 struct SpringOnTop {
     double stiffness, carriage;
 };
 
-/// A chain as lumped pins and springs in double. Heights in units of `chain.units()`. With p = h/a, q = 1 - p the
-/// lumped masses are W p and W q, X = W (p q - r). False for chains not served: all have to be plummets, or all to have
-/// 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a). Roundings: of S one (compensated); of p one, of q two; of k two with
-/// plummets, else four, of 1/k the same; the others in docs/theory/spectrum.md, "Small chains", 1. A support on
-/// a spring is one more link, with the mass of the carriage at its lower pin. Of plummets without a carriage the spring
-/// and the uppermost thread are one: 1/k three roundings, k four.
+/// A chain as lumped pins and springs in double, in `chain.units()`. False unless all links are
+/// plummets, or all have 0 <= h <= a and 0 < (rho/a)^2 < p q (p = h/a, q = 1 - p). Lumped masses
+/// are W p and W q, and X = W (p q - r). Roundings: S one (compensated), p one, q two, k and 1/k
+/// two with plummets, else four; the others: docs/theory/spectrum.md, "Small chains", 1. A support
+/// on a spring is one more link, with the mass of the carriage at its lower pin. With plummets and
+/// no carriage it joins the top thread: 1/k has three roundings, k four.
 inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
                  const std::optional<SpringOnTop>& top = std::nullopt) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
@@ -29,8 +29,8 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     const double per_length = std::ldexp(1.0, -units.length_exponent);
     links.size = n;
     links.rigid = false;
-    for (Index m = 0; m < chain.size(); ++m)
-        links.rigid = links.rigid || chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
+    for (Index m = 0; m < chain.size() && !links.rigid; ++m)
+        links.rigid = chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
 
     CompensatedSum<double> hung;
     double mass_above = 0;  // of the upper pin of the link below
@@ -74,10 +74,10 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     if (top) {
         const double flexibility = 1 / top->stiffness, mass = mass_above + top->carriage;
         trace += (hung.value() + top->carriage) * flexibility;
-        if (links.rigid) {  // K y^2 of the uppermost link and the spring together, over its mass alone
+        if (links.rigid) {  // K y^2 of the top link and the spring over its mass alone
             const double p = links.lower_share[n - 1], turn = links.turn[n - 1];
-            greatest =
-                std::max(greatest, (stiffness_below + top->stiffness * (p * p + turn / links.weight[n - 1])) / turn);
+            const double spring = top->stiffness * (p * p + turn / links.weight[n - 1]);
+            greatest = std::max(greatest, (stiffness_below + spring) / turn);
         }
         if (mass > 0) {
             if (!links.rigid) greatest = std::max(greatest, 2 * (stiffness_below + top->stiffness) / mass);
@@ -96,35 +96,35 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     return fit && worst_cross < 0x1p20;
 }
 
-/// A range of the roots that `all` holds, each to `worst`, relative; nothing where that is not proved.
-inline std::optional<std::vector<pencil::ProvedRoot<double>>> refined(const pencil::ElementPencil<Wide<double>>& pencil,
-                                                                      const ModeRange& range, Index modes,
-                                                                      const pencil::AberthSpectrum& all, double worst) {
+/// A range of the roots in `all`, each to the relative error `worst`; nothing if one is not proved.
+inline pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
+                                           const ModeRange& range, Index modes,
+                                           const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
         return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
     };
     const Index first = range.first - 1, last = first + range.count;
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
-    auto roots =
-        pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, last == modes ? 0.0 : end(last, 1),
-                             first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1), worst,
-                             [](double) { return pencil::CertifiedCount{}; });
+    const double below = last == modes ? 0.0 : end(last, 1);
+    const double above = first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1);
+    auto roots = pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above,
+                                      worst, [](double) { return pencil::CertifiedCount{}; });
     if (roots)
         for (const auto& root : *roots)
             if (!std::isfinite(root.off)) return std::nullopt;
     return roots;
 }
 
-/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not serve. Bounds are
-/// of some 20 ulp, or with a tolerance below 1e-14 below 2.
-/// Cost: as there, 10 ns a link, and 8 ns a link and mode where they are to be below 2 ulp.
+/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not
+/// serve. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
+/// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
 inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
                                                         const HeightsOptions<double>& options) {
     constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
-    if (chain.size() > static_cast<Index>(pencil::aberth::most_links) || chain.mode_count() != chain.size() ||
-        !chain.has_one_weight_unit())
+    const auto most = static_cast<Index>(pencil::aberth::most_links);
+    if (chain.size() > most || chain.mode_count() != chain.size() || !chain.has_one_weight_unit())
         return std::nullopt;
     const FloatingPointStateGuard quiet;
     pencil::aberth::LumpedLinks links;
@@ -136,13 +136,12 @@ inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& cha
     if (goal < loose) {
         const auto roots = refined(assemble(chain).pencil, range, chain.mode_count(), all, worst_unrounded);
         if (!roots) return std::nullopt;
-        for (const auto& root : *roots) result.push_back(rounded_height(root));
+        for (const auto& root : *roots) result.push_back({root.root.high, root.bound(), root.root});
         return result;
     }
-    for (Index j = range.first - 1; j < range.first - 1 + range.count; ++j) {
-        const std::size_t i = static_cast<std::size_t>(j);
+    const auto first = static_cast<std::size_t>(range.first - 1);
+    for (std::size_t i = first; i < first + static_cast<std::size_t>(range.count); ++i)
         result.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});
-    }
     return result;
 }
 

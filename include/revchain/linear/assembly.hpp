@@ -9,13 +9,10 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The small-amplitude pencil of a chain in `Wide<T>`, weights in units of 2^units.weight_exponent (and of the pencil's
-/// own units) and heights in units of 2^units.length_exponent.
+/// The small-amplitude pencil of a chain in `Wide<T>`: weights in units of 2^units.weight_exponent
+/// (and of the pencil's own units), heights in units of 2^units.length_exponent.
 template <Real T>
 struct AssembledChain {
     pencil::ElementPencil<Wide<T>> pencil;
@@ -24,17 +21,18 @@ struct AssembledChain {
 
 namespace detail {
 
-/// The bounds of an `ElementPencil` of a chain whose terms |W h| + a S are at most `cancelled` times their sum.
+/// Sets the bounds of a chain's pencil; |W h| + a S is at most `cancelled` times W h + a S.
 template <Real S, class E>
 void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled, const E& shortest) {
-    // S_m is a partial weight and up to a segment more; every other entry takes at most six operations.
+    // S_m is a partial weight and up to a segment; other entries take at most six operations.
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
     pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
-    pencil.stiffness_underflow = std::numeric_limits<E>::min() * std::numeric_limits<E>::epsilon() * E(4) / shortest;
+    using Limits = std::numeric_limits<E>;
+    pencil.stiffness_underflow = Limits::min() * Limits::epsilon() * E(4) / shortest;
 }
 
-/// The numbers of a link, or of several side by side; `below`: the weight hung below it.
+/// The numbers of a link, or of several side by side; `below` is the weight hung below it.
 template <class S>
 struct LinkEntries {
     S moment, carried;  ///< W h/a, and with what hangs below
@@ -44,22 +42,23 @@ template <class S, class W>
 [[gnu::always_inline]] inline LinkEntries<S> link_entries(const W& weight, const S& a, const S& h, const S& r,
                                                           const S& below) {
     const S p = h / a, q = (a - h) / a, moment = p * weight, carried = moment + below;
-    return {moment, carried, carried / a, (p * p + r) * weight, (q * q + r) * weight, (p * q - r) * weight, r * weight};
+    return {moment, carried, carried / a, (p * p + r) * weight, (q * q + r) * weight,
+            (p * q - r) * weight, r * weight};
 }
 
-/// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a time: 15 ns a link,
-/// 7 ns of plummets, where one by one takes 150.
+/// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a
+/// time: 15 ns a link, 7 ns for plummets, where one by one takes 150 ns.
 template <class Where>
 [[gnu::always_inline]] inline void assemble_in_packs(Where, const Chain<double>& chain,
                                                      AssembledChain<double>& result) {
     using V = Pack<double, Where::doubles, lanes_at_once / Where::doubles>;
     using Words = DoubleWord<V>;
     using Numbers = std::array<double, V::size>;
-    // In two steps: a power of two that scales the largest numbers to 1 may itself be below the normal ones.
+    // In two steps: a power of two that scales the largest numbers to 1 may itself be subnormal.
     struct Scale {
         double first, second;
         explicit Scale(int exponent)
-            : first(std::ldexp(1.0, -exponent / 2)), second(std::ldexp(1.0, -exponent - -exponent / 2)) {}
+            : first(std::ldexp(1.0, -exponent / 2)), second(std::ldexp(1.0, -exponent + exponent / 2)) {}
         double operator()(double x) const { return x * first * second; }
     };
     const Scale weighed(result.units.weight_exponent), measured(result.units.length_exponent);
@@ -98,7 +97,8 @@ template <class Where>
             entries[0] = (S + W) / a;
             entries[1] = Words(W);
         } else {
-            const auto e = link_entries(W, a, Words(all(centroid)), Words(all(ratio), all(ratio_low)), S);
+            const Words r(all(ratio), all(ratio_low));
+            const auto e = link_entries(W, a, Words(all(centroid)), r, S);
             entries[0] = e.stiffness, entries[1] = e.lower, entries[2] = e.upper, entries[3] = e.cross,
             entries[4] = e.turning;
         }
@@ -117,18 +117,15 @@ template <class Where>
 
 }  // namespace detail
 
-/// Chain -> link elements, Greenhill (1908) §8 with sec delta = 1: with p = h/a, q = (a - h)/a and r = rho^2/a^2, the
-/// stiffness k = (W p + S)/a and the mass of a rigid body about its two pins, A = W (p^2 + r), B = W (q^2 + r),
-/// X = W (p q - r), c = W r. Every entry is within `entry_error` (relative) of the exact function of the chain's stored
-/// numbers: 3e-29 in double, less for fewer than 256 links, more only where a centroid above the pin makes W h + a S
-/// cancel. Where weights span more than one unit can serve, an element's is that of the weight at its upper pin, to a
-/// factor of 2^(max_exponent/8).
-/// Cost O(N).
+/// Elements of a chain, Greenhill (1908) §8 with sec delta = 1. With p = h/a, q = (a - h)/a and r =
+/// rho^2/a^2: stiffness k = (W p + S)/a, and the mass of a rigid body about its two pins, A = W
+/// (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the relative
+/// `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256 links,
+/// more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice, units
+/// are upper pins' weights within 2^(max_exponent/8). Cost O(N).
 template <Real T>
 AssembledChain<T> assemble(const Chain<T>& chain) {
-    using std::abs;
-    using std::frexp;
-    using std::ldexp;
+    using std::abs, std::frexp, std::ldexp;
     using S = Wide<T>;
     using E = Narrow<S>;
     constexpr int stride = std::numeric_limits<T>::max_exponent / 8;
@@ -159,13 +156,12 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         }
         const E weight(ldexp(link.weight, -unit));
         const S hung = ldexp(below, -unit);
-        const S a(ldexp(link.length, to_length));
-        const S h(ldexp(link.centroid, to_length));
+        const S a(ldexp(link.length, to_length)), h(ldexp(link.centroid, to_length));
         const auto e = detail::link_entries(S(weight), a, h, link.gyration_ratio, hung);
         result.pencil.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, e.turning, weight});
         shortest = std::min(shortest, static_cast<E>(a));
-        const E amplification = (abs(static_cast<E>(e.moment)) + static_cast<E>(hung)) / static_cast<E>(e.carried);
-        if (amplification > cancelled) cancelled = amplification;
+        const E sizes = abs(static_cast<E>(e.moment)) + static_cast<E>(hung);
+        cancelled = std::max(cancelled, sizes / static_cast<E>(e.carried));
         below = above;
     }
     detail::set_entry_errors(result.pencil, chain.size(), cancelled, shortest);
@@ -173,5 +169,3 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
 }
 
 }  // namespace revchain
-
-#pragma GCC diagnostic pop

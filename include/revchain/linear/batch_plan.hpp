@@ -23,7 +23,7 @@ struct ChainBatch;
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// "chain 17" (counted from 0), "chain (4, 2)" where the batch has several axes.
+/// Returns "chain 17", counted from 0, or "chain (4, 2)" if the batch has several axes.
 template <Real T>
 std::string name_of_chain(const ChainBatch<T>& batch, Index chain) {
     if (batch.shape.size() < 2) return "chain " + std::to_string(chain);
@@ -39,14 +39,15 @@ Link<T> link_of(const ChainBatch<T>& batch, Index c, Index m) {
     if (!batch.centroid) return link;
     const std::string place = "Chain: links[" + std::to_string(m) + "]";
     link.centroid = (*batch.centroid)(c, m);
+    const T a = link.length, h = link.centroid;
     link.gyration_ratio =
         batch.pendulum_length
-            ? gyration_from_pendulum_length<T>(place, link.length, link.centroid, (*batch.pendulum_length)(c, m))
-            : gyration_from_radius<T>(place, link.length, (*batch.radius_of_gyration)(c, m));
+            ? gyration_from_pendulum_length<T>(place, a, h, (*batch.pendulum_length)(c, m))
+            : gyration_from_radius<T>(place, a, (*batch.radius_of_gyration)(c, m));
     return link;
 }
 
-/// Chain number c, checked as every Chain is; what is wrong with it is told with its number.
+/// Chain number c, checked like every Chain; an error message names the chain.
 template <Real T>
 Chain<T> chain_of(const ChainBatch<T>& batch, Index c) {
     try {
@@ -57,13 +58,12 @@ Chain<T> chain_of(const ChainBatch<T>& batch, Index c) {
     } catch (const InvalidArgument& wrong) {
         const std::string_view sentence(wrong.what());
         const std::string_view prefix("revchain::Chain: ");
-        throw_invalid("conical_heights",
-                      name_of_chain(batch, c) + ": " +
-                          std::string(sentence.substr(sentence.starts_with(prefix) ? prefix.size() : 0)));
+        const auto rest = sentence.substr(sentence.starts_with(prefix) ? prefix.size() : 0);
+        throw_invalid("conical_heights", name_of_chain(batch, c) + ": " + std::string(rest));
     }
 }
 
-/// Whether good(x) for every number stored, without a branch: compilers vectorise it.
+/// Whether good(x) for every stored number; without a branch, so that compilers vectorise it.
 template <Real T, class Good>
 bool all(const BatchColumn<T>& column, Index chains, Index size, Good good) {
     if (column.chain_stride == 0) chains = std::min<Index>(chains, 1);
@@ -83,8 +83,8 @@ bool all(const BatchColumn<T>& column, Index chains, Index size, Good good) {
     return fine;
 }
 
-/// Whether every chain from `first` to `last` - 1 is one for the lanes: weights, lengths and centroids positive and far
-/// from the ends of the range, radii of gyration real. Any such chain is valid and has as many modes as links.
+/// Whether the lanes serve chains `first` ... `last` - 1: weights, lengths and centroids positive
+/// and not extreme, radii of gyration real. They have as many modes as links.
 template <Real T>
 bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
     const auto part = [&](BatchColumn<T> column) {
@@ -112,13 +112,12 @@ bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
     return real;
 }
 
-/// What a batch is found to be before anything is computed.
 struct BatchPlan {
     Index count = 0;           ///< modes of each chain
     std::vector<Index> alone;  ///< chains not for the lanes, ascending
 };
 
-/// Throws InvalidArgument for the first chain that has something wrong.
+/// Throws InvalidArgument for the first chain that is not valid.
 template <Real T>
 BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count) {
     BatchPlan plan{count.value_or(batch.size), {}};
@@ -137,16 +136,15 @@ BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count
             }
         }
     }
-    // All alike: that many modes. Unlike: the caller has to say how many of each.
+    // If chains differ in their number of modes, the caller has to say how many to compute.
     const bool alike = static_cast<Index>(plan.alone.size()) == batch.chains &&
                        std::all_of(plan.alone.begin(), plan.alone.end(),
                                    [&](Index c) { return chain_of(batch, c).mode_count() == fewest; });
     if (!count && alike) plan.count = fewest;
     if (plan.count > fewest)
-        throw_invalid(
-            "conical_heights",
-            name_of_chain(batch, which) + " has only " + std::to_string(fewest) + " modes; count must not exceed them",
-            plan.count);
+        throw_invalid("conical_heights",
+                      name_of_chain(batch, which) + " has only " + std::to_string(fewest) +
+                          " modes; count must not exceed them", plan.count);
     return plan;
 }
 

@@ -6,36 +6,33 @@
 #include "revchain/pencil/condensed/transfer.hpp"
 #include "revchain/simd/pack.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
 inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 
-/// Links that are summed plainly; longer runs are merged from such leaves. A sixteenth of the run keeps what their
-/// roundings move from pin to pin below 1/4 unit; 32 make the merges cheap.
+/// Links that are summed plainly; longer runs are merged from such leaves. With a sixteenth of the
+/// run, rounding moves less than 1/4 unit from pin to pin; with 32 the merges are cheap.
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
 
-/// Leaves of up to 4 links have all of their 4 terms; those of longer runs are so short that 3 nearly always do (what
-/// they leave out is asked: `condensed_chain`).
+/// Terms of a leaf. Leaves of up to 4 links have all 4; in longer runs leaves are so short that 3
+/// nearly always suffice (`condensed_chain` checks what they leave out).
 constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
 
-/// Bounds on the roundings (half units, relative) behind the moment a1 of a leaf of so many links and behind its other
-/// coefficients: docs/theory/blocks.md.
+/// Roundings (half units) in a1 and the other coefficients of a leaf: docs/theory/blocks.md.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 
-/// Neighbouring runs of links, condensed, one in each lane. Units of length: `unit_length` of the columns.
+/// Neighbouring runs of links, condensed, one in each lane; lengths in `LinkColumns::unit_length`.
 template <class V>
 struct LaneRuns {
     pencil::Transfer<V, leaf_degree> transfer;
     CompensatedSum<V> weight, flexibility, moment;  ///< c0, b1, a1
     V leaf_phase{};                                 ///< largest c0 b1 of a leaf
     V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
-    V worst{};  ///< positive: the run is not valid (a centroid beyond the pins, an inertia beyond l = a, a weight above
-        ///< all below it, a leaf too light to be told from what it carries, a lowest link too long for its spring)
+    /// Positive if not valid: centroid beyond the pins, inertia beyond l = a, weight above all
+    /// below it, leaf too light beside what it carries, lowest link too long for its spring.
+    V worst{};
 
     /// Joins a leaf to the top of each run.
     template <std::size_t Degree>
@@ -43,7 +40,8 @@ struct LaneRuns {
                                          const CompensatedSum<V>& its_flexibility, bool is_first) {
         const V phase = mass.high * its_flexibility.high;
         leaf_phase = max(leaf_phase, phase);
-        leaf_moment = max(leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
+        const V square = leaf.a[0] * leaf.a[0];
+        leaf_moment = max(leaf_moment, if_less(V{}, phase, square / phase, V{}));  // no 0/0
         moment.add(leaf.a[0] + its_flexibility.high * weight.high);
         moment.low += its_flexibility.high * weight.low + its_flexibility.low * weight.high;
         transfer = is_first ? pencil::extended<leaf_degree>(leaf) : pencil::merged(transfer, leaf);
@@ -53,7 +51,7 @@ struct LaneRuns {
     }
 };
 
-/// A column to be read at every link: where one number serves all, again and again.
+/// Reads a column link by link; a column of one number serves all links.
 template <class From>
 struct ColumnReader {
     const From* data;
@@ -61,24 +59,22 @@ struct ColumnReader {
 
     explicit ColumnReader(const Column<From>& column) : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
     bool is_scalar() const { return stride == 0; }
-    /// One number for each lane, from links that are `apart` links from one another.
+    /// One number for each lane, from links that are `apart` links from each other.
     template <class V>
     [[gnu::always_inline]] V lanes(Index link, Index apart) const {
         using T = Lane<V>;
         const From* first = data + link * stride;
-        const Index step = apart * stride;
-        return V(static_cast<T>(first[0]), static_cast<T>(first[step]), static_cast<T>(first[2 * step]),
-                 static_cast<T>(first[3 * step]));
+        const auto at = [&](Index lane) REVCHAIN_INLINED { return static_cast<T>(first[lane * apart * stride]); };
+        return V(at(0), at(1), at(2), at(3));
     }
 };
 
-/// What the condensation reads of a chain.
 template <class T>
 struct LinkColumns {
     ColumnReader<T> weight, length, centroid;
     ColumnReader<Wide<T>> gyration_ratio;
-    bool equal = false;  ///< but for their weights
-    T unit_length;       ///< lengths are counted in that of a link if it serves all, else in a power of two
+    bool equal = false;  ///< links are equal but for their weights
+    T unit_length;       ///< that of a link if it serves all, else a power of two
 
     explicit LinkColumns(const Chain<T>& chain)
         : weight(chain.weight()),
@@ -91,13 +87,13 @@ struct LinkColumns {
     }
 };
 
-/// Four neighbouring runs of `length` links from link `first` on; `below` is the weight hung below each.
-/// A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu X and a mass (1 - p) W at its upper
-/// pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and flexibility of a run that of a division, all else less
-/// than 0.1; moment of a leaf three times its links, other coefficients four times.
-/// `Equal` says that links are alike but for their weights. Equal links that are read one by one would cost 1.4 times
-/// as much, and leaves that are always of degree 4 cost 1.3 times as much (ten modes of 1,000,000 rods).
-/// Cost: 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
+/// Condenses four neighbouring runs of `length` links, from link `first` on; `below` is the weight
+/// hung below each. A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu
+/// X and a mass (1 - p) W at its upper pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and
+/// flexibility of a run that of a division, all else less than 0.1; moment of a leaf three times
+/// its links, other coefficients four times. `Equal`: links differ only in weight; reading them one
+/// by one would cost 1.4 times as much, always degree 4 1.3 times (ten modes of 1,000,000 rods).
+/// Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
 template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
 LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
     return simd([&](auto) REVCHAIN_INLINED {
@@ -121,10 +117,9 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             a = per_length = V(T(1));
         }
         const Index step = leaf_links(length);
-        // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each
-        // leaf.
+        // Sums are exact if no link (or, if leaves are light, no leaf) outweighs all below it.
         constexpr bool light_leaves = Degree < leaf_degree;
-        // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
+        // hung.low is rounded `step` times at `step` half units of hung.high: lost to a leaf.
         const T lost = T(16 * step * step) * epsilon<T>();
         for (Index start = 0; start < length; start += step) {
             pencil::Transfer<V, Degree> leaf;
@@ -135,7 +130,8 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             for (Index m = start; m < start + step; ++m) {
                 if constexpr (!Equal) set_link(first + m);
                 const V w = links.weight.template lanes<V>(first + m, length);
-                if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
+                if constexpr (!light_leaves)
+                    runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
                 const V at_lower = p * w;
                 pencil::append_mass(leaf, carry + at_lower);
                 carry = w - at_lower;
@@ -164,7 +160,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
     });
 }
 
-/// The weight hung below each of four neighbouring runs of `length` links, the first one hung by `below`.
+/// The weights below four neighbouring runs of `length` links; `below`: that below the first.
 template <class T, class V = Pack<T>>
 CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first, Index length,
                                 Wide<T>& below) {
@@ -177,11 +173,10 @@ CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& lin
         const auto i = static_cast<std::size_t>(lane);
         result.high.set(i, static_cast<T>(below));
         result.low.set(i, static_cast<T>(below - S(result.high[i])));
-        below = in_segments ? chain.weight_below(first + (lane + 1) * length) : below + S(sum.high[i]) + S(sum.low[i]);
+        below = in_segments ? chain.weight_below(first + (lane + 1) * length)
+                            : below + S(sum.high[i]) + S(sum.low[i]);
     }
     return result;
 }
 
 }  // namespace revchain::detail
-
-#pragma GCC diagnostic pop

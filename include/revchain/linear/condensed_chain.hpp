@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
-
 #include "revchain/linear/condensation.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/condensed/builder.hpp"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-/// Link number `index` as a run, from the chain's numbers in `Wide<T>`. Alone where the polynomials do not hold.
+/// Link number `index` as a run in `Wide<T>`; alone where the polynomials do not hold.
 template <Real T>
-pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& builder, const Link<T>& link, Index index,
-                                    const T& unit_length, const Wide<T>& below) {
+pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& builder,
+                                    const Link<T>& link, Index index, const T& unit_length,
+                                    const Wide<T>& below) {
     using std::abs;
     using S = Wide<T>;
     using E = Narrow<S>;
@@ -40,29 +36,28 @@ pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& bui
         pencil::append_mass(run.transfer, at_lower);
         pencil::append_spring(run.transfer, f, x * f);
         pencil::append_mass(run.transfer, at_upper);
-        run.alone =
-            x > T(0) && (!builder.is_short(run) || !builder.template is_complete<pencil::Block<T>::degree>(run));
+        const bool exact = builder.is_short(run) && builder.template is_complete<pencil::Block<T>::degree>(run);
+        run.alone = x > T(0) && !exact;
     } else {
         run.alone = true;
     }
     if (run.alone) {
         run.cross = cross;
-        // What `Wide<T>` rounds, where W p + S cancels or lumped masses outweigh the link.
+        // Roundings in `Wide<T>` where W p + S cancels or lumped masses outweigh the link.
         const T unit = T(4) * operation_error<S>(), reach = T(1) + abs(static_cast<T>(p));
         const T amplified = (abs(at_lower) + static_cast<T>(below)) / static_cast<T>(lower + below);
         const T stretch = T(5) * reach * reach * reach;  // of (y_l - y_u)^2: within either energy
         run.stiffness_error += unit * T(index + 8) * amplified;
-        run.mass_error +=
-            unit * (T(4) * reach + stretch * std::min(builder.phase(run), T(1) / static_cast<T>(link.gyration_ratio)));
+        const T turned = std::min(builder.phase(run), T(1) / static_cast<T>(link.gyration_ratio));
+        run.mass_error += unit * (T(4) * reach + stretch * turned);
     } else {
-        // Longer ones are exact: X = 0. They are not merged.
+        // Longer ones are exact, because X = 0. They are not merged.
         if (builder.is_short(run)) builder.note_roundings(run, T(9), builder.second_terms(run));
         builder.template note_truncation<pencil::Block<T>::degree>(run);
     }
     return run;
 }
 
-/// Lane `lane` of runs condensed together.
 template <class T, class V>
 pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index links) {
     using S = Wide<T>;
@@ -84,7 +79,7 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     return run;
 }
 
-/// Condenses four runs with the loop that suits them: links may be equal, and short runs need leaves of full degree.
+/// Condenses four runs: links may be equal, and short runs need leaves of full degree.
 template <class T, class V>
 LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
     const auto of = [&]<bool equal>() {
@@ -96,17 +91,15 @@ LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, co
 
 }  // namespace detail
 
-/// A chain condensed into blocks that hold for every conical height above `least_height`, in units of
-/// `unit_length` as all heights of the pencil are.
+/// A chain condensed into blocks for heights above `least_height`, in units of `unit_length`.
 template <Real T>
 struct CondensedChain {
     pencil::CondensedPencil<T> pencil;
     T unit_length{};
 };
 
-/// Runs of links -> blocks. How long the runs may be is found on the way: doubled while they are small beside the
-/// wavelength, halved where they are not; links that fit no run stay alone.
-/// Cost O(N): see `condense`; memory O(blocks).
+/// Condenses links into blocks. Runs are doubled while they are small beside the wavelength, else
+/// halved; links that fit none stay alone. Cost O(N), see `condense`.
 template <std::floating_point T>
 CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) {
     using namespace detail;
@@ -114,8 +107,8 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
     const LinkColumns<T> links(chain);
     const T unit_length = links.unit_length;
     pencil::CondensedPencilBuilder<T> builder(least_height);
-    // The phase up to which degree 4 is complete for a uniform run; less for the shortest, whose roundings move more
-    // mass (bounds then stay below 2 ulp).
+    // The phase up to which degree 4 is complete for a uniform run; less for the shortest runs,
+    // whose roundings move more mass (bounds then stay below 2 ulp).
     const auto reach = [](Index length) { return length < 16 ? T(4e-4) : T(1.6e-3); };
     Wide<T> below(Narrow<Wide<T>>(0));
     const auto add_singles = [&](Index first, Index last) {
@@ -144,12 +137,12 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
             one = lane_of<T>(runs, lane, length);
             const T phase = builder.phase(one);
             largest = std::max(largest, phase);
-            if (length == 1) continue;  // not taken from here
-            fits =
-                !(runs.worst[lane] > T(0)) && phase < reach(length) && builder.template is_complete<leaf_degree>(one);
+            if (length == 1) continue;  // these lanes are not used
+            fits = !(runs.worst[lane] > T(0)) && phase < reach(length) &&
+                   builder.template is_complete<leaf_degree>(one);
             if (!fits) break;
             const T leaf = runs.leaf_phase[lane] / builder.least_shift();
-            if (leaf_terms(length) < leaf_degree) {  // a4 + d4, b1 c3 <= leaf^4/64 at most; twice: see note_truncation
+            if (leaf_terms(length) < leaf_degree) {  // a4 + d4, b1 c3: at most leaf^4/64, doubled
                 const T cut = leaf * leaf * leaf / T(31);
                 fits = cut <= epsilon<T>() / T(16);
                 if (!fits) break;
@@ -158,14 +151,14 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
             const auto roundings = static_cast<T>(coefficient_roundings(leaf_links(length)));
             const T half = epsilon<T>() / T(2);
             builder.note_roundings(one, roundings, {leaf / T(4), leaf / T(4), leaf / T(4)});
-            builder.note_moved_mass(one, static_cast<T>(moment_roundings(leaf_links(length))) * half,
-                                    runs.leaf_moment[lane]);
+            const T moves = static_cast<T>(moment_roundings(leaf_links(length)));
+            builder.note_moved_mass(one, moves * half, runs.leaf_moment[lane]);
             if (length > leaf_links(length)) {
                 const T moment = static_cast<T>(one.moment);
+                const T mass = static_cast<T>(one.weight) * static_cast<T>(one.flexibility);
                 const auto merges = static_cast<T>(length / leaf_links(length));
                 builder.note_roundings(one, roundings + T(5) * merges, builder.second_terms(one));
-                builder.note_moved_mass(
-                    one, T(2) * half, moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
+                builder.note_moved_mass(one, T(2) * half, moment * moment / mass);
                 builder.template note_truncation<leaf_degree>(one);
             }
             fits = builder.is_accurate(one, T(1));  // leaves room for merging
@@ -188,5 +181,3 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
 }
 
 }  // namespace revchain
-
-#pragma GCC diagnostic pop

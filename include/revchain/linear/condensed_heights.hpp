@@ -7,32 +7,34 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Where condensed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than
-/// the blocks of all (flat: within 20 % from 150 to 400 links).
+/// Whether condensing pays: long chains of which few modes are wanted. Otherwise one mode by
+/// bisection costs less than the blocks of all (flat: within 20 % from 150 to 400 links).
 template <Real T>
 bool condensation_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
-/// The height of mode `number` of a chain of like lengths, in the unit of its `LinkColumns`: of pieces, each a uniform
-/// rod of what it weighs (some per cent too low; weights as they are), or, of more modes than those have, from the
-/// phase integral sqrt(dW df)  that waves go through (WKB: a few per cent for like links). Cost: 5 microseconds.
+/// The height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few per
+/// cent: from uniform rods with the weights of pieces of the chain or, for more modes than those
+/// have, from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
 template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
     const Index rods_at_most = std::min<Index>(64, chain.size() / 8);
     const bool slow = 4 * number <= rods_at_most;
     const Index pieces = slow ? rods_at_most : std::clamp<Index>(chain.size() / segment_size, 32, 512);
-    const T length = chain.total_length() / LinkColumns<T>(chain).unit_length / static_cast<T>(pieces);
+    const T unit_length = LinkColumns<T>(chain).unit_length;
+    const T length = chain.total_length() / unit_length / static_cast<T>(pieces);
     pencil::ElementPencil<T> rods;
     T phase(0), below(0);
     const T unit = chain.total_weight();
     for (Index i = 1; i <= pieces; ++i) {
-        const Index end = i == pieces ? chain.size() : i * chain.size() / pieces / runs_at_once * runs_at_once;
+        const Index even = i * chain.size() / pieces / runs_at_once * runs_at_once;
+        const Index end = i == pieces ? chain.size() : even;
         const T above = static_cast<T>(chain.weight_below(end)) / unit, weight = above - below;
         if (slow)
-            rods.elements.push_back({(below + weight / T(2)) / length, weight / T(3), weight / T(3), weight / T(6),
-                                     weight / T(12), weight});
+            rods.elements.push_back({(below + weight / T(2)) / length, weight / T(3), weight / T(3),
+                                     weight / T(6), weight / T(12), weight});
         else
             phase += sqrt(weight / (below + above) * (T(2) * length));
         below = above;
@@ -45,8 +47,8 @@ T estimated_height(const Chain<T>& chain, Index number) {
     return per_phase * per_phase / T(9.8696);
 }
 
-/// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), proved by two counts each to within
-/// `margin` of what is returned; nothing where a proof fails.
+/// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), each proved by two
+/// counts to lie within `margin` of what is returned; nothing where a proof fails.
 template <class T>
 std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pencil, Index first,
                                            const std::vector<pencil::Bracket<T>>& brackets, std::size_t from,
@@ -55,7 +57,7 @@ std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pen
     using P = DoubleWord<V>;
     V start, number;
     for (std::size_t lane = 0; lane < pack_size; ++lane) {
-        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last one fills the pack
+        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last fills up
         start.set(lane, pencil::between(brackets[j].lower, brackets[j].upper));
         number.set(lane, static_cast<T>(first + 1 + static_cast<Index>(j)));
     }
@@ -81,12 +83,10 @@ struct CondensedHeights {
     CondensedChain<T> condensed;
 };
 
-/// Stage 1 of `modes` for a few of the slowest modes of a long chain; nothing where the bound would miss the tolerance
-/// or a mode could not be proved: bisection is then left.
-///
-/// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
-/// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/theory/blocks.md.
-/// Cost: `condensed_chain`, and 20 microseconds a mode.
+/// Stage 1 of `modes` for a few slow modes of a long chain; nothing where the bound misses the
+/// tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts in T, two
+/// Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound includes what
+/// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: condensing and 20 us a mode.
 template <std::floating_point T>
 std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
                                                            const HeightsOptions<T>& options) {
@@ -132,7 +132,8 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
                 const S scaled = ldexp(height, -units.length_exponent);
                 result[done + lane] = {static_cast<T>(scaled), bound, scaled};
             }
-            advance(options.progress, static_cast<double>(done + count) / static_cast<double>(rough.size()));
+            const auto counted = static_cast<double>(done + count);
+            advance(options.progress, counted / static_cast<double>(rough.size()));
         }
     });
     if (!proved) return std::nullopt;

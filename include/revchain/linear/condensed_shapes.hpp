@@ -4,12 +4,9 @@
 #include "revchain/linear/condensed_heights.hpp"
 #include "revchain/linear/mode_shapes.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Some neighbouring links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
+/// Links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
 template <class T>
 struct LinkChunk {
     static constexpr Index most = 256;
@@ -33,14 +30,13 @@ struct LinkChunk {
     }
 };
 
-/// Offset and transverse force (over lambda) at a pin, in each lane, compensated: what thousands of links add to them
-/// keeps its digits.
+/// Offset and transverse force (over lambda) at a pin in each lane, compensated.
 template <class V>
 struct PinState {
     CompensatedSum<V> offset, force;
 };
 
-/// Goes down the chunk from the state at its top; `offset[i]` becomes that of the lower pin of link i.
+/// Carries the state from the top of the chunk down; `offset[i]`: that of the lower pin of link i.
 template <class T>
 void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>& state, Pack<T>* offset) {
     using V = Pack<T>;
@@ -57,10 +53,10 @@ void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>
     });
 }
 
-/// Forces that are left at the pins but the held one, and the largest sum of sizes that meet at one; from the top down.
+/// Forces left over at the pins but the held one, and the largest sum of sizes that meet at one.
 template <class V>
 struct Balance {
-    V force{}, size{};  ///< at the pin reached, of the link above it
+    V force{}, size{};  ///< of the link above, at the pin reached
     V worst{}, largest{};
 };
 
@@ -86,7 +82,7 @@ void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top,
     });
 }
 
-/// Four modes on their way down the chain.
+/// Four modes, carried down the chain.
 template <class T>
 struct ShapePack {
     using V = Pack<T>;
@@ -100,7 +96,7 @@ struct ShapePack {
     Balance<V> balance;
     std::array<std::vector<pencil::Crossing<T>>, pack_size> crossing;
 
-    /// Finds offsets between blocks; false where they leave the range of T in one of the first `lanes` lanes.
+    /// Finds offsets between blocks; false if one of the first `lanes` leaves the range.
     bool start(const pencil::CondensedPencil<T>& pencil, std::size_t lanes) {
         elements = pencil::elements_at<P>(pencil, height);
         between = pencil::offsets_between(elements);
@@ -112,14 +108,14 @@ struct ShapePack {
         const P tip = between[0], by = P(V(T(1))) / tip;
         bool at_tip = true;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (!(least[lane] > std::numeric_limits<T>::min() / epsilon<T>()) || !(most[lane] < T(1e100))) return false;
+            const bool normal = least[lane] > std::numeric_limits<T>::min() / epsilon<T>();
+            if (!normal || !(most[lane] < T(1e100))) return false;
             at_tip = at_tip && abs(tip.high)[lane] >= most[lane];
         }
-        if (at_tip)  // mostly; the rows need no scaling in the end
+        if (at_tip)  // usual: the rows then need no scaling in the end
             for (P& y : between) y = y * by;
         return true;
     }
-    /// To the upper pin of block b.
     void enter(std::size_t b) {
         const P& upper = between[b + 1];
         const P force = (between[b] - upper) * elements[b].spring + elements[b].upper * upper;
@@ -128,10 +124,10 @@ struct ShapePack {
     }
 };
 
-/// Stores offsets of a chunk's lower pins in the rows of `shape`, and where they change sign.
+/// Stores offsets of a chunk's lower pins in the rows of `shape`, and the crossings between them.
 template <class T>
-void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
-           const std::vector<Pack<T>>& offset) {
+void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::size_t lanes,
+           Index link, Index count, const std::vector<Pack<T>>& offset) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         T* row = &shapes.offset(static_cast<Index>(first + lane), link);
         T upper = pack.top[lane];
@@ -189,6 +185,7 @@ bool shapes_in_packs(ModeShapes<T>& shapes, const Chain<T>& chain, const Condens
         }
         advance(progress, 1 - static_cast<double>(above) / static_cast<double>(size));
     }
+    const std::vector<S> places = pin_places(chain);
     for (std::size_t k = 0; k < packs.size(); ++k)
         for (std::size_t lane = 0; lane < lanes_of(k); ++lane) {
             const auto j = static_cast<Index>(first_of(k) + lane);
@@ -196,19 +193,19 @@ bool shapes_in_packs(ModeShapes<T>& shapes, const Chain<T>& chain, const Condens
             shapes.offset(j, size) = T(0);
             const T scale = (shapes.offset(j, 0) < T(0) ? T(-1) : T(1)) / packs[k].largest[lane];
             if (scale != T(1)) shapes.offset.row(j) *= scale;
-            shapes.residual[j] =
-                max(packs[k].balance.worst, abs(packs[k].balance.force))[lane] / packs[k].balance.largest[lane];
+            const auto& balance = packs[k].balance;
+            shapes.residual[j] = max(balance.worst, abs(balance.force))[lane] / balance.largest[lane];
             std::reverse(crossing.begin(), crossing.end());
-            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, places, crossing);
         }
     return true;
 }
 
-/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes of all its modes. Offsets between
-/// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
-/// False where offsets leave the range of T; sure shapes are then still to be found.
-/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
-/// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
+/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes. Offsets between blocks by
+/// twisted recursions in double words; from each block's upper pin down, link by link, with
+/// compensated sums. False, with incomplete shapes, where offsets leave the range of T. Accuracy,
+/// measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself
+/// at the top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
 bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
                             const Heights<T>& heights, Progress* progress) {
@@ -237,5 +234,3 @@ std::optional<ModeShapes<T>> condensed_shapes(const Chain<T>& chain, Index first
 }
 
 }  // namespace revchain::detail
-
-#pragma GCC diagnostic pop

@@ -14,15 +14,13 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 
-/// A root x > 0, and half the width of the proved interval about what is given out for it, relative
-/// to that.
+/// A root x > 0 and the relative half width of the proved interval about its rounded value.
 struct FoundRoot {
     RigWord x{};
     double margin = std::numeric_limits<double>::infinity();
 };
 
-/// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues
-/// of Q) exceed x.
+/// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
 class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
@@ -49,20 +47,18 @@ class CountedRoots {
         Index count = 0;
         bool proved = false;
     };
-    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no
-    /// doubt, at 1e-120 of the length where what has no mass has none at all.
+    /// The number of roots: counted at 0 where M is not singular; else at the least x from 1e-120
+    /// of the length on where rounding leaves no doubt, and proved only there.
     Available available() const {
-        if (const auto count = counted<1>({RigWord(0.0)}); count[0].proved) return {count[0].above, true};
+        if (const auto count = certified(RigWord(0.0)); count.proved) return {count.above, true};
         const int start = pencil_.quadratic ? -200 : -400;
-        Available found{std::max<Index>(0, counted<1>({RigWord(std::ldexp(1.0, start))})[0].above), false};
         for (int exponent = start; exponent < 200; exponent += 20)
-            if (const auto count = counted<1>({RigWord(std::ldexp(1.0, exponent))}); count[0].proved)
-                return {count[0].above, exponent == start};
-        return found;
+            if (const auto count = certified(std::ldexp(1.0, exponent)); count.proved)
+                return {count.above, exponent == start};
+        return {std::max<Index>(0, certified(std::ldexp(1.0, start)).above), false};
     }
 
-    /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called
-    /// after every pass.
+    /// Brackets of the roots from number `first` on, by counts in double; see `bisect`.
     std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
                                                   const std::function<void(Index)>& finished) const {
         const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
@@ -74,25 +70,24 @@ class CountedRoots {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
         const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) { return counted(shifts); };
-        RigWord x(pencil::between(bracket.lower, bracket.upper));
+        const RigWord guess(pencil::between(bracket.lower, bracket.upper));
+        RigWord x = guess;
         for (int round = 0; round < 3; ++round) {
-            const RigWord root =
-                side * pencil::rayleigh_quotient(pencil_, pencil::twisted_vector(pencil_, side * x), side * x);
+            const auto vector = pencil::twisted_vector(pencil_, side * x);
+            const RigWord root = side * pencil::rayleigh_quotient(pencil_, vector, side * x);
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
             if (pencil::root_within(in_pairs, j, given_out(x), margin)) return {x, margin};
         }
         // by proved counts alone, as far as they go
-        const RigWord guess(pencil::between(bracket.lower, bracket.upper));
         const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
         if (!found) return {guess};
         return {found->middle(), found->reach(given_out(found->middle()))};
     }
 
-    /// A proved count of the roots above x.
     pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
 
-    /// y with Q y = 0 at a root.
+    /// The y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
         return pencil::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
     }
@@ -106,8 +101,7 @@ class CountedRoots {
         return result;
     }
 
-    /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a
-    /// height.
+    /// The x of the rounded result: of a speed where there is momentum, else of a height.
     RigWord given_out(const RigWord& x) const {
         return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
     }
@@ -118,13 +112,12 @@ class CountedRoots {
     int side_;
 };
 
-/// The least root that is searched for; the largest is one over it.
+/// The least root that is searched for; the largest is its reciprocal.
 inline RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// How many roots exceed x, by the proved counts `count(x)`. A root within 2^20 roundings of x
-/// counts as equal to it, not as larger. Numbers beyond `least_root` and one over it are taken as
-/// those limits. Throws InvalidArgument where the number is not proved; `place` and `value` are for
-/// the message.
+/// The number of roots above x, by the proved counts `count(x)`. A root within 2^20 roundings of x
+/// counts as equal to it; x is limited to `least_root` and its reciprocal. Throws InvalidArgument
+/// where the number is not proved; `place` and `value` are for the message.
 template <class Count>
 Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value, const Count& count) {
     const RigWord least = least_root(quadratic);
@@ -134,41 +127,41 @@ Index number_above(const RigWord& x, bool quadratic, std::string_view place, dou
         if (const auto found = count(at); found.proved) return found.above;
     }
     throw_invalid(place,
-                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one a little beside "
-                  "it",
-                  value);
+                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
+                  "a little beside it", value);
 }
 
-/// The roots of one sense: by counts, which are proved without any root being found.
+/// The roots of one sense of rotation, counted without finding them.
 struct CountedSense {
     CountedRoots roots;
     CountedRoots::Available available;
 
-    /// How many roots exceed x, as `number_above` says.
+    /// `count`: the proved number of roots, or nothing where it has to be counted.
+    CountedSense(CountedRoots counted, std::optional<Index> count)
+        : roots(std::move(counted)),
+          available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
+
     Index above(const RigWord& x, std::string_view place, double value) const {
         const bool quadratic = roots.pencil().quadratic;
         if (available.proved && !(x > least_root(quadratic))) return available.count;
-        return number_above(x, quadratic, place, value, [&](const RigWord& at) { return roots.certified(at); });
+        const auto count = [&](const RigWord& at) { return roots.certified(at); };
+        return number_above(x, quadratic, place, value, count);
     }
 };
 
-/// Heights above 0 of a rig without momentum; K > 0 or M >= 0.
+/// Heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above h are
+/// negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are these and those
+/// of K. Just above h = 0 hK - M is negative where there is inertia, else it has the signs of K.
 inline CountedSense counted_heights(const RigPencil& rig) {
-    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K
-    // - mu M, mu = 1/h, are these and besides as many as K has.
-    const Index before = rig.stiffness_positive ? 0 : rig.not_positive, size = rig.pencil.size();
-    CountedRoots roots(rig.pencil, rig.pace, -before, 1, 1);
-    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the
-    // signs of K.
+    const Index before = rig.stiffness_positive ? 0 : rig.not_positive;
     const MasslessForm& form = rig.massless;
-    const bool ranked = rig.mass_not_negative && form.certain && form.zero == 0;
-    const auto available =
-        ranked ? CountedRoots::Available{size - form.size + form.negative - before, true} : roots.available();
-    return {std::move(roots), available};
+    std::optional<Index> count;
+    if (rig.mass_not_negative && form.certain && form.zero == 0)
+        count = rig.pencil.size() - form.size + form.negative - before;
+    return {CountedRoots(rig.pencil, rig.pace, -before, 1, 1), count};
 }
 
-/// The roots number `first` ... of a sense, one by one; `bracketed(done)` and `finished(done)` are
-/// told how many are.
+/// The roots from number `first` on; `bracketed` and `finished` receive the number done.
 inline std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
                                             const std::function<void(Index)>& bracketed,
                                             const std::function<void(Index)>& finished) {

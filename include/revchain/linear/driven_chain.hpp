@@ -11,14 +11,14 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using pencil::Driving;
 
-/// A chain, or a rig, as the elements between its free end and what carries its support.
+/// A chain, or a rig, as the elements from its free end to the moved end.
 struct DrivenChain {
     pencil::SignedPencil<Wide<double>> pencil;  ///< L is height k + spin s, of the drives
     ChainUnits units;
-    bool turning = false;  ///< whether a stiffness goes with the speed
-    Index standing = 0;    ///< elements that stand: so many negative pivots are no modes
-    Index idle = 0;        ///< lowest links left out: nothing on them bears, spins or moves
-    double end = 1;        ///< 1 if the moved end is a pin, 0 if it is the place of rest of a spring
+    bool turning = false;  ///< whether a stiffness depends on the speed
+    Index standing = 0;    ///< elements that stand: their negative pivots are no modes
+    Index idle = 0;        ///< lowest links left out: without weight, spin and inertia
+    double end = 1;        ///< 1 if the moved end is a pin, 0 if it is the far end of a spring
 };
 
 inline const Chain<double>& base_chain(const Chain<double>& chain) { return chain; }
@@ -50,16 +50,15 @@ inline DrivenChain driven_chain(const Rig& rig) {
         elements.push_back(element);
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig.support(), result.units)) elements.push_back(*support), result.end = 0;
+    if (const auto support = support_element(rig.support(), result.units)) {
+        elements.push_back(*support);
+        result.end = 0;
+    }
     return result;
 }
 
-/// Beside rounding an offset to double.
-inline bool is_negligible(const pencil::Driven& found) { return found.error_bound <= 0x1p-56; }
-
-/// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not
-/// negligible beside rounding. `put(row, which, offset)`, and then `take(row, found)` for each, on
-/// several threads.
+/// `driven_lanes` for any number of drives, with sharper bounds where its own is not negligible.
+/// Calls `put(row, which, offset)` and then `take(row, found)` for each drive, on several threads.
 template <class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
                      const Put& put, const Take& take, Progress* progress) {
@@ -72,23 +71,26 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
             std::vector<double> scratch;
             Driving padded[together];
             pencil::Driven found[together];
+            const auto& elements = chain.pencil.elements;
             pencil::DrivenPins wanted = pins;
             for (std::size_t i = begin; i < end; i += together) {
                 const std::size_t taken = std::min(together, end - i);
                 for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-                const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
+                const auto offset = [&](std::size_t lane, std::size_t which,
+                                        const Wide<double>& y) REVCHAIN_INLINED {
                     if (lane < taken) put(static_cast<Index>(i + lane), which, y);
                 };
                 if (chain.turning)
-                    pencil::driven_lanes<true, fused, V>(chain.pencil.elements, padded, wanted, found, offset);
+                    pencil::driven_lanes<true, fused, V>(elements, padded, wanted, found, offset);
                 else
-                    pencil::driven_lanes<false, fused, V>(chain.pencil.elements, padded, wanted, found, offset);
-                bool sharp = true;
-                for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
+                    pencil::driven_lanes<false, fused, V>(elements, padded, wanted, found, offset);
+                const bool sharp = std::all_of(found, found + taken, [](const pencil::Driven& each) {
+                    return !each.decided || each.error_bound <= 0x1p-56;
+                });
                 if (!sharp && chain.turning)
-                    pencil::sharpen<true, fused, V>(chain.pencil.elements, padded, found, scratch, chain.end);
+                    pencil::sharpen<true, fused, V>(elements, padded, found, scratch, chain.end);
                 if (!sharp && !chain.turning)
-                    pencil::sharpen<false, fused, V>(chain.pencil.elements, padded, found, scratch, chain.end);
+                    pencil::sharpen<false, fused, V>(elements, padded, found, scratch, chain.end);
                 for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
                 advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
             }

@@ -14,10 +14,10 @@
 #include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
+/// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A height in the units of the chain's pencils; the bound is relative to the exact height, and proved.
+/// A height in the units of the chain's pencils, with a proved relative bound.
 template <Real T>
 using Height = pencil::Certified<T>;
 
@@ -32,15 +32,13 @@ struct HeightsOptions {
     Progress* progress = nullptr;
 };
 
-/// Whether all can be done in T: counts in T are proved down to about an ulp for each link; below that the certificate
-/// needs `Wide<T>`.
+/// Whether T suffices: counts in T are proved down to about an ulp for each link.
 template <Real T>
 bool is_loose(const Chain<T>& chain, const HeightsOptions<T>& options) {
     return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
 }
 
-/// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for
-/// both.
+/// Exchanges heights in the wrong order (closer than their bounds); both get the larger bound.
 template <Real T>
 void restore_order(Heights<T>& heights) {
     for (std::size_t j = 1; j < heights.size(); ++j)
@@ -51,19 +49,18 @@ void restore_order(Heights<T>& heights) {
         }
 }
 
-/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved by
-/// two counts there. Nothing where there is no such pencil or rounding leaves one in doubt: about where
-/// `goal` is below 8 ulp for each link. Cost for each link: 5 ns, 7 ns for each three bits and 8 modes,
-/// and 24 ns a mode for the proof.
-inline std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range,
-                                                    double goal,
-                                                    const std::function<void(Index)>& finished = {}) {
+/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved
+/// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
+/// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
+inline std::optional<Heights<double>> loose_heights(
+    const Chain<double>& chain, const ModeRange& range, double goal,
+    const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
+    const double length = std::ldexp(chain.total_length(), -chain.units().length_exponent);
     const auto brackets =
-        pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal,
-                       std::ldexp(chain.total_length(), -chain.units().length_exponent), finished);
+        pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal, length, finished);
     Heights<double> result(brackets.size());
     std::atomic<bool> proved = true;
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -79,64 +76,63 @@ inline std::optional<Heights<double>> loose_heights(const Chain<double>& chain, 
     return result;
 }
 
-/// Links or elements of a pencil whose modes are found eight at a time, at most: 640 bytes of scratch each.
+/// The largest number of elements whose modes are found eight at a time: 640 bytes of scratch each.
 inline constexpr Index most_in_lanes = 20000;
-/// How far a height may be from the exact one, relative, before it is rounded, so that it is within 2 ulp then.
+/// The relative error before rounding up to which a rounded height is within 2 ulp.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
-/// A root as a height given out.
-inline Height<double> rounded_height(const pencil::ProvedRoot<double>& proved) {
-    return {proved.root.high, proved.bound(), proved.root};
-}
-
-/// To 2 ulp, eight at a time, and those which that does not prove one by one. Nothing where there is no one unit of
-/// weight, and where counts leave numbers in doubt.
-inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range,
-                                                       Index available, double guess,
+/// Heights to 2 ulp, eight at a time; those that this does not prove, one by one. Nothing where one
+/// unit of weight does not serve, or where counts leave numbers in doubt.
+inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
+                                                       const ModeRange& range, Index available,
+                                                       double guess,
                                                        const std::function<void(Index)>& finished) {
-    if (!pencils.wide().units.empty() || pencils.wide().size() > most_in_lanes) return std::nullopt;
+    const auto& wide = pencils.wide();
+    if (!wide.units.empty() || wide.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
-    const auto roots = pencil::proved_range(
-        pencils.wide(), pencils.rounded(),
-        [&](double height) { return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0]; },
-        range.first - 1, range.count, available, guess, worst_unrounded, finished);
+    const auto count = [&](double height) {
+        return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0];
+    };
+    const auto roots = pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count,
+                                            available, guess, worst_unrounded, finished);
     if (!roots) return std::nullopt;
     Heights<double> heights;
     heights.reserve(roots->size());
     for (const auto& root : *roots) {
         if (std::isfinite(root.off)) {
-            heights.push_back(rounded_height(root));
+            heights.push_back({root.root.high, root.bound(), root.root});
             continue;
         }
         const Index j = range.first - 1 + static_cast<Index>(heights.size());
-        const auto bracket = pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
-        heights.push_back(pencil::certified_eigenvalue<Wide<double>, double>(
-            pencils.wide(), pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
+        const auto bracket =
+            pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
+        heights.push_back(pencil::certified_eigenvalue(wide, pencils.rounded(), j,
+                                                       pencil::between(bracket.lower, bracket.upper)));
     }
     restore_order<double>(heights);
     return heights;
 }
 
-/// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`.
-/// This one serves every valid chain; cost as said there.
+/// Stage 1 of `modes` for every valid chain, to `options.rtol`; `range` is not empty.
 template <Real T>
 Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled, const ModeRange& range,
                                 const HeightsOptions<T>& options) {
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);
-    const auto half_way = [&](Index done) { advance(options.progress, 0.5 * static_cast<double>(done) / count); };
+    const auto half_way = [&](Index done) {
+        advance(options.progress, 0.5 * static_cast<double>(done) / count);
+    };
     if constexpr (std::is_same_v<T, double>)
         if (loose)
             if (auto found = loose_heights(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
+    const T length = pencils.scaled(chain.total_length());
     if constexpr (std::is_same_v<T, double>)
-        if (auto found =
-                heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()), half_way))
+        if (auto found = heights_in_lanes(pencils, range, chain.mode_count(), length, half_way))
             return std::move(*found);
-    const auto brackets =
-        pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
-                       pencils.scaled(chain.total_length()), half_way);
+    const auto brackets = pencil::bisect(pencils.rounded(), range.first - 1, range.count,
+                                         loose ? goal / T(4) : T(2) * epsilon<T>(), length, half_way);
     Heights<T> result(brackets.size());
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -9,11 +9,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Heights of many modes at once; nothing for chains that `pencil::all_eigenvalues` cannot serve.
-/// Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
-inline std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
-                                                               Index mode_count,
-                                                               const HeightsOptions<double>& options) {
+/// Heights of many modes; nothing where this cannot be done. Cost: as `pencil::all_eigenvalues`.
+inline std::optional<Heights<double>> heights_by_interpolation(
+    LazyCounter<double>& assembled, const ModeRange& range, Index mode_count,
+    const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -11,7 +12,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Shapes of k modes of a chain of N links, with or without what follows from them.
+/// Shapes of k modes of a chain of N links, with or without residuals and nodes.
 template <Real T>
 struct ModeShapes {
     Table<T> offset;               ///< (k, N+1)
@@ -19,23 +20,24 @@ struct ModeShapes {
     std::vector<Vector<T>> nodes;  ///< k lists, or none
 };
 
-/// The shapes of a result, and residuals and nodes, each computed when first asked for and kept. Copies share them;
-/// threads may, too.
+/// Shapes, residuals and nodes, computed when first asked for; copies and threads share them.
 template <Real T>
 class LazyModeShapes {
    public:
     LazyModeShapes() = default;
-    /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has index `first` in the
-    /// result. Without `details` it may leave residuals and nodes out.
-    template <class Find>
-    explicit LazyModeShapes(Find find) : state_(std::make_shared<FoundBy<Find>>(std::move(find))) {}
+    /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has
+    /// index `first` in the result. Without `details` it may leave residuals and nodes out.
+    using Find = std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
+    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) { state_->find = std::move(find); }
     explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
+        state_->find = [](Index, Index, bool, Progress*) { return ModeShapes<T>(); };
         state_->known = std::move(known);
         state_->has_offsets = state_->has_details = true;
     }
 
-    const Table<T>& offsets(Index count, Progress* progress) const { return known(count, false, progress).offset; }
-    /// Shapes with residuals and nodes.
+    const Table<T>& offsets(Index count, Progress* progress) const {
+        return known(count, false, progress).offset;
+    }
     const ModeShapes<T>& details(Index count, Progress* progress) const { return known(count, true, progress); }
     Vector<T> one(Index count, Index j) const {
         if (j < 0 || j >= count)
@@ -44,28 +46,19 @@ class LazyModeShapes {
         if (state_->has_offsets) return state_->known.offset.row(j).transpose();
         return state_->find(j, 1, false, nullptr).offset.row(0).transpose();
     }
-    /// Returns the shapes of `count` modes, the first at index `first`, and does not keep them.
+    /// Returns the shapes of `count` modes, the first at index `first`, and does not store them.
     ModeShapes<T> some(Index first, Index count, bool details, Progress* progress) const {
         return state().find(first, count, details, progress);
     }
-    /// An owner of the numbers that were returned by reference: they stay while it does.
+    /// An owner of what was returned by reference.
     std::shared_ptr<const void> owner() const { return state_; }
 
    private:
     struct State {
-        virtual ~State() = default;
-        virtual ModeShapes<T> find(Index, Index, bool, Progress*) const { return {}; }  // where they are known already
+        Find find;
         ModeShapes<T> known;
         bool has_offsets = false, has_details = false;
         std::mutex mutex;
-    };
-    template <class Find>
-    struct FoundBy final : State {
-        explicit FoundBy(Find by) : found(std::move(by)) {}
-        ModeShapes<T> find(Index first, Index count, bool details, Progress* progress) const override {
-            return found(first, count, details, progress);
-        }
-        Find found;
     };
     const ModeShapes<T>& known(Index count, bool details, Progress* progress) const {
         if (!state_ && count == 0) {
@@ -77,7 +70,8 @@ class LazyModeShapes {
         if (!(details ? state.has_details : state.has_offsets)) {
             ModeShapes<T> found = state.find(0, count, details, progress);
             state.has_details = details || found.residual.size() == count;
-            if (!state.has_offsets) state.known.offset = std::move(found.offset);  // else somebody may be reading it
+            // Offsets that are known may be in use.
+            if (!state.has_offsets) state.known.offset = std::move(found.offset);
             state.known.residual = std::move(found.residual), state.known.nodes = std::move(found.nodes);
             state.has_offsets = true;
         }
@@ -90,7 +84,7 @@ class LazyModeShapes {
     std::shared_ptr<State> state_;
 };
 
-/// Reaches the shapes that a result of `modes` keeps behind its accessors.
+/// Reaches the shapes behind the accessors of a result.
 struct ShapesBehind {
     template <class Result>
     static auto& of(Result& result) {

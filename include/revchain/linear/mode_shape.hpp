@@ -8,19 +8,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// One mode to the digits of `Wide<T>`, in the units of its pencils, and how far it may be from the exact one.
+/// One mode to the digits of `Wide<T>`, in the units of its pencils, with error bounds.
 template <Real T>
 struct WideMode {
     using S = Wide<T>;
     S height;               ///< conical height
     std::vector<S> offset;  ///< of pins 0 ... N, the largest 1
     S stiffness;            ///< y^T K y
-    Narrow<S> tangent;  ///< bound of the angle to the exact shape, in the norm of K; infinite where nothing is proved
-    Narrow<S> off;      ///< bound of the error of `height`, relative
+    Narrow<S> tangent;      ///< bound of the angle to the exact shape in the norm of K, or infinity
+    Narrow<S> off;          ///< bound of the relative error of `height`
 };
 
-/// Half the relative distance from `height` within which proved counts find conical height number `number` and no
-/// other; 0 where they find none such. `guess`: where to begin, below 1.
+/// Half the relative distance from `height` within which proved counts find conical height `number`
+/// and no other; 0 if they do not. `guess` is where to begin, below 1.
 template <Real T>
 Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T>& height,
                            Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {
@@ -29,20 +29,18 @@ Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T
     for (int round = 0; round < 40; ++round, guess = guess / M(4)) {
         const S away = height * S(guess);
         const auto count = pencils.template certified_count<2>({height - away, height + away});
-        if (count[0].proved && count[1].proved && count[0].above == number && count[1].above == number - 1)
-            return guess * M(0.999);
+        const bool proved = count[0].proved && count[1].proved;
+        if (proved && count[0].above == number && count[1].above == number - 1) return guess * M(0.999);
     }
     return M(0);
 }
 
-/// The size of the residual (lambda K - M) y in the norm of K^-1, over that of y in the norm of K and lambda, rounding
-/// and the data's own error and all. With f the forces left over, summed from the free end, it is sum f^2/k: no norm of
-/// a matrix is needed. Cost O(N).
+/// The residual (lambda K - M) y in the norm of K^-1, relative to lambda y in the norm of K, with
+/// rounding and the data's errors: sum f^2/k, f the forces left over, from the free end. Cost O(N).
 template <Real S>
-Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height, const std::vector<S>& offset,
-                        S* stiffness) {
-    using std::abs;
-    using std::sqrt;
+Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
+                        const std::vector<S>& offset, S* stiffness) {
+    using std::abs, std::sqrt;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return M(abs(static_cast<M>(x))); };
     S hung(M(0)), energy(M(0));  // mass times offset of all below, y^T K y
@@ -51,8 +49,8 @@ Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
         const pencil::Element<S>& e = pencil.elements[m];
         const S lower = offset[m], upper = offset[m + 1], difference = lower - upper;
         const S spring = e.stiffness * difference, near = e.lower * lower + e.cross * upper;
-        const M masses = size_of(e.lower * lower) +
-                         (size_of(e.cross) + M(2) * size_of(e.turning)) * (size_of(lower) + size_of(upper)) +
+        const M turns = size_of(e.cross) + M(2) * size_of(e.turning);
+        const M masses = size_of(e.lower * lower) + turns * (size_of(lower) + size_of(upper)) +
                          size_of(e.upper * upper);
         const M rounding = (pencil.entry_error * M(3) + operation_error<S>() * (M(8) + link)) *
                            (size_of(height * spring) + hung_size + masses);
@@ -67,9 +65,9 @@ Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
     return sqrt(sum / static_cast<M>(energy)) / static_cast<M>(height) * M(1.001);
 }
 
-/// Mode number `number` from a height near its own: the shape's Rayleigh quotient in `Wide<T>`, whose error is the
-/// square of the shape's, and the shape again at that height, until it is within 2^-70 of the exact one, or three times
-/// over. The angle by which it is off is proved: the residual over the distance to the next height (Davis and Kahan).
+/// Mode `number` from a height near its own: alternates the shape's Rayleigh quotient in `Wide<T>`,
+/// whose error is the square of the shape's, and the shape there, until the shape is within 2^-70
+/// or three times. The angle is proved: residual over the gap to the next height (Davis and Kahan).
 template <Real T>
 WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
                       Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {
@@ -88,7 +86,10 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
         if (round == 0) apart = separation(pencils, number, mode.height, guess);
         if (!(apart > M(0))) return mode;
         const M sine = size / apart;
-        if (sine < M(0.5)) mode.tangent = sine / sqrt(M(1) - sine * sine), mode.off = size / (M(1) - size);
+        if (sine < M(0.5)) {
+            mode.tangent = sine / sqrt(M(1) - sine * sine);
+            mode.off = size / (M(1) - size);
+        }
         if (!(mode.tangent > M(0x1p-70)) || round == 2) return mode;
         S inertia(M(0));
         for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m)

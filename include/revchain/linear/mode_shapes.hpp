@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,7 @@ std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
     return places;
 }
 
-/// Distances of the crossings from the free end, along the chain.
+/// Distances of the crossings from the free end, along the chain; `places` are its `pin_places`.
 template <Real T>
 Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
                 const std::vector<pencil::Crossing<T>>& crossings) {
@@ -33,17 +32,6 @@ Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
     for (const pencil::Crossing<T>& crossing : crossings)
         found[i++] = static_cast<T>(places[static_cast<std::size_t>(crossing.element)] +
                                     T(crossing.share * chain.length()[crossing.element]));
-    return found;
-}
-template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
-    Vector<T> found(static_cast<Index>(crossings.size()));
-    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
-    Index m = 0, i = 0;
-    for (const pencil::Crossing<T>& crossing : crossings) {
-        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
-        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
-    }
     return found;
 }
 
@@ -56,49 +44,49 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in
-/// the pencil's scalar; `height` in the pencil's unit.
+/// Stores the shape of mode `j` and, if there is room, its nodes and residual; `height` scaled.
 template <Real T, Real S>
-void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil,
-               const T& height, const pencil::Eigenvector<T>& vector) {
+void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
+               const pencil::ElementPencil<S>& pencil, const T& height,
+               const pencil::Eigenvector<T>& vector) {
     shapes.offset.row(j) = vector.offset.transpose();
     if (shapes.residual.size() == 0) return;
     shapes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
-    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
+    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, pin_places(chain), vector.crossings);
 }
 
-/// Shapes of the modes that `shapes` has room for, eight at a time, and their residuals if there is
-/// room for those. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)`
-/// tells a mode's root, `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)`
-/// whatever else is wanted of the others.
+/// Shapes of the modes of `shapes`, eight at a time, and residuals if there is room. Pins of the
+/// pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a mode's root,
+/// `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)` receives the others.
 template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
-void shapes_in_eights(ModeShapes<T>& shapes, const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
+void shapes_in_eights(ModeShapes<T>& shapes,
+                      const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
                       const Root& root, const Alone& alone, const Take& take, Progress* progress) {
     const FloatingPointStateGuard quiet;
     const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
-    const auto stride = static_cast<std::size_t>(shapes.offset.cols()), pins = stride - static_cast<std::size_t>(idle);
-    pencil::for_eights<T>(static_cast<std::size_t>(shapes.offset.rows()), pencil.elements.size(),
-                          [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-                              pencil::RootsInLanes<T> roots;
-                              for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-                                  root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i],
-                                       roots.rounded[i]);
-                              pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
-                              found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
-                              for (std::size_t i = 0; i < there; ++i) {
-                                  const auto j = static_cast<Index>(first + i);
-                                  if (found.found[i]) {
-                                      if (details) shapes.residual[j] = found.residual[i];
-                                      take(j, found, i);
-                                  } else {
-                                      alone(j);
-                                  }
-                                  advance(progress, 1.0);  // may be cancelled
-                              }
-                          });
+    const auto stride = static_cast<std::size_t>(shapes.offset.cols());
+    const auto count = static_cast<std::size_t>(shapes.offset.rows()), pins = stride - static_cast<std::size_t>(idle);
+    const auto find = [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+        pencil::RootsInLanes<T> roots;
+        for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
+            root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i], roots.rounded[i]);
+        pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
+        found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
+        for (std::size_t i = 0; i < there; ++i) {
+            const auto j = static_cast<Index>(first + i);
+            if (found.found[i]) {
+                if (details) shapes.residual[j] = found.residual[i];
+                take(j, found, i);
+            } else {
+                alone(j);
+            }
+            advance(progress, 1.0);  // may be cancelled
+        }
+    };
+    pencil::for_eights<T>(count, pencil.elements.size(), find);
 }
 
-/// Finds shapes of some modes of a chain, from heights in the units of its pencils.
+/// Finds shapes of modes of a chain from heights in the units of its pencils.
 template <Real T>
 class ShapeFinder {
    public:
@@ -106,8 +94,7 @@ class ShapeFinder {
     ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose)
         : chain_(chain), height_(std::move(height)), loose_(loose) {}
 
-    /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals
-    /// and nodes.
+    /// The shapes of `count` modes from index `from` on; residuals and nodes if asked.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
         const auto begin = height_.begin() + from;
@@ -130,17 +117,17 @@ class ShapeFinder {
 
    private:
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
+        const T& height = at.eigenvalue;
         if (loose_)
-            set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
-                      pencil::eigenvector(pencils.rounded(), at.eigenvalue));
+            set_shape(shapes, j, chain_, pencils.rounded(), height, pencil::eigenvector(pencils.rounded(), height));
         else
-            set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue, fine_shape<T>(pencils.wide(), at.unrounded));
+            set_shape(shapes, j, chain_, pencils.wide(), height, fine_shape<T>(pencils.wide(), at.unrounded));
     }
 
     void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
                   Progress* progress) const {
         const bool details = shapes.residual.size() > 0;
-        const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
+        const auto places = details ? pin_places(chain_) : std::vector<Wide<T>>();
         const auto root = [&](Index j, Wide<T>& exact, Wide<T>& rounded) {
             const Height<T>& at = height[static_cast<std::size_t>(j)];
             exact = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "revchain/linear/rig_roots.hpp"
-#include "revchain/linear/rig_shapes.hpp"
+#include "revchain/linear/rig_shape.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The modes of a rig in one sense of rotation, for those who need few of them: what branches begin at. Their numbers,
-/// heights and shapes are those of `modes`.
+/// A few modes of a rig in one sense of rotation, with the numbers, heights and shapes of `modes`.
 class ModesOfOneSense {
    public:
     /// Without momentum both directions are alike. Throws what `RigRoots` throws.
@@ -25,7 +24,6 @@ class ModesOfOneSense {
         if (roots_.spectrum()) return static_cast<Index>(isolated_.size());
         return roots_.rig().pencil.size() == 0 ? 0 : sense().available.count;
     }
-    /// Whether it is proved that there are so many.
     bool complete() const {
         const RigPencil& rig = roots_.rig();
         if (roots_.spectrum()) return roots_.spectrum()->proved;
@@ -37,16 +35,18 @@ class ModesOfOneSense {
         double error_bound;     ///< relative
         RigWord root;
     };
-    /// Modes number `first` ... , from 1 for the slowest.
+    /// `many` modes from number `first` on, from 1 for the slowest.
     std::vector<Mode> found(Index first, Index many) const {
         const RigPencil& rig = roots_.rig();
-        const double length = std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
         const bool quadratic = rig.pencil.quadratic;
         std::vector<FoundRoot> roots;
-        if (roots_.spectrum())
+        if (roots_.spectrum()) {
             roots.assign(isolated_.begin() + (first - 1), isolated_.begin() + (first - 1 + many));
-        else if (many > 0)
-            roots = refined_roots(sense().roots, first - 1, many, quadratic ? std::sqrt(length) : length, {}, {});
+        } else if (many > 0) {
+            const double length = std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
+            const double guess = quadratic ? std::sqrt(length) : length;
+            roots = refined_roots(sense().roots, first - 1, many, guess, {}, {});
+        }
         std::vector<Mode> modes;
         for (const FoundRoot& root : roots) {
             const RigWord height = quadratic ? root.x * root.x : root.x;

@@ -10,29 +10,21 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 template <Real T>
 class Pencils {
    public:
-    explicit Pencils(const Chain<T>& chain) : assembled_(assemble(chain)) {
-        if constexpr (!std::is_same_v<Wide<T>, T>) rounded_ = pencil::rounded<T>(assembled_.pencil);
-    }
+    explicit Pencils(const Chain<T>& chain)
+        : assembled_(assemble(chain)), rounded_(pencil::rounded<T>(assembled_.pencil)) {}
 
     const pencil::ElementPencil<Wide<T>>& wide() const { return assembled_.pencil; }
-    const pencil::ElementPencil<T>& rounded() const {
-        if constexpr (std::is_same_v<Wide<T>, T>) {
-            return assembled_.pencil;
-        } else {
-            return rounded_;
-        }
-    }
+    const pencil::ElementPencil<T>& rounded() const { return rounded_; }
     int length_exponent() const { return assembled_.units.length_exponent; }
 
-    /// A number in the chain's unit of length, in the pencils'.
+    /// A length, converted from the chain's unit to that of the pencils.
     template <class Number>
     Number scaled(const Number& height) const {
         using std::ldexp;
         return ldexp(height, -length_exponent());
     }
 
-    /// Proved counts above heights in the pencils' units: in T where that suffices, else in `Wide<T>` (8 times the
-    /// cost).
+    /// Proved counts above heights: in T if that suffices, else in `Wide<T>` (8 times the cost).
     template <std::size_t L>
     std::array<pencil::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
         std::array<T, L> narrow;

@@ -10,20 +10,18 @@
 /// The part of `rig_modes` that finds several roots side by side.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A root as it is given out.
-inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) { return {proved.root, proved.bound()}; }
-/// How far a root may be from the exact one, relative, before it is rounded.
+/// The relative error before rounding up to which a root counts as proved.
 inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double>::epsilon();
 
-/// The heights of a chain under a support that yields, from all of them at once; nothing for other rigs, where a few of
-/// many are asked for, and where one is not proved. `elements` is the rig's pencil.
-inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(const Rig& rig,
-                                                                  const pencil::ElementPencil<RigWord>& elements,
-                                                                  const ModeRange& range, Index available) {
+/// The heights of a chain under a support that yields, all found together; nothing for other rigs,
+/// for a few of many modes, and where one is not proved. `elements` is the rig's pencil.
+inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(
+    const Rig& rig, const pencil::ElementPencil<RigWord>& elements, const ModeRange& range,
+    Index available) {
     const Chain<double>& chain = rig.chain();
     const Rigging& with = rig.rigging();
-    if (with.support.is_firm() || !with.posture.empty() || !with.flywheels.empty() || !with.displaced.empty() ||
-        chain.mode_count() != chain.size() || !chain.has_one_weight_unit() ||
+    if (with.support.is_firm() || !with.posture.empty() || !with.flywheels.empty() ||
+        !with.displaced.empty() || chain.mode_count() != chain.size() || !chain.has_one_weight_unit() ||
         chain.size() >= static_cast<Index>(pencil::aberth::most_links) || 4 * range.count < available)
         return std::nullopt;
     const FloatingPointStateGuard quiet;
@@ -36,29 +34,30 @@ inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(const Rig& rig
     const auto roots = refined(elements, range, available, all, worst_unrounded_root);
     if (!roots) return std::nullopt;
     std::vector<FoundRoot> found;
-    for (const auto& root : *roots) found.push_back(given_out(root));
+    for (const auto& root : *roots) found.push_back({root.root, root.bound()});
     return found;
 }
 
-/// The roots of a range of numbers, from 1, where every stiffness is positive and no mass negative: eight at a time, to
-/// an ulp of what is given out. Nothing where that is not proved. `elements` is the pencil of `roots`.
+/// The roots of a range of numbers, from 1, eight at a time, to an ulp of the rounded result;
+/// nothing where not proved. K > 0, no mass is negative. `elements` is the pencil of `roots`.
 template <bool Spins>
-std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord, Spins>& elements,
-                                                     const CountedRoots& roots, const ModeRange& range, Index available,
-                                                     double guess, const std::function<void(Index)>& finished) {
+std::optional<std::vector<FoundRoot>> roots_in_lanes(
+    const pencil::ElementPencil<RigWord, Spins>& elements, const CountedRoots& roots,
+    const ModeRange& range, Index available, double guess,
+    const std::function<void(Index)>& finished) {
     if (elements.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto counter = pencil::rounded<double>(elements);
     const auto certified = [&](double x) { return roots.certified(RigWord(x)); };
-    const auto proved = pencil::proved_range(elements, counter, certified, range.first - 1, range.count, available,
-                                             guess, worst_unrounded_root, finished);
+    const auto proved = pencil::proved_range(elements, counter, certified, range.first - 1, range.count,
+                                             available, guess, worst_unrounded_root, finished);
     if (!proved) return std::nullopt;
     std::vector<FoundRoot> found;
     found.reserve(proved->size());
     for (const auto& root : *proved) {
         const Index j = range.first - 1 + static_cast<Index>(found.size());
         if (std::isfinite(root.off)) {
-            found.push_back(given_out(root));
+            found.push_back({root.root, root.bound()});
             continue;
         }
         const auto bracket = pencil::bisect(counter, j, 1, 2 * epsilon<double>(), guess).front();

@@ -8,8 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A link of a rig, or what yields at its support: stiffness at rest, and momentum over the square
-/// of the length as `spin`: times a speed it is stiffness.
+/// A link of a rig, or a support that yields: stiffness at rest, and as `spin` the momentum over
+/// the square of the length, a stiffness once multiplied by a speed.
 using RigElement = pencil::SignedElement<Wide<double>>;
 
 /// One link: stiffness and spin negative where it stands.
@@ -23,29 +23,8 @@ inline RigElement rig_element(const detail::RigLink& link, bool stands) {
     return e;
 }
 
-namespace detail {
-
-/// An element of a chain, whose numbers have small relative errors, with errors of its own.
-inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
-    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
-                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
-                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
-}
-
-/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with
-/// none below, hang along with the rest: no equation holds them.
-inline bool is_nothing(const RigElement& e) {
-    const Wide<double> none(0.0);
-    const auto& off = e.error;
-    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
-           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
-}
-
-}  // namespace detail
-
-/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it
-/// is firm. The error of the stiffness is that of the quotients a caller may have found it as.
-/// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
+/// A support that yields: its spring, massless, with the carriage at its lower pin; nothing if it
+/// is firm. The error of the stiffness is that of a quotient from which a caller may have found it.
 inline std::optional<RigElement> support_element(const Support& support, const ChainUnits& units) {
     using S = Wide<double>;
     if (support.is_firm()) return std::nullopt;
@@ -61,16 +40,31 @@ inline std::optional<RigElement> support_element(const Support& support, const C
 
 namespace detail {
 
+/// An element of a chain, whose numbers have small relative errors, with errors of its own.
+inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part,
+                              double stiffness_underflow = 0) {
+    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
+                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high,
+                           part * e.upper.high, part * (std::abs(e.cross.high) + 2 * e.turning.high)});
+}
+
+/// Whether it has no weight, spin or inertia: at the lower end no equation determines such links.
+inline bool is_nothing(const RigElement& e) {
+    const Wide<double> none(0.0);
+    const auto& off = e.error;
+    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none &&
+           e.cross == none && off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
+}
+
 /// A support at the lower end of a chain, and the tension there that pulls the chain straight.
 struct LowerEnd {
     Support support{};         ///< on the axis
     Wide<double> tension{};    ///< at this end, in the unit of the weights
     double tension_error = 0;  ///< bound on its absolute error
-    bool weightless = false;   ///< whether no weight adds to the tension on the way up
+    bool weightless = false;   ///< whether weights add nothing to the tension
 
-    /// A link of this length under the tension: its own weight, and what hangs below, bear on it
-    /// besides.
-    /// Throws InvalidArgument where the tension is beyond the range of the weights.
+    /// A link of this length under the tension, besides its own weight and what hangs below. Throws
+    /// InvalidArgument where the tension is beyond the range of the weights.
     RigElement pulled(RigElement e, double length, const ChainUnits& units) const {
         using S = Wide<double>;
         const S pull = ldexp(tension, -units.weight_exponent) / S(std::ldexp(length, -units.length_exponent));

@@ -1,50 +1,46 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <array>
-
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
 #include "revchain/numeric/interval.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Signs of a quadratic form on the motions that carry no inertia.
+/// Signs of a quadratic form on the motions without inertia.
 struct MasslessForm {
-    Index size = 0;       ///< independent motions: M has so many zeros, at least
+    Index size = 0;       ///< independent motions: M has at least this many zero eigenvalues
     Index negative = 0;   ///< negative eigenvalues of the form
-    Index zero = 0;       ///< eigenvalues that are 0
+    Index zero = 0;       ///< zero eigenvalues of the form
     bool certain = true;  ///< whether rounding leaves no doubt of any sign
 };
 
-/// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length,
-/// sign -1 where it stands, and mass [lower cross; cross upper]; on top a support that yields, a
-/// massless element of its stiffness with the carriage at its lower pin. Weights in units of
-/// 2^weight_exponent, lengths of 2^length_exponent.
-///
-/// Lowest links without weight, inertia or momentum, and with none below, follow the rest anyhow
-/// and are left out. Where the lower end is held, too, the ground of the pencil is its spring or,
+/// The small-amplitude theory of a rig as elements: for each link stiffness sign (tension + n
+/// spin)/length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
+/// that yields: a massless spring, the carriage at its lower pin. Weights in units of
+/// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
+/// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
 /// if it is firm, the lowest link.
 ///
-/// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else
-/// with Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+/// Steady motion is Q y = 0: without momentum Q = lambda K - M and x = lambda; with momentum Q =
+/// x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;
     ChainUnits units;
     S pace{1.0};              ///< sqrt(g) in the unit of length; n = pace/x
-    bool stiffness_positive;  ///< every element's stiffness at rest is, within its error: K > 0
-    bool stiffness_certain;   ///< the sign of each is certain
-    Index not_positive;       ///< elements whose stiffness at rest is not
-    Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
-    bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
-    MasslessForm massless;    ///< K, or with momentum G, on the motions that carry no inertia
-    Index idle = 0;           ///< lowest pins left out: of links where nothing bears, spins or moves, or a firm end
+    bool stiffness_positive;  ///< every stiffness at rest is positive within its error: K > 0
+    bool stiffness_certain;   ///< the sign of each stiffness is certain
+    Index not_positive;       ///< elements whose stiffness at rest is not positive
+    Index neutral = 0;        ///< of these, elements whose stiffness is certainly 0
+    bool mass_not_negative;   ///< every mass is certainly positive or 0: M >= 0
+    MasslessForm massless;    ///< K, or with momentum G, on the motions without inertia
+    Index idle = 0;           ///< lowest pins left out: of links left out, or a firm end
 };
 
 namespace detail {
 
-/// What of a link's mass is held: nothing, one combination of its pins' offsets, or both.
+/// The pins that a link's mass holds: none, one combination of its pins' offsets, or both.
 enum class HeldPins { nothing, lower, upper, one, both };
 
 inline HeldPins held_by(const Rig& rig, Index m) {
@@ -63,11 +59,10 @@ inline HeldPins held_by(const Rig& rig, Index m) {
     return h == 0 ? HeldPins::upper : h == link.length ? HeldPins::lower : HeldPins::one;
 }
 
-/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c
-/// is an element's stiffness or, in a quadratic family, its spin. Coordinates are eliminated by
-/// intervals, from the lower end up. `free`: whether the lowest pin moves.
-inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held,
-                                  bool free) {
+/// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
+/// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
+inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
+                                  const std::vector<HeldPins>& held, bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -83,12 +78,12 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
         else
             form.certain = form.certain && pivot.positive();
     };
-    I below;  // the form of all pins passed, carried to this one, which moves unnoticed if it is `free`
-    // Where every pin has inertia, which is nearly always, there is no such motion.
+    I below;  // the form of all pins passed, carried to this one
+    // Nearly always every pin has inertia, and there is no such motion.
     bool at_liberty = free, plain = true;
     for (const HeldPins each : held) {
-        plain =
-            plain && each != HeldPins::one && !(at_liberty && (each == HeldPins::nothing || each == HeldPins::upper));
+        const bool unheld = each == HeldPins::nothing || each == HeldPins::upper;
+        plain = plain && each != HeldPins::one && !(at_liberty && unheld);
         at_liberty = each == HeldPins::nothing || each == HeldPins::lower;
     }
     if (plain) return form;
@@ -114,7 +109,7 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
     return form;
 }
 
-/// Whether a mass whose numbers have these errors is positive or 0 for certain.
+/// Whether a mass with these errors is certainly positive or 0.
 inline bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
@@ -122,7 +117,8 @@ inline bool is_not_negative(const RigElement& e) {
     if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper)) return high(e.lower) >= off.lower;
     if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower)) return high(e.upper) >= off.upper;
     const double A = high(e.lower), B = high(e.upper), X = std::abs(high(e.cross));
-    const double error = (A * off.upper + B * off.lower + 2 * X * off.cross) * 1.001 + 1e-29 * (A * B + X * X);
+    const double off_squares = A * off.upper + B * off.lower + 2 * X * off.cross;
+    const double error = off_squares * 1.001 + 1e-29 * (A * B + X * X);
     return A > off.lower && B > off.upper && high(e.lower * e.upper - e.cross * e.cross) > error;
 }
 
@@ -142,7 +138,7 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
             elements.push_back(rig_element(links[static_cast<std::size_t>(m)], rig.stands(m)));
         return elements;
     }
-    // Links as in a chain, but for momentum.
+    // Links are as in a chain, but for momentum.
     using S = Wide<double>;
     const AssembledChain<double> assembled = assemble(rig.chain());
     for (const auto& e : assembled.pencil.elements)
@@ -151,18 +147,17 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
         for (Index m = 0; m < rig.size(); ++m) {
             RigElement& e = elements[static_cast<std::size_t>(m)];
             const S length(std::ldexp(rig.chain().length()[m], -assembled.units.length_exponent));
-            e.spin =
-                ldexp(rig.flywheel(m).momentum, -assembled.units.weight_exponent - assembled.units.length_exponent) /
-                (length * length);
+            const int unit = assembled.units.weight_exponent + assembled.units.length_exponent;
+            e.spin = ldexp(rig.flywheel(m).momentum, -unit) / (length * length);
             e.error.spin = detail::RigLink::error_part * std::abs(e.spin.high);
         }
     return elements;
 }
 
-/// The pencil of a rig, or of one whose lower end is held, too: no link of that stands, spins or is
-/// in a fluid. Every number has a bound on its error, from the sizes of the terms that `rig_links`
-/// adds. Cost O(N). Throws InvalidArgument as rig_links does, unless gravity > 0, and for a
-/// stiffness or a tension beyond the range of weights.
+/// The pencil of a rig, or with `lower_end` of one whose lower end is held too: then no link
+/// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
+/// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
+/// range.
 inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
                             const std::optional<detail::LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;
@@ -199,8 +194,8 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
             continue;
         }
         e.spin = e.spin * result.pace, e.error.spin *= result.pace.high;
-        const bool plain =
-            rig.flywheel(m).axial_moment.high == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
+        const bool dry = rig.fluid() == Fluid::still || rig.displaced(m).weight == 0;
+        const bool plain = rig.flywheel(m).axial_moment.high == 0 && dry;
         add(e, detail::held_by(rig, m), plain || detail::is_not_negative(e));
     }
     if (const auto spring = support_element(rig.support(), result.units))

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "revchain/linear/rig_counts.hpp"
@@ -14,45 +12,39 @@
 /// The roots of a rig's pencil in each sense of rotation, by number.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Heights below 0, under the same conditions; nothing where there are none.
+/// Heights below 0, under the conditions of `counted_heights`; nothing where there are none.
 inline std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     const Index size = rig.pencil.size();
     if (rig.stiffness_positive) {
         if (rig.mass_not_negative) return std::nullopt;
-        CountedRoots roots(rig.pencil, rig.pace, size, -1, -1);
-        const auto available = roots.available();
-        return CountedSense{std::move(roots), available};
+        return CountedSense(CountedRoots(rig.pencil, rig.pace, size, -1, -1), std::nullopt);
     }
     const MasslessForm& form = rig.massless;
     const Index falling = rig.not_positive - rig.neutral;
-    CountedRoots roots(rig.pencil, rig.pace, falling - size, 1, -1);
-    const auto available =
-        form.certain && form.zero == 0 ? CountedRoots::Available{falling - form.negative, true} : roots.available();
-    return CountedSense{std::move(roots), available};
+    std::optional<Index> count;
+    if (form.certain && form.zero == 0) count = falling - form.negative;
+    return CountedSense(CountedRoots(rig.pencil, rig.pace, falling - size, 1, -1), count);
 }
 
-/// Speeds of one sense of a rig with momentum; K > 0 and M >= 0.
+/// Speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form Q is
+/// negative where there is inertia; elsewhere it has the signs of G and, where G is 0, is positive.
 inline CountedSense counted_speeds(const RigPencil& rig, bool forward) {
-    CountedRoots roots(forward ? rig.pencil : rig.pencil.reversed(), rig.pace, 0, 1, 1);
-    // Just above x = 0 the form Q is negative where there is inertia; elsewhere it has the signs of G, and where
-    // that is 0, too, those of K > 0 and of a square.
     const MasslessForm& form = rig.massless;
     const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
-    const auto available =
-        form.certain ? CountedRoots::Available{rig.pencil.size() - form.size + negative, true} : roots.available();
-    return {std::move(roots), available};
+    std::optional<Index> count;
+    if (form.certain) count = rig.pencil.size() - form.size + negative;
+    return {CountedRoots(forward ? rig.pencil : rig.pencil.reversed(), rig.pace, 0, 1, 1), count};
 }
 
-/// Largest number of elements whose roots are isolated in discs.
 inline constexpr Index most_isolated = 20'000;
 
-/// The roots of a rig's pencil. They are counted in each sense or, where counts do not number them, all isolated in
-/// discs.
+/// The roots of a rig's pencil: counted in each sense or, if that fails, all isolated in discs.
 class RigRoots {
    public:
-    /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements whose roots have to
-    /// be isolated. `advance(share)` as in `complex_spectrum`.
-    RigRoots(std::string_view place, const Rig& rig, double gravity, const std::function<void(double)>& advance)
+    /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements
+    /// whose roots have to be isolated. `advance(share)` as in `complex_spectrum`.
+    RigRoots(std::string_view place, const Rig& rig, double gravity,
+             const std::function<void(double)>& advance)
         : rig_(rig_pencil(rig, gravity)), gravity_(gravity) {
         const bool quadratic = rig_.pencil.quadratic;
         if (rig_.pencil.size() == 0) return;
@@ -75,36 +67,36 @@ class RigRoots {
 
     const RigPencil& rig() const { return rig_; }
     bool has_momentum() const { return rig_.pencil.quadratic; }
-    /// By counts; empty where roots are isolated or there are none. With momentum the second is backward.
+    /// Counted senses, with momentum backward second; empty where roots are isolated or none exist.
     const std::vector<CountedSense>& senses() const { return senses_; }
     const std::optional<pencil::ComplexSpectrum>& spectrum() const { return spectrum_; }
 
-    /// x of a conical height, or of a speed of either sign, which tells the sense.
+    /// x of a conical height, or of a speed; the sign of a speed tells the sense.
     RigWord at_height(double height) const {
         const RigWord scaled(std::ldexp(height, -rig_.units.length_exponent));
         return has_momentum() ? sqrt(scaled) : scaled;
     }
     RigWord at_speed(double speed) const {
         const RigWord n(std::abs(speed));
-        return has_momentum() ? rig_.pace / n : RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
+        if (has_momentum()) return rig_.pace / n;
+        return RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
     }
 
-    /// How many modes of a sense have a larger x, where `proved`.
+    /// The number of modes of a sense with a larger x, where `proved`.
     pencil::CertifiedCount count(const RigWord& x, bool forward) const {
-        if (spectrum_) return isolated(x, forward);
-        const CountedSense& sense = senses_[forward ? 0 : 1];
-        return sense.roots.certified(x);
+        return spectrum_ ? isolated(x, forward) : senses_[forward ? 0 : 1].roots.certified(x);
     }
 
-    /// How many modes of a sense have a larger x, as `number_above` says.
+    /// The number of modes of a sense with a larger x, see `number_above`.
     Index above(const RigWord& x, bool forward, std::string_view place, double value) const {
         if (rig_.pencil.size() == 0) return 0;
         if (!spectrum_) return senses_[forward ? 0 : 1].above(x, place, value);
-        return number_above(x, has_momentum(), place, value, [&](const RigWord& at) { return count(at, forward); });
+        const auto counted = [&](const RigWord& at) { return isolated(at, forward); };
+        return number_above(x, has_momentum(), place, value, counted);
     }
 
    private:
-    /// Discs that lie beyond x, and that which holds x if the sign of det Q has changed between x and its outer end.
+    /// Counts discs beyond x, and that of x if det Q changes sign between x and its end.
     pencil::CertifiedCount isolated(const RigWord& x, bool forward) const {
         pencil::CertifiedCount result{0, spectrum_->proved};
         if (!result.proved) return result;
@@ -114,7 +106,8 @@ class RigRoots {
             const RigWord value = side * RigWord(root.value.real()), radius(root.radius);
             if (value < RigWord(0.0) || value + radius < x) continue;
             if (!(value - radius > x)) {
-                const auto at = pencil::certified_count<RigWord, 2>(rig_.pencil, {side * x, side * (value + radius)});
+                const std::array<RigWord, 2> ends{side * x, side * (value + radius)};
+                const auto at = pencil::certified_count(rig_.pencil, ends);
                 result.proved = result.proved && at[0].proved && at[1].proved;
                 if ((at[0].above - at[1].above) % 2 == 0) continue;
             }

@@ -16,8 +16,7 @@ struct ScaledLink {
 
 template <Real T>
 std::vector<ScaledLink<Wide<T>>> scaled_links(const Chain<T>& chain) {
-    using std::ldexp;
-    using std::sqrt;
+    using std::ldexp, std::sqrt;
     using S = Wide<T>;
     const ChainUnits units = chain.units();
     std::vector<ScaledLink<S>> links;
@@ -26,8 +25,9 @@ std::vector<ScaledLink<Wide<T>>> scaled_links(const Chain<T>& chain) {
     for (Index m = 0; m < chain.size(); ++m) {
         if (m % segment_size == 0) below = ldexp(chain.weight_below(m), -units.weight_exponent);
         const Link<T> it = chain.link(m);
-        const S weight(ldexp(it.weight, -units.weight_exponent)), length(ldexp(it.length, -units.length_exponent)),
-            centroid(ldexp(it.centroid, -units.length_exponent));
+        const S weight(ldexp(it.weight, -units.weight_exponent));
+        const S length(ldexp(it.length, -units.length_exponent));
+        const S centroid(ldexp(it.centroid, -units.length_exponent));
         links.push_back({weight, length, centroid, sqrt(it.gyration_ratio) * length, below});
         below = below + weight;
     }

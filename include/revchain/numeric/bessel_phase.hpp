@@ -13,10 +13,9 @@ using TwoDoubles = DoubleWord<double>;
 
 inline constexpr TwoDoubles two_word_pi = std::numbers::pi_v<DoubleDouble>.word();
 
-/// J_order + i Y_order = M exp(i theta) far out: theta = z - (order/2 + 1/4) pi - lag(z), M^2 = 2 density(z) / (pi z).
-/// DLMF 10.18.17-18, the coefficients by recurrence: theta' = 1 / density, so that one series is the other's
-/// reciprocal.
-/// Accuracy: lag 1e-15 relative and density 3e-16 from z = first(order) on. Cost: 5 to 30 ns.
+/// J_order + i Y_order = M exp(i theta) for large z: theta = z - (order/2 + 1/4) pi - lag(z) and
+/// M^2 = 2 density(z) / (pi z). DLMF 10.18.17-18; theta' = 1 / density gives one series from the
+/// other. Accuracy from z = first(order) on: lag 1e-15 relative, density 3e-16. Cost: 5 to 30 ns.
 class PhaseSeries {
    public:
     explicit PhaseSeries(double order) {
@@ -46,7 +45,7 @@ class PhaseSeries {
             const double term = coefficient[m] * power;
             total += term;
             const double size = std::abs(term);
-            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // single coefficients may vanish
+            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // one may vanish
             before = size;
         }
         return total;

@@ -5,8 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The plain sum of scalars that do not consist of words. The sums below have one word more than
-/// their terms.
+/// The plain sum of scalars without words. The sums below have one word more than their terms.
 template <class S>
 struct CompensatedSum {
     S high{};
@@ -15,8 +14,7 @@ struct CompensatedSum {
     S value() const { return high; }
 };
 
-/// Sum of n double words of any sign in three words. Its error is one rounding, and (2 n u)^3/2 of their
-/// sizes, u that of one word.
+/// Sum of n double words in three words. Error: one rounding, and (2 n u)^3/2 of the terms' sizes.
 template <std::floating_point T>
 struct CompensatedSum<DoubleWord<T>> {
     T high{}, middle{}, low{};
@@ -31,8 +29,8 @@ struct CompensatedSum<DoubleWord<T>> {
     DoubleWord<T> value() const { return two_sum(high, middle) + DoubleWord<T>(low); }
 };
 
-/// Sum of numbers, or of packs lane by lane, in two words: the second is the sum of the rounding errors of the first.
-/// Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
+/// Sum of numbers, or of packs lane by lane, in two words: the second sums the rounding errors of
+/// the first. Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
 template <Word V>
 struct CompensatedSum<V> {
     V high{}, low{};

@@ -6,32 +6,31 @@
 #include "no C++20"  // an error that ends the compilation, before thousands of others
 #endif
 
-// Compiler extensions that the library uses, and replacements for compilers without them. (Unknown pragmas and
-// attributes with a namespace, such as [[gnu::always_inline]], are standard: compilers ignore them.)
+// Compiler extensions. (Compilers ignore unknown pragmas and attributes with a namespace.)
 
-/// Define REVCHAIN_NO_VECTOR_EXTENSIONS, for a whole program, to make packs of plain arrays instead of the vector types
-/// of GCC and Clang (simd/registers.hpp). Compilers without those types get arrays anyway.
+/// Define REVCHAIN_NO_VECTOR_EXTENSIONS for a whole program to use arrays instead of the vector
+/// types of GCC and Clang (simd/registers.hpp). Compilers without those types use arrays anyway.
 #if !defined(__GNUC__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
 #define REVCHAIN_NO_VECTOR_EXTENSIONS
 #endif
 
-/// Stands before the body of a lambda that is always inlined. C++20 has no place for an attribute there.
+/// Stands before the body of a lambda that is always inlined; C++20 has no attribute for that.
 #if defined(__GNUC__)
 #define REVCHAIN_INLINED __attribute__((always_inline))
 #else
 #define REVCHAIN_INLINED
 #endif
 
-// Defined where an instruction set is to be chosen at run time: the flags do not name the largest one already.
+// Defined if the instruction set is chosen at run time: the flags do not name the largest one.
 #if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 #define REVCHAIN_SEVERAL_TARGETS
 #endif
 
-// REVCHAIN_BUILD is the inline namespace that everything of the library lies in. It says how the code was compiled:
-// for_avx2_fma, for_sse2_and_above. A linker takes one definition of an inline function for a whole program; code that
-// was compiled otherwise therefore has other names, and a program that was compiled for AVX2 does not link with a
-// library that was not. Flags without a macro of their own, such as -ffp-contract, do not show.
+// REVCHAIN_BUILD is the inline namespace of the whole library. It names the flags of the compiler,
+// such as for_avx2_fma or for_sse2_and_above. A linker merges inline functions of one name; code
+// with other flags has other names, and therefore does not link with a library compiled
+// differently. Flags without a macro of their own, such as -ffp-contract, do not show.
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define REVCHAIN_BUILD_SET avx512
 #elif defined(__AVX512F__)
@@ -71,11 +70,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
-/// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines
-/// into one compiled for a processor with fused operations. Clang fuses within one expression, and under
-/// -ffp-contract=fast only a product that is used once; the transformations use each argument more than once. Other
-/// compilers must not fuse across statements: MSVC does so only under /fp:contract or /fp:fast.
+/// x itself. The compiler must not fuse the operation that computed x with one that uses it, which
+/// error-free transformations need. GCC fuses a product with every sum that uses it, also across
+/// functions that it inlines. Clang fuses within one expression and, under -ffp-contract=fast, only
+/// a product that is used once; the transformations use each argument more often. Other compilers
+/// must not fuse across statements: MSVC does so only under /fp:contract or /fp:fast.
 template <class T>
 [[gnu::always_inline]] constexpr T unfused(const T& x) {
 #if defined(__clang__) || !defined(__GNUC__)

@@ -7,14 +7,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Products and quotients of complex numbers of two words, which Eigen finds, too. For such scalars the standard does
-/// not specify the operators of std::complex, and those of libc++ do not compile.
-inline std::complex<DoubleDouble> operator*(const std::complex<DoubleDouble>& x, const std::complex<DoubleDouble>& y) {
+/// Products and quotients of complex numbers of two words, for Eigen too. The standard does not
+/// specify the operators of std::complex for such scalars, and those of libc++ do not compile.
+inline std::complex<DoubleDouble> operator*(const std::complex<DoubleDouble>& x,
+                                            const std::complex<DoubleDouble>& y) {
     return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
 }
-inline std::complex<DoubleDouble> operator/(const std::complex<DoubleDouble>& x, const std::complex<DoubleDouble>& y) {
+inline std::complex<DoubleDouble> operator/(const std::complex<DoubleDouble>& x,
+                                            const std::complex<DoubleDouble>& y) {
     const DoubleDouble size = y.real() * y.real() + y.imag() * y.imag();
-    return {(x.real() * y.real() + x.imag() * y.imag()) / size, (x.imag() * y.real() - x.real() * y.imag()) / size};
+    return {(x.real() * y.real() + x.imag() * y.imag()) / size,
+            (x.imag() * y.real() - x.real() * y.imag()) / size};
 }
 
 }  // namespace revchain

@@ -7,7 +7,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The size of the SIMD registers that code is compiled for, and whether it may fuse products with sums.
+/// The size of SIMD registers, and whether products may be fused with sums.
 template <std::size_t Bytes, bool Fused>
 struct Registers {
     static constexpr bool fused = Fused;
@@ -15,7 +15,7 @@ struct Registers {
     static constexpr std::size_t doubles = Bytes / sizeof(double);
 };
 
-/// Doubles in the largest registers. Every multiple of this number fills whole registers of each size.
+/// Doubles in the largest registers. Every multiple of it fills whole registers of each size.
 inline constexpr std::size_t most_doubles = 8;
 
 namespace detail {
@@ -70,13 +70,13 @@ inline Processor processor() {
 
 }  // namespace detail
 
-/// f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With REVCHAIN_DISPATCH it is compiled
-/// for SSE2, AVX2 and AVX-512 and the best form is chosen at run time: a portable build then runs within some percent
-/// of one for the machine, and takes twice as long to compile. The Python module and revchain::compiled are built that
-/// way. Another kind of processor may change last digits (products and sums are fused where the compiler may do so).
-///
-/// f and everything it calls that handles packs must be always_inline. Other functions stay code for the oldest
-/// processor, and packs must not be passed to them by value.
+/// f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With
+/// REVCHAIN_DISPATCH it is compiled for SSE2, AVX2 and AVX-512, and the best is chosen at run time:
+/// a portable build is then a few per cent slower than one for the machine, and compiles in twice
+/// the time. The Python module and revchain::compiled are built that way. Another kind of processor
+/// may change last digits (products and sums are fused where the compiler may do so). f and
+/// everything it calls that handles packs must be always_inline. Other functions remain code for
+/// the oldest processor, and packs must not be passed to them by value.
 template <class F>
 auto simd(const F& f) {
 #if defined(REVCHAIN_SEVERAL_TARGETS)

@@ -8,20 +8,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Two doubles as a scalar of its own, 106 bits: `Chain<DoubleDouble>`, `modes`, ... at about 32 digits.
-///
-/// Not DoubleWord<double> itself: that is the arithmetic in which answers in double are certified, where sizes, errors
-/// and weights are kept in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
-/// DoubleDouble are DoubleDouble, and bounds grow with the number of links.
-/// Accuracy of one operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31. Exponents
-/// are those of double; the second word is lost below 1e-292.
+/// Two doubles as a scalar of 106 bits: `Chain<DoubleDouble>`, `modes`, ... to about 32 digits.
+/// DoubleWord<double> is the arithmetic that certifies answers in double, with sizes, errors and
+/// weights in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
+/// DoubleDouble are DoubleDouble, and bounds grow with the number of links. Accuracy of one
+/// operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31.
+/// Exponents are those of double; the second word is lost below 1e-292.
 class DoubleDouble {
    public:
     constexpr DoubleDouble() = default;
     /// Exact for every built-in number but a long double of more than 106 bits.
     template <class Number>
-    requires std::is_arithmetic_v<Number>
-    constexpr DoubleDouble(Number x)
+    requires std::is_arithmetic_v<Number> constexpr DoubleDouble(Number x)
         : word_(split(x)) {}  // NOLINT(google-explicit-constructor): like a built-in number
     constexpr explicit DoubleDouble(const DoubleWord<double>& word) : word_(word) {}
     /// high + low, in any order of size.
@@ -35,18 +33,10 @@ class DoubleDouble {
     constexpr explicit operator long double() const { return static_cast<long double>(word_.high) + word_.low; }
 
     friend constexpr DoubleDouble operator-(const DoubleDouble& x) { return DoubleDouble(-x.word_); }
-    friend constexpr DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ + y.word_);
-    }
-    friend constexpr DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ - y.word_);
-    }
-    friend DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ * y.word_);
-    }
-    friend DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
-        return DoubleDouble(x.word_ / y.word_);
-    }
+    friend constexpr DoubleDouble operator+(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ + y.word_); }
+    friend constexpr DoubleDouble operator-(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ - y.word_); }
+    friend DoubleDouble operator*(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ * y.word_); }
+    friend DoubleDouble operator/(DoubleDouble x, DoubleDouble y) { return DoubleDouble(x.word_ / y.word_); }
     DoubleDouble& operator+=(const DoubleDouble& y) { return *this = *this + y; }
     DoubleDouble& operator-=(const DoubleDouble& y) { return *this = *this - y; }
     DoubleDouble& operator*=(const DoubleDouble& y) { return *this = *this * y; }
@@ -99,20 +89,11 @@ struct std::numeric_limits<revchain::DoubleDouble> : std::numeric_limits<revchai
     static constexpr revchain::DoubleDouble epsilon() { return revchain::DoubleDouble(Word::epsilon()); }
 };
 
-/// pi in two words.
 template <>
 inline constexpr revchain::DoubleDouble std::numbers::pi_v<revchain::DoubleDouble>{0x1.921fb54442d18p+1,
                                                                                    0x1.1a62633145c07p-53};
 
 template <>
 struct Eigen::NumTraits<revchain::DoubleDouble> : Eigen::GenericNumTraits<revchain::DoubleDouble> {
-    enum {
-        IsComplex = 0,
-        IsInteger = 0,
-        IsSigned = 1,
-        RequireInitialization = 1,
-        ReadCost = 2,
-        AddCost = 20,
-        MulCost = 20
-    };
+    enum { ReadCost = 2, AddCost = 20, MulCost = 20 };
 };

@@ -11,14 +11,12 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T.
-///
-/// Relative error of one operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3; none of it is
-/// larger than `operation_error<DoubleWord<T>>()`, which leaves a factor of two for compilers that contract a product
-/// and a sum into one fused operation. Valid while no low part underflows.
-/// Algorithms: Joldes, Muller, Popescu (2017), doi:10.1145/3121432, numbers 4, 6, 9, 12, 15, 17.
-/// It is a type of its own because no maintained header-only library offers one without Boost; the core needs only
-/// Eigen.
+/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T. A type of its
+/// own, because no maintained header-only library offers one without Boost. Relative error of one
+/// operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3.
+/// `operation_error<DoubleWord<T>>()` is at least twice that, for compilers that contract a product
+/// and a sum into one fused operation. Valid while no low part underflows. Algorithms 4, 6, 9, 12,
+/// 15 and 17 of Joldes, Muller, Popescu (2017), doi:10.1145/3121432.
 template <Word T>
 struct DoubleWord {
     static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
@@ -36,7 +34,6 @@ struct DoubleWord {
     [[gnu::always_inline]] constexpr explicit operator T() const { return high; }
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
-    // high first, then low
     friend constexpr auto operator<=>(const DoubleWord& x,
                                       const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
@@ -69,11 +66,11 @@ inline constexpr bool has_fast_fma =
 #endif
 }  // namespace detail
 
-/// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest number.
-/// `fused` uses one fused multiply-add, which must be an instruction of the target: a library call costs more than
-/// Dekker's product, which is used otherwise. Dekker's product is right on every target: the halves of float and double
-/// are cut from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split,
-/// which fusing would spoil, serves long double alone.
+/// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest
+/// number. `fused` uses one fused multiply-add, which must be an instruction of the target: a
+/// library call is slower than Dekker's product, used otherwise. That is right on every target:
+/// halves of float and double are cut from the bits, so all their products are exact and may be
+/// fused with sums. Veltkamp's split, which fusing would spoil, serves long double alone.
 template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = detail::rounded(T(x * y));
@@ -88,7 +85,7 @@ template <bool fused, Word T>
     }
 }
 
-/// x y = high + low, fused where the whole program is compiled for a machine with fused multiply-add.
+/// x y = high + low, fused if the whole program is compiled for fused multiply-add.
 template <Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     return two_product<detail::has_fast_fma<Lane<T>>, T>(x, y);
@@ -158,7 +155,7 @@ inline bool isfinite(const DoubleWord<T>& x) {
     return std::isfinite(x.high) && std::isfinite(x.low);
 }
 
-/// Finite, and the low part no more than what rounding the sum leaves over: what every operation here returns.
+/// Whether x is finite and its low part is at most what rounding the sum leaves over.
 template <std::floating_point T>
 inline bool is_normalised(const DoubleWord<T>& x) {
     return std::isfinite(x.high) && x.high + x.low == x.high;
@@ -173,7 +170,6 @@ inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
     return fast_two_sum(s, rest.high / (s + s));
 }
 
-/// a where x < y, else b, lane by lane.
 template <IsPack V>
 [[gnu::always_inline]] inline DoubleWord<V> if_less(const V& x, const V& y, const DoubleWord<V>& a,
                                                     const DoubleWord<V>& b) {
@@ -181,6 +177,13 @@ template <IsPack V>
 }
 
 namespace detail {
+
+/// x in every lane of a pack.
+template <IsPack V>
+[[gnu::always_inline]] inline DoubleWord<V> in_all_lanes(const DoubleWord<Lane<V>>& x) {
+    return {V(x.high), V(x.low)};
+}
+
 template <class T>
 struct Wider : std::type_identity<T> {};
 template <>
@@ -189,14 +192,7 @@ template <>
 struct Wider<double> : std::type_identity<DoubleWord<double>> {};
 template <>
 struct Wider<long double> : std::type_identity<DoubleWord<long double>> {};
-}  // namespace detail
 
-/// The arithmetic in which results in T are certified: double for float, a double word for double and long double,
-/// T itself for other types (whose bounds then grow with the number of links).
-template <class T>
-using Wide = typename detail::Wider<T>::type;
-
-namespace detail {
 template <class S>
 inline constexpr bool is_double_word = false;
 template <class T>
@@ -208,11 +204,16 @@ template <class T>
 struct Narrower<DoubleWord<T>> : std::type_identity<T> {};
 }  // namespace detail
 
-/// The type in which sizes and errors of numbers of type S are kept: T for a double word of T, S itself otherwise.
+/// The arithmetic in which results in T are certified: double for float, a double word for double
+/// and long double, T itself for other types (whose bounds then grow with the number of links).
+template <class T>
+using Wide = typename detail::Wider<T>::type;
+
+/// The type of sizes and errors of numbers of type S: T for a double word of T, else S itself.
 template <class S>
 using Narrow = typename detail::Narrower<S>::type;
 
-/// Whether x is a number as arithmetic returns it: finite and, as a double word, normalised.
+/// Whether x is finite and, as a double word, normalised.
 template <Real S>
 bool is_normalised(const S& x) {
     using std::isfinite;

@@ -7,8 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are
-/// valid results ("nothing proved").
+/// While this exists, no floating-point flag is raised and nothing traps: for code in which
+/// infinities and NaNs are valid results ("nothing proved").
 class FloatingPointStateGuard {
    public:
     FloatingPointStateGuard() { std::feholdexcept(&before_); }

@@ -5,16 +5,14 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-/// Interval arithmetic for proofs.
-///
-/// Every result is rounded to nearest and then widened by three times the error of one operation, so that it holds
-/// without directed rounding, with or without contraction. Libraries that switch the rounding mode (Boost.Numeric.
-/// Interval) need -frounding-math in the program that includes them, which a header-only library cannot ask for. Where
-/// the digit and a half that widening costs matters, wider numbers are used.
+/// Interval arithmetic for proofs. Results are rounded to nearest and widened by three times the
+/// error of one operation: they hold without directed rounding, with or without contraction.
+/// Libraries that switch the rounding mode (Boost.Numeric.Interval) need -frounding-math in the
+/// user's program. Where the digit and a half lost matters, wider numbers are used.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
-/// T may be a pack: then each lane holds an interval (simd/interval_lanes.hpp).
+/// low <= number <= high; NaN where nothing is known (an overflow), so that comparisons fail. If T
+/// is a pack, each lane holds an interval (simd/interval_lanes.hpp).
 template <class T>
 requires(Real<T> || IsPack<T>) struct Interval {
     T low{}, high{};
@@ -26,12 +24,12 @@ requires(Real<T> || IsPack<T>) struct Interval {
 
     bool positive() const { return low > T(0); }
     bool negative() const { return high < T(0); }
-    /// True also where nothing is known.
+    /// Also true where nothing is known.
     bool may_vanish() const { return !(positive() || negative()); }
     bool contains(const T& x) const { return low <= x && x <= high; }
     /// 1 or -1, or 0 where it may vanish.
     int sign() const { return positive() ? 1 : negative() ? -1 : 0; }
-    /// The largest of its numbers in size; NaN where an end is.
+    /// The largest absolute value; NaN if an end is NaN.
     T size() const {
         using std::abs;
         const T a = abs(low), b = abs(high);
@@ -45,12 +43,11 @@ requires(Real<T> || IsPack<T>) struct Interval {
 
 namespace detail {
 
-/// Bound on the absolute error of an operation whose low word underflows. Such an operation makes at most five
-/// roundings of the smallest number.
+/// Bound on the absolute error from underflow: at most five roundings by the smallest number.
 template <Real T>
 inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
 
-/// Bounds, from below and from above, of the exact result that was rounded to x.
+/// Bounds, from below and from above, of an exact result that was rounded to x.
 template <Real T>
 T down(const T& x) {
     using std::abs;
@@ -62,8 +59,8 @@ T up(const T& x) {
     return x + (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
 }
 
-/// An interval that holds x, with ends that are 0 or at least 2^-960. Quotients and roots of smaller double words lose
-/// digits. Other scalars are rounded correctly.
+/// An interval that holds x and whose ends are 0 or at least 2^-960: quotients and roots of smaller
+/// double words lose digits. Other scalars are rounded correctly.
 template <Real T>
 Interval<T> without_faint_ends(const Interval<T>& x) {
     if constexpr (std::numeric_limits<T>::is_iec559) {
@@ -75,7 +72,6 @@ Interval<T> without_faint_ends(const Interval<T>& x) {
     }
 }
 
-/// A number in two words and how far it may be off.
 inline Interval<Wide<double>> around(const Wide<double>& x, double error) {
     using S = Wide<double>;
     return {x - S(error), x + S(error)};
@@ -100,11 +96,11 @@ Interval<T> operator*(const Interval<T>& x, const Interval<T>& y) {
     }
     if (y.low >= T(0)) return y * x;
     const T a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high;
-    if (!(a == a && b == b && c == c && d == d)) return {a + b + c + d, a + b + c + d};  // NaN: nothing is known
+    if (!(a == a && b == b && c == c && d == d)) return {a + b + c + d, a + b + c + d};  // NaN
     return {detail::down(std::min(std::min(a, b), std::min(c, d))),
             detail::up(std::max(std::max(a, b), std::max(c, d)))};
 }
-/// NaN unless y keeps away from 0, and where it is empty.
+/// NaN unless y is away from 0, and where it is empty.
 template <Real T>
 Interval<T> operator/(const Interval<T>& dividend, const Interval<T>& y) {
     if (y.negative() && !y.positive()) return -dividend / -y;

@@ -12,15 +12,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Tells the system that memory just allocated, and not yet written, will all be used: from 4 MB on in pages of 2 MB,
-/// where Linux has them. Handing out a million numbers in pages of 4 kB takes longer than copying them.
+/// Tells the system that memory just allocated will all be written: from 4 MB on in pages of 2 MB,
+/// where Linux has them. Pages of 4 kB for a million numbers take longer than copying the numbers.
 inline void will_be_filled([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     constexpr std::uintptr_t page = 4096;
     if (bytes < 4'000'000) return;
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
     const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
-    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a hint: nothing is lost where it fails
+    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a hint that may fail
 #endif
 }
 

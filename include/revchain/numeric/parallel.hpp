@@ -21,14 +21,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// How many threads `parallel_for` uses where the thread that made this object calls it, while the object lives. A
-/// question makes one from its option `threads`; 0 means one for each processor. Without one the number is 1, as it is
-/// on the threads that `parallel_for` starts: work is not shared out twice. Throws InvalidArgument if negative.
+/// While it exists, `parallel_for` called on the thread that made it uses this many threads, or
+/// with 0 all processors. Else, and on threads that it starts, it uses 1. Throws if negative.
 class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {
         if (threads < 0) throw_invalid(place, "threads must not be negative", threads);
-        used_ = threads > 0 ? threads : std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency()));
+        const auto processors = static_cast<Index>(std::thread::hardware_concurrency());
+        used_ = threads > 0 ? threads : std::max<Index>(1, processors);
     }
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
@@ -87,7 +87,7 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
                 ++running;
             }
         } catch (const std::system_error&) {
-        }  // no more threads: those there are do the work
+        }  // no more threads: those started do the work
         ranges();
         for (std::unique_lock lock(mutex); running > 0;) {
             ended.wait_for(lock, std::chrono::milliseconds(50));
@@ -100,12 +100,11 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
     if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads. Ranges begin at
-/// multiples of `chunk`; with one thread, or one chunk, there is one range and no thread is started. Results do not
-/// depend on the number of threads if f treats each chunk by itself.
-/// The exception thrown first reaches the caller, after all threads have ended: the others stop at their next `look`.
-/// The caller calls `look` at least every 50 ms, if f does.
-/// Cost: 50 microseconds for each thread started.
+/// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads.
+/// Ranges begin at multiples of `chunk`; with one thread or chunk there is one range, and no thread
+/// is started. Results do not depend on the number of threads if f treats each chunk by itself. The
+/// first exception reaches the caller after all threads have ended; they stop at their next `look`.
+/// The caller calls `look` every 50 ms, if f does. Cost: 50 microseconds for each thread started.
 template <std::integral I, class F>
 void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
     const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);

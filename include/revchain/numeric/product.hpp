@@ -8,8 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A product or quotient held as a fraction times a power of two: no intermediate result overflows or underflows.
-/// Accuracy: half an ulp for each factor after the first, and for each sum.
+/// A product or quotient as a fraction times a power of two: no intermediate result leaves the
+/// range. Accuracy: half an ulp for each factor after the first, and for each sum.
 template <Real T>
 struct Product {
     T fraction = T(1);
@@ -28,8 +28,7 @@ struct Product {
     }
     Product plus(const T& x) const { return plus(of(x)); }
     Product root() const {
-        using std::ldexp;
-        using std::sqrt;
+        using std::ldexp, std::sqrt;
         const int odd = exponent & 1;
         return {sqrt(ldexp(fraction, odd)), (exponent - odd) / 2};
     }

@@ -7,13 +7,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// State that a long computation shares with another thread: its progress, and whether it should stop.
+/// State that a long computation shares with another thread: progress, and whether to stop.
 class Progress {
    public:
-    /// Part of the work that is done, 0 to 1: a hint, not a promise about time.
+    /// The fraction of the work that is done: a hint, not a promise about time.
     double fraction() const { return fraction_.load(std::memory_order_relaxed); }
     void report(double fraction) { fraction_.store(fraction, std::memory_order_relaxed); }
-    /// The computation throws `Cancelled` at its next look.
+    /// The computation throws `Cancelled` when it next calls `advance`.
     void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
     bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
 
@@ -23,10 +23,10 @@ class Progress {
 };
 
 namespace detail {
-/// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least
-/// every 0.1 s, on the thread that runs the loop. An exception from it ends the computation and reaches the caller.
+/// A function that a program may set before it computes. Every loop that can take longer than 0.1 s
+/// calls it at least every 0.1 s, on its own thread. An exception from it ends the computation.
 inline std::atomic<void (*)()> interrupt = nullptr;
-/// Becomes true when nobody waits for the result of this thread any longer; null on threads where that cannot happen.
+/// True once the result of this thread is no longer needed; null where that cannot happen.
 inline thread_local const std::atomic<bool>* abandoned = nullptr;
 /// Calls `interrupt`. Throws Cancelled on a thread that has been abandoned.
 inline void look() {
@@ -34,7 +34,7 @@ inline void look() {
     if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();
 }
 
-/// Calls `look` and reports the fraction to `progress`, if there is one. Throws Cancelled if that was cancelled.
+/// Calls `look` and reports the fraction to `progress`, if given. Throws Cancelled if cancelled.
 inline void advance(Progress* progress, double fraction) {
     look();
     if (progress == nullptr) return;

@@ -14,7 +14,6 @@
 #include <concepts>
 #include <limits>
 #include <numbers>
-#include <type_traits>
 
 #include "revchain/numeric/compiler.hpp"
 
@@ -23,18 +22,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 using Index = Eigen::Index;
 
 namespace detail {
-/// pi, to the last digit of T.
+/// pi to the last digit of T; libc++ 14 has that of double for long double.
 template <class T>
 inline constexpr T pi = std::numbers::pi_v<T>;
 template <>
-inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;  // libc++ 14: that of double
+inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;
 
-// The functions a scalar brings besides its operators, found in std or next to the type.
-using std::abs;
-using std::frexp;
-using std::isfinite;
-using std::ldexp;
-using std::sqrt;
+// The functions of a scalar besides its operators, found in std or next to the type.
+using std::abs, std::frexp, std::isfinite, std::ldexp, std::sqrt;
 template <class T>
 concept HasRealFunctions = requires(T x, int* exponent) {
     { abs(x) } -> std::convertible_to<T>;
@@ -46,7 +41,7 @@ concept HasRealFunctions = requires(T x, int* exponent) {
 }  // namespace detail
 
 /// A binary floating-point scalar: float, double, long double, or any type with the same operators,
-/// `std::numeric_limits`, and `abs`, `sqrt`, `ldexp`, `frexp`, `isfinite` found by argument-dependent lookup.
+/// `std::numeric_limits`, and `abs`, `sqrt`, `ldexp`, `frexp`, `isfinite` found next to the type.
 template <class T>
 concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
                std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
@@ -61,14 +56,14 @@ concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>
     T(0.5);
 };
 
-// The next two, which results hold, get their memory from `malloc`, whatever the compiler's flags. How Eigen's other
-// matrices get theirs depends on the instruction set: code with other flags cannot free it. Eigen converts them.
+// Results hold the next two, which get their memory from `malloc` whatever the compiler's flags.
+// How Eigen allocates other matrices depends on the instruction set.
 
 /// A column of numbers.
 template <class T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
-/// A table of numbers, one row per item (row-major, as numpy has it).
+/// A table of numbers, one row per item (row-major, like numpy).
 template <class T>
 using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
@@ -76,7 +71,7 @@ using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor |
 template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Distance from 1 to the next larger number: 2^-52 for double. One "ulp" in this library is a relative `epsilon`.
+/// The distance from 1 to the next number, 2^-52 for double. An "ulp" is a relative `epsilon`.
 template <Real T>
 inline T epsilon() {
     return std::numeric_limits<T>::epsilon();

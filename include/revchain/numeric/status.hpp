@@ -10,8 +10,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A wrong call. The message has function, rule and value: "revchain::Chain: links[2]: length must be positive, got
-/// -0.5". The arguments are left unchanged. (In Python: ValueError.)
+/// A wrong call (in Python: ValueError). The message has function, rule and value:
+/// "revchain::Chain: links[2]: length must be positive, got -0.5". The arguments are unchanged.
 class InvalidArgument : public std::invalid_argument {
    public:
     using std::invalid_argument::invalid_argument;
@@ -23,13 +23,15 @@ class Cancelled : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Outcome of a computation.
+/// The outcome of a computation.
 enum class Status {
     success,            ///< a proved bound meets the tolerance asked for
     tolerance_not_met,  ///< it does not; `error_bound` says what was reached
 };
 
-inline std::string_view to_string(Status status) { return status == Status::success ? "success" : "tolerance_not_met"; }
+inline std::string_view to_string(Status status) {
+    return status == Status::success ? "success" : "tolerance_not_met";
+}
 
 namespace detail {
 
@@ -42,7 +44,7 @@ template <class T>
         return text.str();
     };
     using Limits = std::numeric_limits<T>;
-    // The fewest digits that say the same number: people should read back what they wrote.
+    // The fewest digits that give the same number when read back.
     if constexpr (std::is_floating_point_v<T>)
         for (int digits = 6; digits < Limits::max_digits10; ++digits) {
             T back{};
@@ -68,17 +70,16 @@ template <class T>
     throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
 }
 
-/// Throws InvalidArgument unless every value is finite and `good`. Names and values come in pairs; `rule` says what a
-/// value must be.
+/// Throws InvalidArgument unless every value is finite and `good`; names and values in pairs.
 template <class Good, Real T, class... Rest>
-void require(const Good& good, std::string_view rule, std::string_view function, std::string_view name, const T& value,
-             const Rest&... rest) {
+void require(const Good& good, std::string_view rule, std::string_view function,
+             std::string_view name, const T& value, const Rest&... rest) {
     using std::isfinite;
     if (!isfinite(value) || !good(value)) throw_rule(function, name, rule, value);
     if constexpr (sizeof...(rest) > 0) require(good, rule, function, rest...);
 }
 
-/// These throw InvalidArgument unless every value is finite and as the name says. Names and values come in pairs.
+/// Throw InvalidArgument unless every value is finite and as the name says; arguments as above.
 template <class... Pairs>
 void require_finite(std::string_view function, const Pairs&... pairs) {
     require([](const auto&) { return true; }, "finite", function, pairs...);

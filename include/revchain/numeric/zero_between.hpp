@@ -8,24 +8,21 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
-/// The zero of a function of one number that is known to lie between two places. These functions
-/// serve all scalars, unlike the root finders of other libraries.
+/// Zeros of functions of one number in known brackets; for all scalars, unlike other libraries.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// More halvings than a bracket of numbers in T can need.
 template <Real T>
 inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
 
-/// The last step of Newton's method. The zero is `from - step`, with more digits than T where that
-/// is subtracted in two words.
+/// The last step of Newton's method: the zero is `from - step`, in two words to more digits than T.
 template <Real T>
 struct NewtonStep {
     T from, step;
 };
 
-/// The zero of a function that grows through it once between `low` and `high`: Newton's method from
-/// `start`, held within the bracket by halving, until a step is `enough` of the zero.
-/// `value_and_slope(x)` returns a pair.
+/// The zero of a function that increases through it once between `low` and `high`: Newton's method
+/// from `start`, bracketed by halving, to `enough` of the zero. `value_and_slope(x)` is a pair.
 template <Real T, class F>
 NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T enough) {
     using std::abs;
@@ -36,9 +33,9 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
         (value < T(0) ? low : high) = x;
         const T step = value / slope;
         if (abs(step) <= enough * abs(x)) return {x, step};
-        const auto is_within = [&](const T& place) { return place > low && place < high; };
+        const auto is_within = [&](const T& y) { return y > low && y < high; };
         T next = x - step;
-        // Steps that do not shrink by half are no better than halving, and may creep.
+        // Steps that do not shrink by half are no better than halving.
         if (!is_within(next) || abs(step) > last / T(2)) next = low + (high - low) / T(2);
         last = abs(next - x);
         x = next;
@@ -47,8 +44,8 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
     return {x, T(0)};
 }
 
-/// The zero that `newton_between` finds from the middle, to the last digit of T or to `enough` of itself.
-/// Cost: about six evaluations, and one for each halving where Newton's method fails.
+/// The zero that `newton_between` finds from the middle, to the last digit of T or `enough`. Cost:
+/// about six evaluations, and one for each halving where Newton's method fails.
 template <Real T, class F>
 T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() / T(2)) {
     const T middle = low + (high - low) / T(2);
@@ -56,8 +53,8 @@ T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() 
     return last.from - last.step;
 }
 
-/// The zeros of a function that grows through one above the first, third, ... of `places` and falls
-/// through one above the others, each below the next place or `end`.
+/// The zeros of a function that increases through one above the first, third, ... of `places` and
+/// decreases through one above the others, each below the next of `places` or `end`.
 template <class F>
 Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
     Vector<double> zeros(places.size());
@@ -73,20 +70,18 @@ Vector<double> zeros_between(const Vector<double>& places, double end, const F& 
     return zeros;
 }
 
-/// A place, and the value of a function there.
 template <Real T>
 struct ValueAt {
     T x, value;
 };
 
-/// Two places at which a function has different signs, or is 0 at one of them.
+/// Two numbers at which a function has different signs, or is 0 at one of them.
 template <Real T>
 struct SignChange {
     ValueAt<T> low, high;
 };
 
-/// A sign change of a function that grows through 0 at a positive number: from `guess` upwards or
-/// downwards by factors of 2.
+/// A sign change of a function that increases through 0 above 0, from `guess` by factors of 2.
 template <Real T, class F>
 SignChange<T> sign_change_near(T guess, const F& value) {
     const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
@@ -97,21 +92,20 @@ SignChange<T> sign_change_near(T guess, const F& value) {
     return found;
 }
 
-/// How near to a zero a search ends. It ends at the last digit in any case.
+/// The width and the value at which a search ends. It ends at the last digit in any case.
 template <Real T>
 struct Enough {
     T width{}, value{};
 };
 
-/// The zero within a sign change of a function without a slope: inverse quadratic interpolation,
-/// and halving where three places do not show a bend that this follows. NaN where the signs do not
-/// differ, and as soon as `value(x)` is.
-/// Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is that of
-/// the chord. Cost: five to nine evaluations of a smooth function.
+/// The zero within a sign change, without a slope: inverse quadratic interpolation, and halving
+/// where three points show no suitable bend. NaN where the signs agree, and as soon as `value(x)`
+/// is NaN. Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is
+/// that of the chord. Cost: five to nine evaluations of a smooth function.
 template <Real T, class F>
 T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& enough = {}) {
     using std::abs;
-    // the last place, one on the other side of the zero, and the last that one of them has replaced
+    // a: the last point; b: one on the other side of the zero; c: the last that was replaced
     ValueAt<T> a = bracket.high, b = bracket.low, c = b;
     if (a.value != T(0) && b.value != T(0) && (a.value < T(0)) == (b.value < T(0)))
         return std::numeric_limits<T>::quiet_NaN();
@@ -130,17 +124,17 @@ T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& en
         if (!same_side) b = a;
         a = now;
         const T at_a = a.value, at_b = b.value, at_c = c.value;
-        const T place = (a.x - b.x) / (c.x - b.x), part = (at_a - at_b) / (at_c - at_b);
+        const T along = (a.x - b.x) / (c.x - b.x), part = (at_a - at_b) / (at_c - at_b);
         share = T(0.5);
-        if (part * part < place && (T(1) - part) * (T(1) - part) < T(1) - place)
+        if (part * part < along && (T(1) - part) * (T(1) - part) < T(1) - along)
             share = at_a / (at_b - at_a) * (at_c / (at_b - at_c)) +
                     (c.x - a.x) / (b.x - a.x) * (at_a / (at_c - at_a)) * (at_b / (at_c - at_b));
     }
     return a.x;
 }
 
-/// The state between two at which `off` of it vanishes, to 2e-16 of the way or within `enough`: `off` is `at_low` at
-/// the first and `at_high` at the second. `at(share)` returns the state at a share of the way, or nothing.
+/// The state between two at which `off(state)` vanishes, to a share of 2e-16 or `enough`; it is
+/// `at_low` and `at_high` at the two. `at(share)` is the state part of the way, or nothing.
 template <class At, class Off>
 auto state_between(double at_low, double at_high, const At& at, const Off& off, double enough = 0) {
     decltype(at(0.0)) found;
@@ -153,9 +147,9 @@ auto state_between(double at_low, double at_high, const At& at, const Off& off, 
     return found;
 }
 
-/// Two numbers of any kind between which something changes, brought together by halving, at most
-/// 200 times, until none is between them. `side(x)` is negative where x may replace `low`, positive
-/// where it may replace `high`, and 0 where that cannot be told, which ends the search.
+/// Two numbers of any kind between which something changes, brought together by at most 200
+/// halvings. `side(x)` is negative where x may replace `low`, positive where it may replace `high`,
+/// and 0, which ends the search, where that cannot be decided.
 template <class N, class F>
 std::pair<N, N> halved(N low, N high, const F& side) {
     for (int round = 0; round < 200; ++round) {

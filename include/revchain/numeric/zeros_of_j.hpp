@@ -9,14 +9,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Positive zeros of J_order for real order > -1, by number from 1.
-/// Far out the phase series is solved. Nearer: Segura's iteration (doi:10.1137/090747762), which stays between the
-/// neighbouring zeros, in double from Debye's phase (order < 0, k = 1: Newton from Rayleigh's bound, which lies below
-/// the zero, so that no step can pass it), then one Newton step in two doubles.
-/// Accuracy: 0.51 ulp (ulp: 2^-52 relative) for orders from -0.999 to 100 and k up to 1e6, measured against 25 digits
-/// and against the recurrence in two long doubles; the same step with GSL's J_order leaves 5.5 ulp, with
-/// std::cyl_bessel_j 83, with the recurrence in double 1.2. Cost: 0.02 to 0.15 microseconds for zeros above max(30, 8
-/// order), 1 to 10 below.
+/// Positive zeros of J_order for real order > -1, by number from 1. Far out the phase series is
+/// solved. Nearer: Segura's iteration (doi:10.1137/090747762), which stays between the neighbouring
+/// zeros, from Debye's phase (order < 0, k = 1: Newton from Rayleigh's bound, below the zero), then
+/// a Newton step in two doubles. Accuracy: 0.51 ulp (2^-52 relative) for orders from -0.999 to 100
+/// and k up to 1e6, measured against 25 digits and against the recurrence in two long doubles; the
+/// same step with GSL's J_order leaves 5.5 ulp, with std::cyl_bessel_j 83, with the recurrence in
+/// double 1.2. Cost: 0.02 to 0.15 microseconds for zeros above max(30, 8 order), 1 to 10 below.
 class ZerosOfJ {
    public:
     /// Throws InvalidArgument for an order not above -1 or not finite.
@@ -29,25 +28,26 @@ class ZerosOfJ {
     double operator()(Index k) const {
         if (k < 1) throw_invalid("ZerosOfJ", "the zeros are numbered from 1", k);
         const TwoDoubles turns = two_sum(static_cast<double>(k) - 0.25, 0.5 * order_);
-        const TwoDoubles place = turns * two_word_pi;  // the zero itself but for the lag
-        if (place.high >= PhaseSeries::first(order_)) return far_out(place);
+        const TwoDoubles phase = turns * two_word_pi;  // the zero itself but for the lag
+        if (phase.high >= PhaseSeries::first(order_)) return far_out(phase);
         const double z = order_ < 0 && k == 1 ? near_first() : near(k);
         const TwoDoubles ratio = bessel_ratio<TwoDoubles>(order_, z);
         return z + ratio.high / (1 - order_ / z * ratio.high);
     }
 
    private:
-    double far_out(const TwoDoubles& place) const {
-        double z = place.high;
+    double far_out(const TwoDoubles& phase) const {
+        double z = phase.high;
         for (int round = 0; round < 8; ++round) {
             const double lag = far_.lag(z);
-            const double step = (z - place.high - (place.low + lag)) / (1 + lag / z);  // lag' is nearly -lag/z
+            // lag' is nearly -lag/z
+            const double step = (z - phase.high - (phase.low + lag)) / (1 + lag / z);
             z -= step;
             if (std::abs(step) <= 1e-16 * z) break;
         }
-        return place.high + (place.low + far_.lag(z));
+        return phase.high + (phase.low + far_.lag(z));
     }
-    /// The first zero of an order below 0, from the sum over the zeros of j^-6, DLMF 10.21(vii): j < (...)^-1/6.
+    /// The first zero of an order below 0, from the sum of j^-6 over the zeros, DLMF 10.21(vii).
     double near_first() const {
         const double a = order_ + 1, x = std::cbrt(32 * a * a * a * (order_ + 2) * (order_ + 3));
         double z = std::sqrt(x);

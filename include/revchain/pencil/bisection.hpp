@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// lower < eigenvalue <= upper, by count; `isolated` when no other eigenvalue shares the bracket.
+/// lower < eigenvalue <= upper, by count; `isolated` if no other eigenvalue shares the bracket.
 template <Real T>
 struct Bracket {
     T lower{};
@@ -17,7 +17,7 @@ struct Bracket {
     bool isolated = true;
 };
 
-/// Half way between two positive numbers, in ratio while they are far apart.
+/// The mean of two positive numbers, the geometric one while they are far apart.
 template <Real T>
 T between(const T& lower, const T& upper) {
     using std::sqrt;
@@ -33,7 +33,7 @@ struct Segment {
     Index first = 0, last = 0;
 };
 
-/// A bracket of the eigenvalues `first` ... `last - 1`, from `guess` on and by counts.
+/// Finds that bracket by counts, from `guess` on.
 template <class Pencil, Real T>
 Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     using std::ldexp;
@@ -49,7 +49,7 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
             } else {
                 all.lower = shifts[i];
             }
-        // nothing in this scalar, or a guess that was no positive number
+        // overflow, or a guess that was not positive
         if (!(all.upper > T(0) && all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10))) return all;
     }
     all.lower = std::min(all.lower, all.upper / T(4));
@@ -69,7 +69,7 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     return all;
 }
 
-/// Inner points that cut (lower, upper) in halves of halves, ascending: 2^levels - 1 of them.
+/// The 2^levels - 1 inner points that halve (lower, upper) repeatedly, ascending.
 template <Real T>
 void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
     if (count == 0) return;
@@ -79,14 +79,14 @@ void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
     subdivide(points + half + 1, half, points[half], upper);
 }
 
-/// Cuts `segment` at the shifts counted; pieces that hold eigenvalues go to `keep(lower, upper, first, last)`.
+/// Cuts `segment` at the shifts; calls `keep(piece)` for pieces that hold eigenvalues.
 template <Real T, class Keep>
 void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count, Keep keep) {
     T lower = segment.lower;
     Index last = segment.last;
     for (std::size_t c = 0; c <= count; ++c) {
         const T upper = c < count ? shifts[c] : segment.upper;
-        // Counts may waver by rounding within a few ulp; clamping keeps the pieces nested and loses none.
+        // Rounding may shift counts within a few ulp; clamping keeps the pieces nested.
         const Index first = c < count ? std::clamp(above[c], segment.first, last) : segment.first;
         if (last > first) keep(Segment<T>{lower, upper, first, last});
         lower = upper;
@@ -96,13 +96,12 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 
 }  // namespace detail
 
-/// Pencil: whatever has a `count_above` for `lanes` shifts. Brackets of the `count` eigenvalues from number `first` on
-/// (from 0, descending), each no wider than `tolerance` relative or a few ulp; eigenvalues that share a bracket at the
-/// tolerance are bisected on, down to a few ulp.
-/// Preconditions: first >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
-/// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
-/// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may
-/// throw.
+/// Brackets of `count` eigenvalues from number `first` on (from 0, descending), each no wider than
+/// a relative `tolerance` or a few ulp; eigenvalues that share a bracket are bisected further, down
+/// to a few ulp. `pencil` has a `count_above` for `lanes` shifts, which limits the accuracy.
+/// `finished(done)` receives the number found after every pass, and may throw. Preconditions: first
+/// >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
+/// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues.
 template <class Pencil, Real T>
 std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T tolerance, T guess,
                                const std::function<void(Index)>& finished = {}) {
@@ -116,7 +115,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         const T width = s.upper - s.lower;
         const bool alone = s.last - s.first == 1;
         const T middle = between(s.lower, s.upper);
-        const bool divisible = s.lower < middle && middle < s.upper;  // else never done, among subnormal numbers
+        const bool divisible = s.lower < middle && middle < s.upper;  // subnormals may not be
         if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
             work.push_back(s);
         } else {
@@ -130,7 +129,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         const std::size_t taken = std::min(lanes, work.size());
         now.assign(work.end() - static_cast<std::ptrdiff_t>(taken), work.end());
         work.resize(work.size() - taken);
-        // Few segments: cut each into 4 or 8 at once, so that all lanes work.
+        // Few segments are each cut into 4 or 8 at once, to fill all lanes.
         const std::size_t cuts = taken == 1 ? 7 : taken == 2 ? 3 : 1;
         for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
         const auto above = count_above(pencil, shifts);

@@ -8,40 +8,35 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// An eigenvalue with a bound on its relative error that is proved by two counts (infinite: nothing
-/// could be proved).
+/// An eigenvalue with a relative error bound that two counts prove; infinite if nothing is proved.
 template <Real T>
 struct Certified {
     T eigenvalue{};
     T error_bound = std::numeric_limits<T>::infinity();
-    Wide<T> unrounded{};  ///< what the eigenvector is computed at
+    Wide<T> unrounded{};  ///< the eigenvector is computed here
 };
 
-/// Whether counts at the lower and the upper end of an interval prove that eigenvalue number `j`
-/// lies between them.
+/// Whether counts at both ends of an interval prove that it holds eigenvalue number `j`.
 inline bool bracketed(const std::array<CertifiedCount, 2>& count, Index j) {
     return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
 }
 
-/// Whether the root number `j` (from 0, descending) lies within a relative `margin` of `centre`, by
-/// proved counts at both ends of the interval. `count(two shifts)` returns certified counts of the
-/// roots above them.
+/// Whether root number `j` (from 0, descending) is proved to lie within a relative `margin` of
+/// `centre`; `count(two shifts)` returns certified counts of the roots above them.
 template <Real S, class Count>
 bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& margin) {
     const S reach = centre * S(margin);
     return bracketed(count(std::array<S, 2>{centre - reach, centre + reach}), j);
 }
 
-/// Whether eigenvalue number `j` of the exact pencil lies within a relative `margin` of
-/// `eigenvalue`. Cost: one pass of two shifts in S.
+/// The same for an eigenvalue of the exact pencil. Cost: one pass of two shifts in S.
 template <Real S, Real T>
 bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, const Narrow<S>& margin) {
     const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
     return root_within(count, j, S(static_cast<Narrow<S>>(eigenvalue)), margin);
 }
 
-/// The error bound that goes with `lies_within`: relative to the exact eigenvalue, and with the
-/// roundings of the two interval ends (in S) and of itself.
+/// The error bound for `lies_within`, relative to the exact eigenvalue, with all roundings.
 template <Real S, Real T>
 T bound_of_margin(const T& margin) {
     return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) + T(4) * static_cast<T>(operation_error<S>());
@@ -51,7 +46,7 @@ template <Real S>
 struct ProvedInterval {
     S lower, upper;
     S middle() const { return lower + (upper - lower) / S(Narrow<S>(2)); }
-    /// How far from `x` the root may be, relative to it.
+    /// The largest distance of the root from `x`, relative to the root.
     Narrow<S> reach(const S& x) const {
         using M = Narrow<S>;
         const M worst = std::max(static_cast<M>(x - lower), static_cast<M>(upper - x));
@@ -59,9 +54,8 @@ struct ProvedInterval {
     }
 };
 
-/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as
-/// narrow as rounding in S leaves no count in doubt. Nothing where no interval could be proved.
-/// `count(two shifts)` returns certified counts. Cost: about 60 calls.
+/// A proved interval of eigenvalue number `j`, `finest` wide (relative) or as narrow as S allows;
+/// nothing if none is proved. `count(two shifts)`: certified counts. Cost: about 60 calls.
 template <Real S, class Count>
 std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess, const Narrow<S>& finest) {
     using M = Narrow<S>;
@@ -88,34 +82,31 @@ std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, co
     return ProvedInterval<S>{lower, upper};
 }
 
-/// Bisection by proved counts alone, from a first guess. The bound is infinite where not even 1/2
-/// can be proved (seen only where weights span 1e37 and lengths 1e23 together). Used where the fast
-/// path's certificate is refused.
+/// Bisection by proved counts alone, for use where a faster certificate fails. The bound is
+/// infinite if 1/2 is not proved (seen where weights span 1e37 and lengths 1e23 together).
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;
-    const auto certified = [](const T& eigenvalue, const T& bound) {
-        return Certified<T>{eigenvalue, bound, Wide<T>(static_cast<Narrow<Wide<T>>>(eigenvalue))};
-    };
     const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
-    const auto found = proved_interval(count, j, S(static_cast<M>(guess)), static_cast<M>(epsilon<T>()) / M(4));
-    if (!found) return certified(guess, std::numeric_limits<T>::infinity());
-    const T eigenvalue = static_cast<T>(found->middle());
-    const M worst = found->reach(S(static_cast<M>(eigenvalue)));
-    if (!(worst <= M(0.5))) return certified(eigenvalue, std::numeric_limits<T>::infinity());
-    return certified(eigenvalue, bound_of_margin<S>(static_cast<T>(worst)));
+    const M finest = static_cast<M>(epsilon<T>()) / M(4);
+    Certified<T> result{guess};
+    if (const auto found = proved_interval(count, j, S(static_cast<M>(guess)), finest)) {
+        result.eigenvalue = static_cast<T>(found->middle());
+        const M worst = found->reach(S(static_cast<M>(result.eigenvalue)));
+        if (worst <= M(0.5)) result.error_bound = bound_of_margin<S>(static_cast<T>(worst));
+    }
+    result.unrounded = Wide<T>(static_cast<Narrow<Wide<T>>>(result.eigenvalue));
+    return result;
 }
 
-/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` that is nearer to it than to
-/// any other: the Rayleigh quotient in S of the vector in T, proved by two counts; where that
-/// fails, by counts alone.
+/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` nearer to it than to any
+/// other: the Rayleigh quotient in S of the vector in T, proved by two counts, else counts alone.
 template <Real S, Real T>
 Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded, Index j,
                                   const T& start) {
-    // One round nearly always, two at most: the quotient's error is the square of the vector's.
-    // Where no arithmetic is wider than T, rounding in T limits what two counts can prove: then as
-    // many ulp as it takes, within a factor of 2.
-    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
+    // Mostly one round, at most two: the quotient's error is the square of the vector's. If S is T,
+    // rounding limits the proof: the margin then grows by factors of 2.
+    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // at most 2 ulp with roundings
     T eigenvalue = start;
     S fine(static_cast<Narrow<S>>(start));
     for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <Eigen/Eigenvalues>  // seconds of compile time: only who solves densely includes this header
+#include <Eigen/Eigenvalues>  // seconds of compile time
 #include <algorithm>
 #include <numeric>
 
@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// K and M assembled into square matrices, the held pin left out: the form that loses the slowest modes.
+/// K and M as square matrices, without the held pin; the slowest modes lose accuracy in this form.
 template <Real T>
 struct AssembledPencil {
     Matrix<T> K, M;
@@ -25,14 +25,11 @@ AssembledPencil<T> assembled(const ElementPencil<T>& pencil) {
         if (!pencil.units.empty())
             for (T* entry : {&e.stiffness, &e.lower, &e.upper, &e.cross})
                 *entry = ldexp(*entry, pencil.units[static_cast<std::size_t>(m)]);
-        result.K(m, m) += e.stiffness;
-        result.K(m, m + 1) -= e.stiffness;
-        result.K(m + 1, m) -= e.stiffness;
-        result.K(m + 1, m + 1) += e.stiffness;
-        result.M(m, m) += e.lower;
-        result.M(m, m + 1) += e.cross;
-        result.M(m + 1, m) += e.cross;
-        result.M(m + 1, m + 1) += e.upper;
+        Eigen::Matrix<T, 2, 2> stiffness, mass;
+        stiffness << e.stiffness, -e.stiffness, -e.stiffness, e.stiffness;
+        mass << e.lower, e.cross, e.cross, e.upper;
+        result.K.template block<2, 2>(m, m) += stiffness;
+        result.M.template block<2, 2>(m, m) += mass;
     }
     result.K.conservativeResize(n, n);
     result.M.conservativeResize(n, n);
@@ -61,15 +58,15 @@ Eigensystem<T> sorted(const Vector<T>& values, const Matrix<T>& vectors) {
 }
 }  // namespace detail
 
-/// M y = lambda K y with K positive definite: Cholesky and the symmetric QR algorithm. O(N^3).
-/// Accuracy: absolute, eps times the largest eigenvalue times cond(K) at worst; relative accuracy is not kept.
+/// Solves M y = lambda K y, K positive definite: Cholesky and the symmetric QR algorithm, O(N^3).
+/// Absolute accuracy: eps times the largest eigenvalue times cond(K) at worst.
 template <Real T>
 Eigensystem<T> solve_symmetric_definite(const Matrix<T>& K, const Matrix<T>& M) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix<T>> solver(M, K);
     return detail::sorted<T>(solver.eigenvalues(), solver.eigenvectors());
 }
 
-/// A y = lambda B y for any two square matrices: QZ; the real parts of the finite eigenvalues. O(N^3).
+/// Solves A y = lambda B y for any square matrices by QZ, O(N^3): real parts of finite eigenvalues.
 template <Real T>
 Eigensystem<T> solve_general(const Matrix<T>& A, const Matrix<T>& B) {
     const Eigen::GeneralizedEigenSolver<Matrix<T>> solver(A, B);

@@ -10,7 +10,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Factors of the stiffness and of the spin of each element: x and none, or x^2 and x.
+/// Factors of an element's stiffness and spin: x and 0, or x^2 and x.
 template <class X>
 struct Factors {
     X stiffness{}, spin{};
@@ -23,39 +23,37 @@ struct ElementError {
 };
 
 namespace detail {
-/// An empty member. Two members of one empty type may not share an address: hence the number.
+/// An empty member. Two members of one empty type may not share an address, hence the number.
 template <int>
 struct Nothing {};
 }  // namespace detail
 
-/// One element between two neighbouring pins (lower, upper) of a family of symmetric matrices in
-/// one unknown x,
+/// One element between two neighbouring pins (lower, upper) of symmetric matrices in one unknown x,
 ///
 ///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s,
 ///
-/// with W = A + 2 X + B and c W = A B - X^2. All are data of their own, never differences of one
-/// another: that keeps the counts accurate. Elements of a hanging chain have k > 0 and masses that
-/// are not negative, small relative errors for all of the chain, and are linear in the weights: no
-/// square of a small one underflows. With `OwnErrors` numbers may have any sign, and c W takes the
-/// place of c: W may be 0.
+/// with W = A + 2 X + B and c W = A B - X^2. All are stored, none is a difference of others: that
+/// keeps counts accurate. In a hanging chain k > 0, masses are not negative, relative errors are
+/// small, and numbers are linear in the weights, so that no square of a small one underflows. With
+/// `OwnErrors` numbers may have any sign, and c W takes the place of c, because W may be 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
     using M = Narrow<S>;
     S stiffness{};                                 ///< k
     S lower{}, upper{}, cross{};                   ///< A, B, and X, of any sign
-    S turning{};                                   ///< c, what the element resists turning with; or c W
+    S turning{};                                   ///< c, the inertia against turning; or c W
     std::conditional_t<OwnErrors, S, M> weight{};  ///< W
-    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s, of any sign
+    [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s
     [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>> error{};
 
-    /// From its masses, where these are all there is.
+    /// An element given by its stiffness, spin and masses.
     static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
                       const ElementError<M>& error = {}) requires(Spins&& OwnErrors) {
         const S weight = (lower + cross) + (cross + upper), determinant = lower * upper - cross * cross;
         return {stiffness, lower, upper, cross, determinant, weight, spin, error};
     }
 
-    /// L at x, a number or a pack of numbers of S.
+    /// L at x, a number or a pack.
     template <class X>
     [[gnu::always_inline]] X stiffness_at(const Factors<X>& x) const {
         if constexpr (Spins)
@@ -67,77 +65,57 @@ struct Element {
     template <class X>
     [[gnu::always_inline]] static X size(const X& L) {
         using std::abs;
-        if constexpr (Spins || OwnErrors)
-            return abs(L);
-        else
-            return L;
+        return Spins || OwnErrors ? abs(L) : L;
     }
-    /// The size of a mass.
     template <class X>
     [[gnu::always_inline]] static X mass_size(const X& mass) {
         using std::abs;
-        if constexpr (OwnErrors)
-            return abs(mass);
-        else
-            return mass;
+        return OwnErrors ? abs(mass) : mass;
     }
     /// (L - c) W.
     template <class X>
     [[gnu::always_inline]] X resisted(const X& L) const {
-        if constexpr (OwnErrors)
-            return L * X(weight) - X(turning);
-        else
-            return (L - X(turning)) * X(weight);
+        return OwnErrors ? L * X(weight) - X(turning) : (L - X(turning)) * X(weight);
     }
     /// (L - c) W over a pivot. Quotients first: products of small weights would underflow.
     template <class X>
     [[gnu::always_inline]] X resisted_over(const X& L, const X& inverse) const {
-        if constexpr (OwnErrors)
-            return resisted(L) * inverse;
-        else
-            return (L - X(turning)) * (X(weight) * inverse);
+        return OwnErrors ? resisted(L) * inverse : (L - X(turning)) * (X(weight) * inverse);
     }
-    /// Adds the sizes of the terms of `resisted_over`; L and `inverse` are sizes.
+    /// The sum of the sizes of the terms of `resisted_over`; L and `inverse` are sizes.
     template <class X>
     [[gnu::always_inline]] X resisted_size(const X& L, const X& inverse) const {
         const X resists(mass_size(static_cast<M>(turning))), heavy(mass_size(static_cast<M>(weight)));
-        if constexpr (OwnErrors)
-            return (L * heavy + resists) * inverse;
-        else
-            return (L + resists) * (heavy * inverse);
+        return OwnErrors ? (L * heavy + resists) * inverse : (L + resists) * (heavy * inverse);
     }
 };
 
 template <Real S>
 using SignedElement = Element<S, true, true>;
 
-/// Dynamic stiffness carried across an element, by equation (1) of docs/theory/counts.md: from
-/// `near` at the pin where it is known to the other, whose own mass is `far`; `inverse` is one over
-/// the pivot.
+/// Dynamic stiffness carried across an element, equation (1) of docs/theory/counts.md, from `near`
+/// at one pin to the other, where the element's mass is `far`; `inverse` is 1 over the pivot.
 template <class E, class S>
 [[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near, const S& far,
                                           const S& inverse) {
     return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
-/// This form has one operation less after the division. It is for pencils in one unit, whose
-/// products stay in range.
+/// One operation less after the division; for pencils in one unit, whose products stay in range.
 template <class E, class X>
 [[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near, const X& far,
                                                       const X& pivot) {
     return ((stiffness - far) * near - e.resisted(stiffness)) / pivot;
 }
 
-/// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the
-/// pivot are small.
+/// Equation (2), from the coupling L + X of the pins: accurate where it and the pivot are small.
 template <class S>
 [[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling,
                                                       const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
-/// The least size of a pivot: its reciprocal can still be split into two halves for a product of
-/// double words.
+/// The least pivot whose reciprocal can be split into two halves for a product of double words.
 template <Real M>
 M least_pivot() {
     using std::ldexp;
@@ -145,8 +123,7 @@ M least_pivot() {
     return ldexp(M(1), limits::min_exponent + (limits::digits + 1) / 2 + 3);
 }
 
-/// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue
-/// at the shift is not above it. `size` is that of L.
+/// The pivot, or a tiny positive number: eigenvalues at the shift are not above it. `size`: |L|.
 template <class S>
 [[gnu::always_inline]] inline S not_zero(const S& pivot, const S& size) {
     using std::abs;
@@ -158,25 +135,21 @@ template <class S>
         return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
-/// A family Q(x) kept as its elements, lowest first, never assembled: neighbouring stiffnesses,
-/// once added, lose the slowest modes. The last element's upper pin is held. Without spins it is
-/// the pencil lambda K - M of a hanging chain, with positive eigenvalues; with spins it has a
-/// positive root x for each mode in one sense of rotation.
+/// A family Q(x) as its elements, lowest first, never assembled: sums of neighbouring stiffnesses
+/// lose the slowest modes. The last element's upper pin is held. Without spins it is lambda K - M
+/// of a hanging chain, with positive eigenvalues; with spins modes of one sense have roots x > 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
     static constexpr bool own_errors = OwnErrors;
 
     std::vector<Element<S, Spins, OwnErrors>> elements;
-    /// With own errors: the element below the lowest pin, if it holds that pin to one that does not
-    /// move; else the lowest pin is free.
+    /// With own errors: the element that ties the lowest pin to the ground, if that pin is held.
     std::optional<Element<S, Spins, OwnErrors>> ground{};
-    bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s; with own errors spins may be 0, and L = x k
-    /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents
-    /// that never fall on the way up and end at 0. Else empty.
+    bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s, not L = x k
+    /// If one unit does not suffice: element m is in units of 2^units[m], ascending to 0.
     std::vector<int> units;
-    /// Bound on the error of every number in `elements`, unless they have their own, relative to it
-    /// and, of the cross mass, to |X| + 2 c; besides what underflows: less than `least_pivot` in
-    /// masses, `stiffness_underflow` in stiffnesses.
+    /// Without own errors: the relative error of every number, for the cross mass relative to
+    /// |X| + 2 c, besides underflow: `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 
@@ -186,17 +159,15 @@ struct ElementPencil {
         if (OwnErrors ? quadratic : Spins) return {x * x, x};
         return {x, {}};
     }
-    /// 4/a times the least positive number, a the shortest length there can be beside one of 1.
+    /// 4/a times the least positive number, a the shortest length possible beside one of 1.
     static Narrow<S> largest_underflow() {
         using std::ldexp;
         using limits = std::numeric_limits<Narrow<S>>;
         return ldexp(limits::min() * limits::epsilon(), limits::max_exponent / 4 + 2);
     }
-    /// The exponent by which what is carried across pin m from below grows less: in the unit of
-    /// element m from that of m - 1.
+    /// The exponent of the factor from the unit of element m - 1 to that of element m.
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
-    /// Returns the pencil with every spin reversed: its x are those of this pencil with the other
-    /// sign.
+    /// The pencil with every spin reversed: its roots x have the other sign.
     ElementPencil reversed() const {
         ElementPencil other = *this;
         for (auto& e : other.elements) e.spin = -e.spin;
@@ -208,8 +179,7 @@ struct ElementPencil {
 template <Real S>
 using SignedPencil = ElementPencil<S, true, true>;
 
-/// Returns the pencil in a narrower scalar, with one more rounding in each entry; errors of their
-/// own are left out.
+/// The pencil in a narrower scalar, with one more rounding in each entry, without own errors.
 template <Real T, Real S, bool Spins, bool OwnErrors>
 ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErrors>& wide) {
     if constexpr (std::is_same_v<T, S>) {
@@ -235,16 +205,15 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
     }
 }
 
-/// Whether a number of an element is 0 for certain.
+/// Whether a number of an element is certainly 0.
 template <Real S>
 bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// Converts a pencil with own errors to one with small relative errors. Returns nothing if the
-/// error of a number exceeds 1e-20 of its size, or the lowest pin is held or weights are in several
-/// units. Precondition: every stiffness is positive, and no mass is negative; `Spins` says whether
-/// the family is quadratic.
+/// A pencil with own errors as one with small relative errors. Nothing if an error exceeds 1e-20 of
+/// a number, the lowest pin is held, or weights are in several units. Precondition: every stiffness
+/// is positive, and no mass is negative; `Spins` says whether the family is quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <vector>
-
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
-/// One pencil at several x at once, a lane each: stiffnesses, and forces left over in twice the
-/// digits.
+/// One pencil at several x, one in each lane: stiffnesses, and residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// Whether all elements are point masses at their lower pins.
@@ -23,8 +17,7 @@ bool is_lumped(const ElementPencil<S, Spins>& pencil) {
 
 namespace detail {
 
-/// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own
-/// digits.
+/// high + low, unevaluated, for sums and products whose low parts need only T's own digits.
 template <class V>
 struct Pair {
     V high{}, low{};
@@ -48,7 +41,7 @@ template <class V>
     return {s.high, s.low + (x.low + y.low)};
 }
 
-/// Whether every element is a point mass at its lower pin: loops are compiled separately for those.
+/// Whether every element is a point mass at its lower pin; loops are compiled for each case.
 template <bool Lumped>
 struct Terms {
     static constexpr bool lumped = Lumped;
@@ -62,16 +55,15 @@ template <bool Spins, class T>
     return high;
 }
 
-/// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m,
-/// force, size, offset, stretch)` gets that at pin m, the sum of the sizes of what meets there if
-/// `sized`, the pin's offset, and by how much it exceeds the next one's.
+/// Residual forces L(x) y - M y at the pins but the held one, from the free end up. `take(m, force,
+/// size, offset, stretch)` receives, for pin m: the force, if `sized` the sum of the sizes of its
+/// terms, the pin's offset, and that offset minus the next one's.
 template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset, class Take>
 [[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
                                                const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
     const std::size_t n = pencil.elements.size();
     const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
-        const DoubleWord<V> p = two_product<fused>(x.high, V(y.high));
-        return Pair<V>{p.high, p.low + (x.high * V(y.low) + x.low * V(y.high))};
+        return times<fused>(x, revchain::detail::in_all_lanes<V>(y));
     };
     Pair<V> from_below{};
     V size{}, lower = offset(0);
@@ -121,5 +113,3 @@ template <bool fused, bool Spins, class V>
 
 }  // namespace detail
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A pencil of fewer elements whose eigenvalues, descending as they are, bracket those of the whole:
+/// A pencil of fewer elements, for which descending eigenvalues satisfy
 ///
 ///     coarse <= exact <= coarse + spread.
 template <std::floating_point T>
@@ -16,13 +16,12 @@ struct GroupedPencil {
 
 namespace detail {
 
-/// Neighbouring elements condensed into one by the shape they take without inertia: with c the flexibility from the
-/// lowest pin on and F all of it, a pin inside stands at (1 - c/F) (lower end) + (c/F) (upper end).
+/// Neighbouring elements condensed into one by their shape without inertia: a pin inside stands at
+/// (1 - c/F) (lower end) + (c/F) (upper end), c the flexibility below it, F the whole.
 template <std::floating_point T>
 class Group {
    public:
-    /// With one more element on top. Of terms that do not cancel: cross masses would, of links whose radius of gyration
-    /// is many times their length.
+    /// With one more element on top. No terms cancel; cross masses would for large inertia.
     Group with(const Element<T>& e) const {
         Group more = *this;
         const T c = flexibility_, f = T(1) / e.stiffness, leaning = (e.cross + e.upper) * f;
@@ -35,15 +34,15 @@ class Group {
     }
     Index size() const { return size_; }
 
-    /// No less than the largest eigenvalue of the group between held ends: the trace of K^-1 M there.
+    /// At least the largest eigenvalue of the group between held ends: the trace of K^-1 M there.
     T spread() const { return size_ < 2 ? T(0) : bound_ - second_ / flexibility_ + rounding(size_) * bound_; }
-    /// Whether that is so, nothing outweighs lambda k by more than 8 (the square of a mode's phase is at most about
-    /// that), and no centroid is farther above or below its link than twice its length.
+    /// Whether it is at most `spread`, nothing exceeds 8 lambda k (about the largest square of a
+    /// mode's phase), and every centroid is within twice the length of its link.
     bool is_within(const T& spread, const T& least) const {
         return (bound_ * (T(1) + rounding(size_)) - spread) * flexibility_ <= second_ &&
                weight_ * flexibility_ <= T(8) * least && bound_ <= T(8) * least && !far_;
     }
-    /// A sum of n terms of some products each, and what is made of it: relative to the sum of their sizes.
+    /// The relative rounding error of a sum of n terms of some products each.
     static T rounding(Index n) { return epsilon<T>() * T(n + 10); }
 
     Element<T> element() const {
@@ -54,25 +53,25 @@ class Group {
 
    private:
     T flexibility_{}, weight_{};
-    T first_{}, second_{}, bound_{};  // sums of mass times c, and c^2; `bound_`: as the trace wants it
+    T first_{}, second_{}, bound_{};  // sums of mass times c, of mass times c^2, and for the trace
     bool far_ = false;                // a centroid far from its link
     Index size_ = 0;
 };
 
 }  // namespace detail
 
-/// Groups as long as their spread stays within `spread`; an element alone stays what it is.
+/// Groups elements as long as their spread stays within `spread`; a single element is unchanged.
 ///
-/// Restricting pins to such shapes lowers every eigenvalue (Courant, Fischer). With t the largest eigenvalue that a
-/// group has between held ends, and x = 1/lambda < 1/t, what the pins inside take away from the condensed K - x M is
-/// x^2 C' (K_i - x M_i)^-1 C with C' M_i^-1 C <= M and M_i <= t K_i, so no more than x^2 t/(1 - x t) M. The exact count
-/// at lambda is thus at most the coarse one at lambda - t, which gives the other side.
-/// Preconditions: one unit; it will be asked at lambda >= `least`.
-/// `entry_error` takes in the roundings here, relative to lambda k and the entry: with f the flexibility of an element,
-/// q the place of its centroid, |q| <= 2, and F of its group, what is summed up is W, W q f/F and B f/F at most, of
-/// which no group has more than 8 lambda k; cross masses, which are not so limited, come in as X + B = W q with an
-/// error of |X| + B <= 2 B + 2.5 W. All in all no more than 120 times the elements' error, and as many of the sums'.
-/// Cost: 6 ns an element.
+/// Restricting pins to such shapes lowers every eigenvalue (Courant, Fischer). With t the largest
+/// eigenvalue of a group between held ends, and x = 1/lambda < 1/t, the pins inside take x^2 C'
+/// (K_i - x M_i)^-1 C from the condensed K - x M. As C' M_i^-1 C <= M and M_i <= t K_i, that is at
+/// most x^2 t/(1 - x t) M: the exact count at lambda is at most the coarse one at lambda - t.
+///
+/// `entry_error` includes the roundings here, relative to lambda k and the entry. With f the
+/// flexibility of an element, q its centroid's position, |q| <= 2, and F of its group, the terms
+/// are at most W, W q f/F and B f/F, each at most 8 lambda k in a group; cross masses enter as X +
+/// B = W q with an error of |X| + B <= 2 B + 2.5 W. In total at most 120 times the errors of
+/// elements and sums. Preconditions: one unit; shifts lambda >= `least`. Cost: 6 ns an element.
 template <std::floating_point T>
 GroupedPencil<T> grouped(const ElementPencil<T>& pencil, const T& least, const T& spread) {
     GroupedPencil<T> result;

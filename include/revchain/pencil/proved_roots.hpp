@@ -13,17 +13,22 @@
 /// Some or all roots of a pencil to the last digit, each with a proof, eight at a time.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A root, and how far it may be from the exact one; infinitely far where that was not proved.
+/// A root and the proved bound of its absolute error; infinite if nothing is proved.
 template <std::floating_point T>
 struct ProvedRoot {
     DoubleWord<T> root;
     T off;
 
-    /// Bound on the error of the root as it is given out, relative to it; `rounded` is that of rounding.
-    T bound(const T& rounded = epsilon<T>() / T(2)) const { return (off / root.high + rounded) * (T(1) + T(0x1p-30)); }
+    /// Relative error bound of the rounded root; `rounded` is the error of rounding.
+    T bound(const T& rounded = epsilon<T>() / T(2)) const {
+        return (off / root.high + rounded) * (T(1) + T(0x1p-30));
+    }
 };
 
-/// Calls f(first, count, scratch) for every eight of `count`, on `Threads::used()` threads.
+template <std::floating_point T>
+using ProvedRoots = std::optional<std::vector<ProvedRoot<T>>>;
+
+/// Calls f(first, count, scratch) for every eight of `count`, on several threads (`parallel_for`).
 template <std::floating_point T, class F>
 void for_eights(std::size_t count, std::size_t links, const F& f) {
     revchain::detail::parallel_for(count, shape_lanes, [&](std::size_t begin, std::size_t end) {
@@ -36,36 +41,35 @@ void for_eights(std::size_t count, std::size_t links, const F& f) {
     });
 }
 
-/// Proves roots that Rayleigh quotients gave, numbers `first`, `first` + 1, ..., descending. At
-/// first `off` is how far a root may be from that of its quotient, and an exact root lies within
-/// `reach` of that; then `off` is what is proved. Exactly as many roots as these lie between
-/// `below` and `above`, so where their intervals are apart each holds one, nearer to its quotient
-/// than the square of `reach` over the room to the next interval (Kato, Temple). Where intervals
-/// meet, counts on either side, `certified(x)`, number the others: false where they cannot.
-/// `worst`: how far a root may be off (relative) to count as proved.
+/// Proves the roots of Rayleigh quotients, numbers `first`, `first` + 1, ..., descending. On entry
+/// `off` is the distance of a root from that of its quotient, and an exact root lies within `reach`
+/// of the latter; on return `off` is proved. Exactly these roots lie between `below` and `above`,
+/// so where intervals are apart each holds one, nearer to its quotient than the square of `reach`
+/// over the room to the next interval (Kato, Temple). Where intervals meet, counts `certified(x)`
+/// on either side number the others; false where they cannot. `worst`: the relative error wanted.
 template <std::floating_point T, class Certified>
 bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first, const T& below, const T& above,
            const T& worst, const Certified& certified) {
     const T infinity = std::numeric_limits<T>::infinity();
     const std::size_t count = roots.size();
-    const auto end = [&](std::size_t j, int side) {  // of the interval that holds root j
+    // the end on one side of the interval that holds root j, with the low word and rounding
+    const auto end = [&](std::size_t j, int side) {
         const T far = (reach[j] + roots[j].off) * (T(1) + T(0x1p-20)), root = roots[j].root.high;
-        return root + T(side) * (far + T(2) * epsilon<T>() * root);  // the low word, and rounding
+        return root + T(side) * (far + T(2) * epsilon<T>() * root);
     };
     if (!(end(0, 1) < above && end(count - 1, -1) > below)) return false;
     struct Gap {           // above the interval of root j
         T width;           // not positive (or NaN) where intervals meet
-        T down_to, up_to;  // of the roots above it, and of those below
+        T down_to, up_to;  // limits of the roots above the gap and of those below
     };
     std::vector<Gap> gap(count + 1, Gap{infinity, above, below});
     for (std::size_t j = 1; j < count; ++j) {
         const T down_to = end(j - 1, -1), up_to = end(j, 1);
         gap[j] = {down_to - up_to, down_to, up_to};
     }
-    // Whether the interval of root j meets that above it.
+    // Whether the interval of root j meets the one above it.
     const auto meets = [&](std::size_t j) { return !(gap[j].width > T(0)); };
-    // Roots that meet need not lie in their intervals: a count has to show that they keep their
-    // side.
+    // Roots that meet need not lie in their intervals: a count has to prove their side of the gap.
     for (std::size_t j = 1; j < count; ++j) {
         if (meets(j) || !(meets(j - 1) || meets(j + 1))) continue;
         const T middle = gap[j].up_to + gap[j].width / T(2);
@@ -84,12 +88,12 @@ bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index
     return true;
 }
 
-/// The roots number `first`, `first` + 1, ... next to `starts`, descending, as `prove` proves them
-/// from what a residual shows around each start. Preconditions as those of `quotients_in_lanes`.
+/// The roots number `first`, `first` + 1, ... next to `starts`, descending, proved by `prove`, with
+/// `reach` from residuals. Preconditions: those of `quotients_in_lanes`.
 template <std::floating_point T, bool Spins, class Certified>
-std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
-                                                       const std::vector<T>& starts, Index first, const T& below,
-                                                       const T& above, const T& worst, const Certified& certified) {
+ProvedRoots<T> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
+                            const std::vector<T>& starts, Index first, const T& below, const T& above,
+                            const T& worst, const Certified& certified) {
     const std::size_t count = starts.size();
     std::vector<ProvedRoot<T>> roots(count);
     std::vector<T> reach(count);
@@ -104,16 +108,15 @@ std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<Doubl
     return roots;
 }
 
-/// Elements for each mode up to the last one asked for, from which on brackets come from groups: a
-/// fifth to a third faster with 32 to 1000, as fast as without with 10.
+/// Elements for each mode up to the last one, from which on brackets come from groups: a fifth to a
+/// third faster with 32 to 1000 elements for each, no faster with 10.
 inline constexpr Index least_for_groups = 32;
 
 namespace detail {
 
-/// Brackets of a few of many heights from groups of elements, each some three per cent wide. None
-/// where groups would be nearly as many as elements, or too few. How large groups may be follows
-/// from the height of the last mode, which the phase integral estimates (WKB: a few per cent for
-/// like links). A bad estimate costs time, and no more: all is proved later.
+/// Brackets of a few of many heights from groups of elements, each about three per cent wide; none
+/// if there would be too many or too few groups. Their size follows from the height of the last
+/// mode, estimated by the phase integral (WKB: a few per cent for like links). All is proved later.
 template <std::floating_point T>
 std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index first, Index count) {
     using std::sqrt;
@@ -126,7 +129,7 @@ std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index
     const GroupedPencil<T> groups = grouped(pencil, height / T(2), T(0.03) * height);
     if (groups.pencil.size() > pencil.size() / 3 || groups.pencil.size() < 2 * last) return {};
     std::vector<Bracket<T>> brackets = bisect(groups.pencil, first, count, T(0.004), height);
-    for (Bracket<T>& bracket : brackets) {  // what rounding changes is a smaller part
+    for (Bracket<T>& bracket : brackets) {  // the factors exceed the rounding errors
         bracket.lower *= T(1) - T(0x1p-20);
         bracket.upper = (bracket.upper + groups.spread) * (T(1) + T(0x1p-20));
     }
@@ -135,26 +138,25 @@ std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index
 
 }  // namespace detail
 
-/// The `count` roots from number `first` on (from 0, descending), of `available`; `counter` has a
-/// `count_above` for `bisect`, `guess` as there; the rest as in `proved_roots`.
+/// Proved roots number `first` ... `first + count - 1` (from 0, descending) of `available`;
+/// `counter` has a `count_above` for `bisect`, `guess` as there, the rest as in `proved_roots`.
 template <std::floating_point T, bool Spins, class Counter, class Certified>
-std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                       const Counter& counter, const Certified& certified, Index first,
-                                                       Index count, Index available, const T& guess, const T& worst,
-                                                       const std::function<void(Index)>& finished) {
+ProvedRoots<T> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil, const Counter& counter,
+                            const Certified& certified, Index first, Index count, Index available,
+                            const T& guess, const T& worst, const std::function<void(Index)>& finished) {
     const bool lumped = is_lumped(pencil);
     std::vector<Bracket<T>> brackets;
     if constexpr (std::is_same_v<Counter, ElementPencil<T>>)
         brackets = detail::brackets_of_groups(counter, first, count);
     if (brackets.empty()) {
-        // With the next root on either side, so that the outermost brackets hold one root, too.
+        // With the next root on either side, so that the outermost brackets hold one root.
         const Index before = std::min<Index>(first, 1), after = std::min<Index>(available - first - count, 1);
         brackets = bisect(counter, first - before, before + count + after, T(1), guess, finished);
         brackets.erase(brackets.begin(), brackets.begin() + before);
         brackets.resize(static_cast<std::size_t>(count));
     }
     const std::vector<T> starts = approached(pencil, lumped, first, std::move(brackets));
-    // Counts next to the ends, where others lie beyond.
+    // Counts next to the ends, where there are other roots beyond.
     const auto end_beside = [&](const T& start, int side, Index expected) -> std::optional<T> {
         for (const T& apart : {T(0x1p-12), T(0x1p-20)}) {
             const T end = start * (T(1) + T(side) * apart);

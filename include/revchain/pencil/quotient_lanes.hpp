@@ -10,20 +10,15 @@
 #include "revchain/pencil/bisection.hpp"
 #include "revchain/pencil/twisted_lanes.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
-/// Roots of several modes at once from Rayleigh quotients of their twisted vectors. A root is a
-/// height or, of a pencil with spins, x.
+/// Roots (heights or, with spins, x) of several modes from Rayleigh quotients of twisted vectors.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Roots and how sure they are.
 template <std::floating_point T>
 struct QuotientsInLanes {
     std::array<T, shape_lanes> start;             ///< given: nearly right
-    std::array<DoubleWord<T>, shape_lanes> root;  ///< where y^T Q(x) y = 0 for the vector y at `start`
-    std::array<T, shape_lanes> reach;             ///< a root is proved to be that near to the exact one of the quotient
-    std::array<T, shape_lanes> blur;              ///< how far `root` may be from the exact one of the quotient
+    std::array<DoubleWord<T>, shape_lanes> root;  ///< y^T Q(x) y = 0, y the vector at `start`
+    std::array<T, shape_lanes> reach;             ///< proved distance of an exact root from it
+    std::array<T, shape_lanes> blur;              ///< error of `root` as the quotient's root
 };
 
 namespace detail {
@@ -48,7 +43,7 @@ template <class Where, class Terms, bool Spins, class T>
     using V = Pack<T, width, L / width>;
     const std::size_t n = pencil.elements.size();
     for (std::size_t j = 0; j < count; ++j) roots[j] = between(brackets[j].lower, brackets[j].upper);
-    // The root in each lane; one that is done makes room for the next, while there is one.
+    // The root in each lane; when one is done, the next takes its lane.
     std::array<std::size_t, L> root;
     std::array<int, L> rounds{};
     std::array<bool, L> busy{};
@@ -80,8 +75,7 @@ template <class Where, class Terms, bool Spins, class T>
             const T quotient = Spins ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
             const bool exceeds = static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
             (exceeds ? bracket.lower : bracket.upper) = at;
-            // A step squares the error, times what depends on the pin of the twist: two at one pin
-            // tell how small the next one would be.
+            // A step squares the error, times a factor of the pin: two at one pin predict the next.
             const T step = abs(quotient - at), shrunk = step / step_before[i];
             const bool same_pin = rounds[i] > 0 && joined.pin[i] == pin_before[i];
             bool done = step <= near * at || (same_pin && step * (shrunk * shrunk) <= next_near * at);
@@ -109,14 +103,13 @@ template <class Where, class Terms, bool Spins, class T>
     const V twist = twisted_in_lanes(terms, pencil, start, s).pin;
     V y{}, hung{}, hung_error{}, square{}, stiffness{}, work{}, work_size{}, work_error{}, turned{};
     V slope{}, slope_size{}, pull{};  // of y^T Q(x) y: d/dx, and the squared norm of d/dx (L y)
-    forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(start, V{}),
+    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(start, V{}),
         [&](std::size_t m) REVCHAIN_INLINED { return y = next_offset(s, m, twist, y); },
         [&](std::size_t m, const V& force, const V& sizes, const V& offset, const V& stretch) REVCHAIN_INLINED {
             const auto& e = pencil.elements[m];
             const V k(e.stiffness.high);
             V error = V(unit) * sizes + V(T(2) * u) * abs(force);
-            if constexpr (!Terms::lumped) {  // the cross mass is as sure as |X| + 2 c, at both pins of a link
+            if constexpr (!Terms::lumped) {  // error of |X| + 2 c, at both pins
                 const V of_link = V(T(2) * unit * e.turning.high) * (abs(offset) + abs(stretch));
                 error += turned + of_link;
                 turned = of_link;
@@ -137,18 +130,16 @@ template <class Where, class Terms, bool Spins, class T>
             work_size += abs(offset * force);
             work_error += abs(offset) * error;
         });
-    // Each sum has lost less than a 2^-20th part of itself, and `work` less than n + 16 roundings
-    // of its terms' sizes.
+    // Each sum has lost less than 2^-20 of itself, `work` less than n + 16 roundings of its terms.
     const T slack = T(1) + T(0x1p-20), terms_added = T(pencil.elements.size() + 16);
     for (std::size_t i = 0; i < L; ++i) {
-        using std::abs;
-        using std::sqrt;
+        using std::abs, std::sqrt;
         const T x = result.start[i], rate = Spins ? slope[i] : stiffness[i], step = work[i] / rate;
         const DoubleWord<T> root = two_sum(x, -step);
         T reach = sqrt(square[i] / stiffness[i]);
         T blur = (work_error[i] + terms_added * u * work_size[i]) / rate + terms_added * u * abs(step);
         if constexpr (Spins) {
-            // From the residual at `start` to that at the root; and what Newton's step leaves.
+            // The residual moves from `start` to the root, and Newton's step leaves an error.
             reach = (reach + abs(step) * sqrt(pull[i] / stiffness[i])) / x;
             blur += step * (step * (stiffness[i] / rate));
             if (!(rate > T(0x1p-20) * slope_size[i] && abs(step) * stiffness[i] < T(0x1p-22) * rate))
@@ -160,10 +151,9 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// From brackets of the roots number `first`, `first` + 1, ... (from 0, descending) to roots of
-/// some eleven digits or more: inverse iteration with Rayleigh quotients, whose counts keep it
-/// within the bracket and narrow that. Cost: 2.5 ns a link and root for each round: three from a
-/// factor of two on, two from three per cent.
+/// Roots to eleven digits or more from brackets of the roots number `first`, `first` + 1, ... (from
+/// 0, descending): inverse iteration with Rayleigh quotients, limited to brackets by its counts.
+/// Cost: 2.5 ns a link, root and round; three rounds from a factor of two, two from three per cent.
 template <std::floating_point T, bool Spins>
 std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, Index first,
                           std::vector<Bracket<T>> brackets) {
@@ -186,9 +176,8 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, boo
     return roots;
 }
 
-/// Better roots from `quotients.start`. NaN or infinite where numbers leave the range of T.
-/// Preconditions as those of `shapes_in_lanes`, and every stiffness is positive and every mass not
-/// negative; `shapes` is scratch. Cost: 6 ns a link and root.
+/// Better roots from `quotients.start`; NaN or infinite where numbers leave the range of T.
+/// Preconditions: as `shapes_in_lanes`, K > 0, no mass negative. Cost: 6 ns a link and root.
 template <std::floating_point T, bool Spins>
 void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, ShapesInLanes<T>& shapes,
                         QuotientsInLanes<T>& quotients) {
@@ -203,5 +192,3 @@ void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool 
 }
 
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

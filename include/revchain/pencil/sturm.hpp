@@ -7,20 +7,16 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// How many shifts one pass over the elements serves. The recursion waits on one division per
-/// element; eight shifts fill that wait: in packs they cost what one costs, 7 ns a link.
+/// Shifts in one pass over the elements. The recursion waits for one division an element; eight
+/// shifts fill that wait: in packs they cost what one costs, 7 ns a link.
 inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
-/// Carries the dynamic stiffness D of everything below a pin up a string of elements, at several
-/// shifts, and counts negative pivots. `Carry` says how, with or without a bound: what it keeps of
-/// a shift, of an element and of D.
+/// Carries the dynamic stiffness D of all below a pin up the elements, at several shifts, and
+/// counts negative pivots. `Carry` is the method, with or without an error bound.
 template <class Carry, class Pencil, class X, std::size_t L>
 [[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil,
                                               const std::array<X, L>& shifts) {
@@ -42,7 +38,7 @@ template <class Carry, class Pencil, class X, std::size_t L>
     return state;
 }
 
-/// D and the negative pivots so far, at one shift or at each of a pack.
+/// D and the number of negative pivots, at one shift or at each of a pack.
 template <class V>
 struct Counted {
     V below{};
@@ -60,7 +56,7 @@ struct Counted {
     }
 };
 
-/// Without a bound. `InUnits`: weights span more than one unit; else loops keep to registers.
+/// Without a bound. `InUnits`: weights are in several units; else loops need only registers.
 template <class Pencil, class V, bool InUnits>
 struct PlainCarry {
     using Shift = Factors<V>;
@@ -86,7 +82,7 @@ struct PlainCarry {
 
 }  // namespace detail
 
-/// For each shift x, the number of negative eigenvalues of Q(x): of a hanging chain the number of
+/// For each shift x the number of negative eigenvalues of Q(x): for a hanging chain that of
 /// eigenvalues above x. Sylvester's law of inertia on the dynamic stiffness D of everything below a
 /// pin, carried up the chain (equation (1) of docs/theory/counts.md):
 ///
@@ -106,7 +102,7 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     if (!pencil.units.empty())
         return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
-        return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, whatever the compiler makes of loops
+        return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, for any compiler
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using V = Pack<T, width, L / width>;
             const detail::PlainCarry<Pencil, V, false> carry{pencil};
@@ -119,8 +115,7 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     }
 }
 
-/// A count with its proof: where `proved`, exactly `above` eigenvalues of the exact pencil exceed
-/// the exact shift.
+/// A count; if `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
 struct CertifiedCount {
     Index above = 0;
     bool proved = false;
@@ -128,7 +123,7 @@ struct CertifiedCount {
 
 namespace detail {
 
-/// D below a pin at one shift, with a bound on its error and the negative pivots so far.
+/// D below a pin at one shift, its error bound, and the negative pivots.
 template <Real S>
 struct BoundedStiffness {
     using M = Narrow<S>;  // magnitudes and errors
@@ -145,14 +140,12 @@ struct BoundedStiffness {
     }
 };
 
-/// Carries D and the bound on its error across elements.
 template <class Pencil>
 class BoundedCarry;
 
-/// Across elements of a hanging chain, whose numbers have small relative errors and no mass or
-/// stiffness of which is negative. The bound follows the exact derivative dD'/dD = ((L + X)/p)^2,
-/// without which it would grow exponentially along the chain. D is carried by whichever of
-/// equations (1) and (2) has the smaller bound.
+/// For elements of a hanging chain: small relative errors, no negative mass or stiffness. The bound
+/// follows the exact derivative dD'/dD = ((L + X)/p)^2, without which it would grow exponentially
+/// along the chain. D is carried by the one of equations (1) and (2) that has the smaller bound.
 template <Real S>
 class BoundedCarry<ElementPencil<S>> {
    public:
@@ -223,11 +216,10 @@ class BoundedCarry<ElementPencil<S>> {
     M stiffness_underflow_;
 };
 
-/// Across elements of any sign, each with a bound on its own errors. As a function of what it is
-/// made of, D' = L - B - (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q
-/// in X, with q = (L + X)/p and 1 - q = (D - A - X)/p; to that come the roundings of numerator, p
-/// and quotient. It proves as much of a hanging chain as the other, but takes 1.4 times as long (in
-/// double 4 times).
+/// For elements of any sign, each with its own error bounds. D' = L - B - (L + X)^2/p has the
+/// slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and 1 - q = (D - A
+/// - X)/p; the roundings of numerator, p and quotient are added. It proves as much of a hanging
+/// chain as the other form, in 1.4 times the time (in double 4 times).
 template <Real S>
 class BoundedCarry<SignedPencil<S>> {
    public:
@@ -281,7 +273,7 @@ class BoundedCarry<SignedPencil<S>> {
 
         const S pivot = abs(p) < S(tiny) ? S(tiny) : p;
         const S next = propagate_in_one_unit(e, L, at.below, e.upper, pivot);
-        if (at.count.proved) {  // else a count is all there is to know
+        if (at.count.proved) {  // else the bound is of no use
             const M C_size = size_of(L + e.cross) + L_error + off.cross;
             const M q = C_size / least;
             const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
@@ -295,10 +287,10 @@ class BoundedCarry<SignedPencil<S>> {
     }
 
    private:
-    static M underflow() { return M(64) * std::numeric_limits<M>::denorm_min(); }  // of an operation
+    static M underflow() { return M(64) * std::numeric_limits<M>::denorm_min(); }
     static M size_of(const S& x) {
         using std::abs;
-        return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // taken from a rounded number
+        return abs(static_cast<M>(x)) * (M(1) + M(4) * epsilon<M>());  // x is rounded
     }
     const SignedPencil<S>& pencil_;
 };
@@ -306,10 +298,9 @@ class BoundedCarry<SignedPencil<S>> {
 }  // namespace detail
 
 /// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on
-/// the error of D, from rounding and from the entries' own error: `proved` when no pivot's sign is
-/// in doubt. S is usually wider than the scalar of the answer. Cost O(N): two shifts in double
-/// words of doubles take 140 ns a link, two in double 20 ns. Derivation: docs/theory/counts.md,
-/// "Proved counts".
+/// the error of D from rounding and from the entries: `proved` if no pivot's sign is in doubt. S is
+/// usually wider than the scalar of the answer. Cost O(N): two shifts take 140 ns a link in double
+/// words, 20 ns in double. Derivation: docs/theory/counts.md, "Proved counts".
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {
@@ -321,5 +312,3 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnE
 }
 
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

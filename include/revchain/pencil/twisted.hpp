@@ -12,13 +12,13 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 
-/// As `if_less` of packs.
+/// Like `if_less` of packs.
 template <Real M, class S>
 S if_less(const M& x, const M& y, const S& a, const S& b) {
     return x < y ? a : b;
 }
 
-/// The one or the other where x < y and where not: of packs both are computed.
+/// one() where x < y, else other(); for packs both are computed.
 template <class M, class F, class G>
 [[gnu::always_inline]] inline auto computed_if_less(const M& x, const M& y, const F& one, const G& other) {
     if constexpr (IsPack<M>)
@@ -27,20 +27,16 @@ template <class M, class F, class G>
         return x < y ? one() : other();
 }
 
-/// Dynamic stiffness carried across an element, the ratio of the offset at the pin where it was
-/// known to that at the other, and one over the pivot.
+/// Dynamic stiffness at the other pin, the offset at this pin over that one's, 1 over the pivot.
 template <class S>
 struct Across {
     S stiffness, ratio, inverse{};
 };
 
-/// Across an element at a number or pack of numbers, from `near` at one pin, by the one of
-/// equations (1) and (2) that rounds less; `near_mass` and `far_mass` are the element's own at the
-/// two pins. `Lumped`: it is a point mass.
-///
-/// The ratio is taken from its difference to 1 where that is small: the slope of a smooth mode is
-/// then not the difference of two rounded offsets. The difference in digits of Ratio: those of the
-/// narrower scalar are enough for offsets that are rounded to it in the end.
+/// Carries stiffness across an element from `near` at one pin, by the one of equations (1) and (2)
+/// that rounds less; `near_mass` and `far_mass` are the element's masses at the two pins. `Lumped`:
+/// the element is a point mass. A ratio near 1 is computed from its difference to 1, a `Ratio`: the
+/// slope of a smooth mode is then not the difference of rounded offsets.
 template <class Ratio, bool Lumped = false, class E, class S, class Mass>
 [[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near, const Mass& near_mass,
                                                const Mass& far_mass) {
@@ -67,75 +63,23 @@ template <class Ratio, bool Lumped = false, class E, class S, class Mass>
         const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass), over = size(inverse);
         const V of_coupling = V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
         const V of_weight = (k + far_size) * (size(near) * over) + e.resisted_size(k, over);
-        result.stiffness = computed_if_less(
-            of_coupling + (k + far_size), of_weight,
+        result.stiffness = computed_if_less(of_coupling + (k + far_size), of_weight,
             [&]() REVCHAIN_INLINED { return propagate_by_coupling(stiffness, far, coupling, inverse); },
             [&]() REVCHAIN_INLINED { return propagate(e, stiffness, near, far, inverse); });
     }
     return result;
 }
 
-/// x in another unit, held where it would leave the range of the scalar: all but rigid.
+/// x in another unit, limited to the range of the scalar: practically rigid.
 template <Real S>
 S rescaled(const S& x, int step) {
-    using std::abs;
-    using std::ldexp;
+    using std::abs, std::ldexp;
     using T = Narrow<S>;
     if (step == 0) return x;
     const S limit(ldexp(T(1), std::numeric_limits<T>::max_exponent / 2));
     if (step > 0 && abs(x) > ldexp(limit, -step)) return x < S(T(0)) ? -limit : limit;
     return ldexp(x, step);
 }
-
-}  // namespace detail
-
-/// Where a mode crosses the axis: in `element`, at `share` of its length from its lower pin.
-template <Real T>
-struct Crossing {
-    Index element{};
-    T share{};
-};
-
-/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest is 1 in size, the
-/// free end positive. Crossings and the free end's sign are those of the exact ratios of
-/// neighbours: they outlast offsets that underflow.
-template <Real T>
-struct Eigenvector {
-    Vector<T> offset;
-    std::vector<Crossing<T>> crossings;  ///< lowest first, the held pin left out
-};
-
-/// Normalises the offsets that a dense solver gives.
-template <Real T>
-Eigenvector<T> normalised(Vector<T> offset) {
-    using std::abs;
-    Eigenvector<T> result;
-    T largest(0), side(0), sign(0);  // side: the offset last seen off the axis; sign: the first
-    for (Index m = 0; m < offset.size(); ++m) {
-        const T y = offset[m];
-        if (abs(y) > largest) largest = abs(y);
-        if (y == T(0)) continue;
-        if (sign == T(0)) sign = y;
-        if (m + 1 < offset.size() && side != T(0) && (y < T(0)) != (side < T(0)))
-            result.crossings.push_back({m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
-        side = y;
-    }
-    if (sign < T(0)) largest = -largest;
-    for (T& y : offset) y = y / largest + T(0);  // no -0
-    result.offset = std::move(offset);
-    return result;
-}
-
-/// An eigenvector before it is rounded to the narrower scalar: divide the offsets by `largest`,
-/// whose sign makes the free end positive.
-template <Real S>
-struct UnroundedEigenvector {
-    std::vector<S> offset;
-    S largest;
-    std::vector<Crossing<Narrow<S>>> crossings;
-};
-
-namespace detail {
 
 /// Offsets of pins 0 ... n from a twisted factorisation, 1 at `pin`. Below it each is `down` times
 /// that of the pin above, and above it `up` times that of the pin below.
@@ -145,14 +89,12 @@ struct Twisted {
     Narrow<S> pin;
 };
 
-/// Offsets of pins 0 ... n of a string of n elements, the last pin held, by twisted factorisation:
-/// dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from above,
-/// going down; they balance best (|D + E| least) where the mode is largest, and from there the
-/// offsets follow outwards by ratios without cancellation. `rise(m, D)` returns D above element m
-/// and the ratio of its lower offset to the upper; `sink(m, E)` E below it and the inverse ratio.
-/// Both bring what they are given into the unit of element m. `forces(m)` returns the size of what
-/// meets at the lower pin of element m; `footing` is D at the lowest pin. S is a number, or a pack
-/// of numbers or double words with a mode in each lane.
+/// Offsets of pins 0 ... n of n elements, the last pin held, by twisted factorisation: dynamic
+/// stiffness D of all below each pin, going up, and E of all above, going down. |D + E| is least
+/// where the mode is largest; from there offsets follow outwards by ratios. `rise(m, D)` returns D
+/// above element m and the ratio of its lower offset to the upper; `sink(m, E)` E below it and the
+/// inverse ratio. Both convert to the unit of element m. `forces(m)` returns the size of the terms
+/// at the lower pin of element m; `footing` is D at the lowest pin. S may be a pack.
 template <class S, class Rise, class Sink, class Forces>
 [[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
                                                  const Forces& forces, const S& footing = S{}) {
@@ -173,8 +115,8 @@ template <class S, class Rise, class Sink, class Forces>
     for (std::size_t m = n; m-- > 0;) {
         const Across<S> across = sink(m, above);
         above = across.stiffness, up[m] = across.ratio;
-        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy
-        // one that sets the mode, and the ratios between them cancel.
+        // Relative to the forces at the pin: else a light pin that moves far is chosen instead of
+        // the heavy one that determines the mode, and the ratios between them cancel.
         const V balance = abs(static_cast<V>(offset[m] + above)) / forces(m);
         pin = if_less(balance, least, number(m), pin);
         least = if_less(balance, least, balance, least);
@@ -185,16 +127,81 @@ template <class S, class Rise, class Sink, class Forces>
     return result;
 }
 
+/// Returns a function (element, pin) for offsets in one unit for all elements, the largest about 1.
+/// `share`: 1 for forces (offsets times weights), 2 for energies (squares of offsets).
+template <Real S, bool Spins, bool OwnErrors, class Offsets>
+auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
+    using std::frexp, std::ldexp;
+    const auto* const at = offset.data();
+    using T = std::decay_t<decltype(*at)>;
+    std::optional<int> largest;
+    for (std::size_t m = 0; m < pencil.units.size(); ++m)
+        for (const T& y : {at[m], at[m + 1]}) {
+            if (y == T(0)) continue;
+            int exponent = 0;
+            frexp(y, &exponent);
+            largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
+        }
+    return [&pencil, at, share, unit = largest.value_or(0)](std::size_t element, std::size_t pin) {
+        const T y = pencil.units.empty() ? at[pin] : T(ldexp(at[pin], pencil.units[element] / share - unit));
+        return S(static_cast<std::conditional_t<std::is_same_v<S, T>, S, Narrow<S>>>(y));
+    };
+}
+
 }  // namespace detail
 
-/// Eigenvector of the pencil at an eigenvalue, by `detail::twisted`. The plain upward recurrence
-/// loses 3e-11 near the support at N = 1e5. Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028,
-/// carried over to elements. Cost: two passes, three numbers of S per link of scratch. Accuracy, of
-/// the largest offset, measured: with S a double word 3.5e-16 for all modes up to N = 1000 and
-/// 6e-17 for the slowest at N = 1e5 (tests/cpp/pencil/twisted.cpp); with S = double 1.5e-15 / gap
-/// up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
-/// eigenvalue. An error e in `eigenvalue` adds e / gap. Ratio: what the ratios of neighbours are
-/// kept in. With S itself the slopes, too, are good to the digits of S.
+/// Where a mode crosses the axis: in `element`, at `share` of its length from its lower pin.
+template <Real T>
+struct Crossing {
+    Index element{};
+    T share{};
+};
+
+/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest has size 1, the free
+/// end is positive. Crossings and signs are right even where offsets underflow.
+template <Real T>
+struct Eigenvector {
+    Vector<T> offset;
+    std::vector<Crossing<T>> crossings;  ///< lowest first, the held pin left out
+};
+
+/// Normalises the offsets that a dense solver gives.
+template <Real T>
+Eigenvector<T> normalised(Vector<T> offset) {
+    using std::abs;
+    Eigenvector<T> result;
+    T largest(0), side(0), sign(0);  // side: the last offset that is not 0; sign: the first
+    for (Index m = 0; m < offset.size(); ++m) {
+        const T y = offset[m];
+        if (abs(y) > largest) largest = abs(y);
+        if (y == T(0)) continue;
+        if (sign == T(0)) sign = y;
+        if (m + 1 < offset.size() && side != T(0) && (y < T(0)) != (side < T(0)))
+            result.crossings.push_back({m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
+        side = y;
+    }
+    if (sign < T(0)) largest = -largest;
+    for (T& y : offset) y = y / largest + T(0);  // no -0
+    result.offset = std::move(offset);
+    return result;
+}
+
+/// An eigenvector before rounding: offsets over `largest` have a positive free end.
+template <Real S>
+struct UnroundedEigenvector {
+    std::vector<S> offset;
+    S largest;
+    std::vector<Crossing<Narrow<S>>> crossings;
+};
+
+/// Eigenvector of the pencil at an eigenvalue, by `detail::twisted`. (The plain upward recurrence
+/// loses 3e-11 near the support at N = 1e5.) Dhillon, Parlett (2004),
+/// doi:10.1016/j.laa.2003.12.028, applied to elements. Cost: two passes, three numbers of S per
+/// link of scratch. Accuracy, relative to the largest offset, measured: with S a double word
+/// 3.5e-16 for all modes up to N = 1000 and 6e-17 for the slowest at N = 1e5
+/// (tests/cpp/pencil/twisted.cpp); with S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5,
+/// gap (at most 1) the relative distance to the next eigenvalue. An error e in `eigenvalue` adds e
+/// / gap. `Ratio`: scalar of ratios of neighbours; with S slopes are as accurate.
 template <class Ratio, Real S, bool Spins, bool OwnErrors>
 UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
     using std::abs;
@@ -209,7 +216,7 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     const auto sink = [&](std::size_t m, S& above) {
         const auto& e = elements[m];
         const S stiffness = e.stiffness_at(x);
-        if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // infinitely stiff above
+        if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // rigid
         above = detail::rescaled(above, -pencil.step_down(m + 1));
         return detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
     };
@@ -238,8 +245,7 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     return result;
 }
 
-/// Offsets of pins 0 ... N in the digits of S, the held pin last (0); the largest is 1 in size, the
-/// free end positive.
+/// Offsets of pins 0 ... N in S, held pin last; the largest has size 1, the free end is positive.
 template <Real S, bool Spins, bool OwnErrors>
 std::vector<S> twisted_vector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
     auto [offset, largest, crossings] = unrounded_eigenvector<S>(pencil, root);
@@ -247,7 +253,7 @@ std::vector<S> twisted_vector(const ElementPencil<S, Spins, OwnErrors>& pencil, 
     return std::move(offset);
 }
 
-/// Returns the eigenvector, rounded to the narrower scalar.
+/// The eigenvector, rounded to the narrower scalar.
 template <Real S>
 Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
     using T = Narrow<S>;
@@ -258,33 +264,6 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     return result;
 }
 
-namespace detail {
-
-/// A function (element, pin) that returns offsets brought to one unit for all elements where their
-/// own differ: forces are as offsets times weights (`share` 1), energies as squares of offsets
-/// times weights (`share` 2). The largest is then of the order of 1.
-template <Real S, bool Spins, bool OwnErrors, class Offsets>
-auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
-    using std::frexp;
-    using std::ldexp;
-    const auto* const at = offset.data();
-    using T = std::decay_t<decltype(*at)>;
-    std::optional<int> largest;
-    for (std::size_t m = 0; m < pencil.units.size(); ++m)
-        for (const T& y : {at[m], at[m + 1]}) {
-            if (y == T(0)) continue;
-            int exponent = 0;
-            frexp(y, &exponent);
-            largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
-        }
-    return [&pencil, at, share, unit = largest.value_or(0)](std::size_t element, std::size_t pin) {
-        const T y = pencil.units.empty() ? at[pin] : T(ldexp(at[pin], pencil.units[element] / share - unit));
-        return S(static_cast<std::conditional_t<std::is_same_v<S, T>, S, Narrow<S>>>(y));
-    };
-}
-
-}  // namespace detail
-
 /// y^T M y of one element, from the offsets of its pins.
 template <class E, Real S>
 S mass_form(const E& e, const S& lower, const S& upper) {
@@ -292,11 +271,10 @@ S mass_form(const E& e, const S& lower, const S& upper) {
     return lower * (e.lower * lower + (cross + cross)) + e.upper * upper * upper;
 }
 
-/// The root x of y^T Q(x) y = 0 in S, element by element, from offsets that may be in a narrower
-/// scalar: its error is the square of theirs, so that offsets good to 1e-13 give a root good to
-/// 1e-25. Of a hanging chain without spins it is y^T M y / y^T K y, both sums of positive terms;
-/// where the family is quadratic it is that next to `near`, by Newton's method. Preconditions:
-/// offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
+/// The root x of y^T Q(x) y = 0 in S, from offsets of pins 0 ... N, not all 0, that may be in a
+/// narrower scalar: its error is the square of theirs (offsets good to 1e-13 give a root good to
+/// 1e-25). For a hanging chain without spins it is y^T M y / y^T K y, two sums of positive terms;
+/// for a quadratic family the root next to `near`, by Newton's method. Cost: one pass, no division.
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
 S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, const S& near = {}) {
     const auto offsets = detail::in_one_unit(pencil, offset, 2);
@@ -320,10 +298,9 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
     return x;
 }
 
-/// Backward error of a root and offsets: the largest force left unbalanced at a pin over the
-/// largest sum of the sizes of the terms that meet at a pin, max |Q(x) y| / max (|L| |y| + |M|
-/// |y|). Evaluated in S, so that what is reported is the error of the offsets and not of the
-/// evaluation. Cost: one pass.
+/// Backward error of a root and offsets: the largest residual force over the largest sum of the
+/// sizes of the terms at a pin, max |Q(x) y| / max (|L| |y| + |M| |y|). Evaluated in S, so that it
+/// is the error of the offsets and not of the evaluation. Cost: one pass.
 template <Real S, bool Spins, bool OwnErrors, Real X, Real T>
 T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& root, const Vector<T>& offset) {
     using std::abs;
@@ -332,7 +309,7 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
     const auto offsets = detail::in_one_unit(pencil, offset, 1);
     const Factors<S> x = pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
     M largest(0), worst(0), size(0);
-    S force(M(0));  // from the link below
+    S force(M(0));  // of the link below
     const auto pass = [&](const auto& e, const S& lower, const S& upper, bool is_ground) {
         S spring = x.stiffness * e.stiffness;
         M stiffness_size = size_of(spring);

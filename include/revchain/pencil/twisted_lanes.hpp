@@ -8,18 +8,14 @@
 #include "revchain/pencil/forces_in_lanes.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
-/// Eigenvectors of several modes at once: twisted factorizations in plain arithmetic, one mode a
-/// lane, and one correction from forces left over that are evaluated in twice the digits.
+/// Eigenvectors of several modes at once: twisted factorisations in plain arithmetic, one mode a
+/// lane, and one correction from residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 /// How many modes are found at once.
 inline constexpr std::size_t shape_lanes = revchain::detail::lanes_at_once;
 
-/// Heights, or with spins x, of some modes: as exact as they are known, and those that belong to
-/// what is given out.
+/// Heights or, with spins, x of some modes, exact and rounded.
 template <std::floating_point T>
 struct RootsInLanes {
     std::array<DoubleWord<T>, shape_lanes> exact, rounded;
@@ -29,20 +25,19 @@ struct RootsInLanes {
 template <std::floating_point T>
 struct ShapesInLanes {
     static constexpr T least_offset{1e-290};
-    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest of each lane is 1
-    std::array<T, shape_lanes> residual;         ///< as `relative_residual` of the rounded root and offsets
-    std::array<bool, shape_lanes> found;         ///< whether the correction was small enough to be all there is
-    std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours are to be seen from ratios alone
-    std::array<std::size_t, shape_lanes> twist;  ///< below this pin ratios go down, from it on up
-    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of the offsets of neighbours
+    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest is 1
+    std::array<T, shape_lanes> residual;         ///< `relative_residual` as rounded
+    std::array<bool, shape_lanes> found;         ///< the correction was small
+    std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours need the ratios
+    std::array<std::size_t, shape_lanes> twist;  ///< below this pin `down` is used, from it on `up`
+    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of neighbours
     std::vector<T> below, above, rest, change;   ///< scratch
 
     void make_room(std::size_t links) {
         offset.resize((links + 1) * shape_lanes);
         for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
     }
-    /// The first `pins` numbers of the first `count` lanes, as rows that are `stride` numbers
-    /// apart.
+    /// Stores the first `pins` numbers of the first `count` lanes as rows `stride` numbers apart.
     void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
         constexpr std::size_t tile = 8;
         std::size_t m = 0;
@@ -53,13 +48,12 @@ struct ShapesInLanes {
         for (; m < pins; ++m)
             for (std::size_t i = 0; i < count; ++i) rows[i * stride + m] = offset[m * shape_lanes + i];
     }
-    /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held
-    /// pin left out.
+    /// Crossings of the mode in `lane` with offsets `row`, lowest first, without the held pin.
     std::vector<Crossing<T>> crossings(std::size_t lane, const T* row) const {
         const std::size_t n = down.size() / shape_lanes;
         std::vector<Crossing<T>> crossed(n);
         std::size_t count = 0;
-        for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches: nobody can foresee them
+        for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches, which would be unpredictable
             crossed[count].element = static_cast<Index>(m);
             count += (row[m] < T(0)) != (row[m + 1] < T(0)) ? 1 : 0;
         }
@@ -89,11 +83,10 @@ struct ShapesInLanes {
     }
 };
 
-/// Links whose scratch is kept from call to call, at most: 2.6 MB.
+/// The largest number of links whose scratch is reused from call to call: 2.6 MB.
 inline constexpr std::size_t most_kept_links = 4096;
 
-/// f(scratch for so many links). The scratch is kept for the next call on the same thread: to give
-/// it back each time costs more than what is computed in it.
+/// Calls f with scratch, reused on the same thread: allocating costs more than computing.
 template <std::floating_point T, class F>
 void with_shapes_in_lanes(std::size_t links, const F& f) {
     static thread_local ShapesInLanes<T> kept;
@@ -107,12 +100,12 @@ void with_shapes_in_lanes(std::size_t links, const F& f) {
 
 namespace detail {
 
-/// Vectors at some x in plain arithmetic, 1 at the pin where upper and lower part balance best:
-/// offsets below it are in `s.offset`, those above follow from `s.up`.
+/// Vectors at some x in plain arithmetic, 1 at the pin where the lower and the upper part balance
+/// best: offsets below it are in `s.offset`, those above follow from `s.up`.
 template <class V>
 struct TwistInLanes {
-    V pin, side;  ///< and on which side of the axis the free end is
-    V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
+    V pin, side;  ///< and the side of the axis on which the free end is
+    V above;      ///< the number of eigenvalues above x, by rounded arithmetic
 };
 template <class Terms, bool Spins, class V, class T>
 [[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
@@ -122,8 +115,7 @@ template <class Terms, bool Spins, class V, class T>
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what
-    // holds it from above. The two take turns: each waits for its divisions.
+    // Stiffness below each pin, upwards, and above it, downwards; they fill each other's waits.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);
@@ -158,7 +150,7 @@ template <class Terms, bool Spins, class V, class T>
         from_link = k + V(e.upper);
     }
     // Offsets, 1 at the twist, outwards by ratios.
-    V y = one, side = one;  // of the axis: signs outlast offsets that underflow
+    V y = one, side = one;  // sides of the axis are known even where offsets underflow
     for (std::size_t m = n; m-- > 0;) {
         const V at_pin(static_cast<T>(m)), ratio = V::load(&s.down[m * L]);
         y = if_less(at_pin, twist, ratio * y, one);
@@ -169,8 +161,7 @@ template <class Terms, bool Spins, class V, class T>
     return {twist, side, negative};
 }
 
-/// Offset of pin m from those of `twisted_in_lanes`, called for one pin after the other; `last`:
-/// what it returned last.
+/// The offset of pin m from `twisted_in_lanes`, for one pin after the other; `last`: that of m - 1.
 template <class V, class T>
 [[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist, const V& last) {
     V offset = V::load(&s.offset[m * shape_lanes]);
@@ -199,8 +190,7 @@ template <class Where, class Terms, bool Spins, class T>
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
-    forces_left<fused, false, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
+    forces_left<fused, false, V>(terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -235,7 +225,7 @@ template <class Where, class Terms, bool Spins, class T>
         most = max(most, abs(change));
         smallest = min(smallest, abs(offset));
     }
-    // Scaled by one over the largest, in twice the digits; the free end positive.
+    // Scaled by 1 over the largest, in twice the digits; the free end positive.
     const DoubleWord<V> whole = fast_two_sum(largest, largest_low);
     V scale = one / whole.high;
     const DoubleWord<V> unit = two_product<fused>(whole.high, scale);
@@ -256,8 +246,7 @@ template <class Where, class Terms, bool Spins, class T>
     }
     if (!residuals) return;
     V worst{}, meeting{};
-    forces_left<fused, true, V>(
-        terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
+    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
         [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
@@ -269,10 +258,9 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// Shapes of the pencil at some roots, which the last one fills up, and if asked for their
-/// residuals. Accuracy as `eigenvector` of a pencil in double words; `found` is false in a lane
-/// where the correction is not small, which `eigenvector` can still do. Precondition: the pencil is
-/// in one unit. Cost: 5 ns a link and mode (AVX-512), residuals 2.
+/// Shapes at some roots, and if asked residuals. Accuracy as `eigenvector` in double words; `found`
+/// is false where the correction is not small; `eigenvector` can still do those. Precondition: the
+/// pencil is in one unit. Cost: 5 ns a link and mode (AVX-512), residuals 2.
 template <std::floating_point T, bool Spins>
 void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, const RootsInLanes<T>& roots,
                      bool residuals, ShapesInLanes<T>& shapes) {
@@ -286,5 +274,3 @@ void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lum
 }
 
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

@@ -9,7 +9,7 @@
 
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/linear/rig_roots.hpp"
-#include "revchain/linear/rig_shapes.hpp"
+#include "revchain/linear/rig_shape.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/rig_modes.hpp"

@@ -4,8 +4,8 @@
 #include "revchain/numeric/interval.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// Intervals side by side: one in each lane of two packs. As those of numbers (numeric/interval.hpp), without a branch
-/// that depends on them; where nothing is known in a lane, its ends are NaN.
+/// Intervals side by side, one in each lane of two packs: like those of numbers
+/// (numeric/interval.hpp), without branches. In a lane where nothing is known the ends are NaN.
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
@@ -41,8 +41,8 @@ template <IsPack V>
 }
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator*(const Interval<V>& x, const Interval<V>& y) {
-    const V a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high,
-            open = detail::unknown((a + b) + (c + d));
+    const V a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high;
+    const V open = detail::unknown((a + b) + (c + d));
     return {detail::down(min(min(a, b), min(c, d)) + open), detail::up(max(max(a, b), max(c, d)) + open)};
 }
 /// NaN unless y is positive.

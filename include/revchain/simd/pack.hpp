@@ -12,20 +12,18 @@
 #include "revchain/simd/registers.hpp"
 
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // what concerns packs handed to functions: they never are, see below
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs are never passed to functions: see below
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// How many numbers a pack holds unless told otherwise, on every machine: four doubles fill one register of AVX2, two
-/// of SSE2.
+/// Numbers in a pack by default: four doubles fill one register of AVX2, two of SSE2.
 inline constexpr std::size_t pack_size = 4;
 
-/// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers; an array of numbers where the
-/// compiler has no vector types. What happens to one number is the same whatever the others are: choices are masks.
-///
-/// How a function takes or returns one depends on the processor compiled for: every function that does so by value is
-/// always_inline, so that none is called across that border. No memcpy: GCC 12 copies by 16 bytes whatever the
-/// registers, and the store forwarding that then fails costs a factor of four.
+/// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers, or in an
+/// array where the compiler has no vector types. No lane depends on others: choices are masks. How
+/// packs are passed by value depends on the processor compiled for: every function that does so is
+/// always_inline, so that none is called between different ones. No memcpy: GCC 12 copies by 16
+/// bytes whatever the registers, and the failed store forwarding costs a factor of four.
 template <std::floating_point T, std::size_t Width = pack_size, std::size_t Count = 1>
 struct Pack {
     using Integer = detail::IntegerLike<T>;
@@ -40,7 +38,7 @@ struct Pack {
 
     Register part[count]{};
 
-    /// A whole number for each number of a pack. As an answer: all bits set (yes) or none.
+    /// An integer for each number of a pack. As an answer: all bits set (yes) or none.
     struct Mask {
         Integers part[count]{};
 
@@ -65,7 +63,6 @@ struct Pack {
             set(0, a), set(1, b), set(2, c), set(3, d);
     }
 
-    /// From and to `size` numbers in memory.
     [[gnu::always_inline]] static Pack load(const T* from) {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { r = reinterpret_cast<const typename RegisterOf::InMemory*>(from)[i]; });
@@ -75,7 +72,7 @@ struct Pack {
                  REVCHAIN_INLINED { reinterpret_cast<typename RegisterOf::InMemory*>(to)[i] = part[i]; });
     }
 
-    /// The numbers themselves, kept from being fused: `detail::rounded`.
+    /// The numbers themselves, not fused with other operations: `detail::rounded`.
     [[gnu::always_inline]] Pack rounded() const {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::copy_unfused(r, part[i]); });
     }
@@ -114,7 +111,7 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
-    // These add bits as well as numbers. They wrap, which whole numbers with a sign must not.
+    // These add bits as well as integers. They wrap, which signed integers must not.
     [[gnu::always_inline]] friend Mask operator+(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
                               REVCHAIN_INLINED { r = Integers(Naturals(x.part[i]) + Naturals(y.part[i])); });
@@ -139,7 +136,7 @@ struct Pack {
         return each<Mask>([&](auto& r, std::size_t i)
                               REVCHAIN_INLINED { RegisterOf::greater(r, x.part[i], y.part[i]); });
     }
-    /// Whether some answer is yes; of whole numbers, whether one is negative.
+    /// Whether some answer is yes or, of integers, whether one is negative.
     [[gnu::always_inline]] friend bool any(const Mask& x) {
         Integers together = x.part[0];
         each<Mask>([&](auto&, std::size_t i) REVCHAIN_INLINED { together |= x.part[i]; });
@@ -148,11 +145,10 @@ struct Pack {
         return found < 0;
     }
 
-    /// a where the answer is yes, else b.
     [[gnu::always_inline]] friend Pack select(const Mask& yes, const Pack& a, const Pack& b) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = yes.part[i] ? a.part[i] : b.part[i]; });
     }
-    /// a where x < y, else b (where one is NaN, too).
+    /// a where x < y, else b (also for a NaN).
     [[gnu::always_inline]] friend Pack if_less(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { RegisterOf::if_less(r, x.part[i], y.part[i], a.part[i], b.part[i]); });
@@ -163,7 +159,7 @@ struct Pack {
     [[gnu::always_inline]] friend Pack max(const Pack& x, const Pack& y) { return if_less(y, x, x, y); }
     [[gnu::always_inline]] friend Pack min(const Pack& x, const Pack& y) { return if_less(x, y, x, y); }
 
-    /// x y - p with one rounding; only where the processor has that.
+    /// x y - p with one rounding; only where the processor supports it.
     [[gnu::always_inline]] friend Pack multiply_subtract(const Pack& x, const Pack& y, const Pack& p) {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { RegisterOf::multiply_subtract(r, x.part[i], y.part[i], p.part[i]); });
@@ -176,8 +172,8 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Register, REVCHAIN_BITS_AS(Integers, x.part[i]) & std::numeric_limits<Integer>::max());
         });
     }
-    /// The nearest number with the leading half of the digits; the rest has no more digits than that. Adding to the
-    /// bits carries into the exponent, as rounding up to a power of two needs.
+    /// The nearest number with the leading half of the digits; the rest has no more digits than
+    /// that. Adding to the bits carries into the exponent, as rounding up to a power of two needs.
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
@@ -185,18 +181,18 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Register, half_up & (Naturals{} + (~Natural(0) << cut)));
         });
     }
-    /// 1 where the signs differ (a zero has one), else 0.
+    /// 1 where the signs differ (zeros have signs), else 0.
     [[gnu::always_inline]] friend Mask differ_in_sign(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             const auto differ = REVCHAIN_BITS_AS(Naturals, x.part[i]) ^ REVCHAIN_BITS_AS(Naturals, y.part[i]);
             r = REVCHAIN_BITS_AS(Integers, differ >> (8 * sizeof(T) - 1));
         });
     }
-    /// The bits as a whole number: positive numbers are in the same order.
+    /// The bits as an integer, which has the same order for positive numbers.
     [[gnu::always_inline]] friend Mask bits(const Pack& x) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = REVCHAIN_BITS_AS(Integers, x.part[i]); });
     }
-    /// e and 2^-e, both exact, for 2^e <= x < 2^(e+1). Precondition: x is positive and normal, and so is 2^-e.
+    /// e and 2^-e, both exact, for 2^e <= x < 2^(e+1). Precondition: x > 0 and 2^-e are normal.
     [[gnu::always_inline]] friend Mask exponent(const Pack& x) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(Integers, REVCHAIN_BITS_AS(Naturals, x.part[i]) >> fraction_bits) - bias;
@@ -208,8 +204,7 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Register, ((2 * bias) << fraction_bits) - power);
         });
     }
-    /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x is normal, or
-    /// 0.
+    /// 1/sqrt(x) within 4 per cent, by halving the exponent. Precondition: x is normal, or 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(Register, 0x5fe6eb50c7b537a9ULL - (REVCHAIN_BITS_AS(Naturals, x.part[i]) >> 1));
@@ -220,7 +215,7 @@ struct Pack {
     static constexpr int fraction_bits = std::numeric_limits<T>::digits - 1;
     static constexpr Integer bias = std::numeric_limits<T>::max_exponent - 1;
 
-    /// f for every register of a result: a loop that is none, also where compilers leave loops alone (GCC at -O2).
+    /// Calls f for every register of a result, unrolled even where compilers do not (GCC at -O2).
     template <class Result = Pack, class F>
     [[gnu::always_inline]] static Result each(const F& f) {
         Result r;

@@ -14,16 +14,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Whole numbers as large as T.
 template <class T>
 using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
-// What a pack consists of: `width` numbers that the operators act on one by one, and what those do not offer. No
-// function returns a vector: GCC warns that how it does so depends on the processor.
+// Registers of `width` numbers and the operations that vector types do not offer. No function
+// returns a vector: GCC warns that how it does so depends on the processor.
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
 
-// GCC 12 compiles a comparison of 64 bytes, and a fused operation, to one instruction for each number. The built-in
-// functions below are one instruction for the whole register.
+// GCC 12 compiles a comparison of 64 bytes, and a fused operation, to one instruction for each
+// number. The built-in functions below are one instruction for the whole register.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #if defined(REVCHAIN_SEVERAL_TARGETS) || defined(__FMA__)
 #define REVCHAIN_FUSED_INSTRUCTIONS
@@ -41,8 +40,8 @@ template <class T, std::size_t Width>
 struct RegisterOf {
     static constexpr std::size_t width = Width;
     // NOLINTBEGIN(modernize-use-using)
-    // GCC 12 aligns those of template parameters to 16 bytes unless told, and then takes them for aligned to their
-    // size.
+    // GCC 12 aligns those of template parameters to 16 bytes unless told otherwise, and then
+    // assumes their natural alignment.
     typedef T Numbers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     using Integer = IntegerLike<T>;
@@ -61,7 +60,7 @@ struct RegisterOf {
 #if defined(__clang__)
         to = x - Numbers{};
 #else
-        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; of anything else GCC 12 makes several
+        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction in GCC 12
 #endif
     }
     /// `detail::unfused`
@@ -75,7 +74,6 @@ struct RegisterOf {
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    /// x y - p with one rounding, on processors that have it.
     [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x, const Numbers& y,
                                                          const Numbers& p) {
 #if defined(REVCHAIN_FUSED_INSTRUCTIONS)
@@ -131,7 +129,6 @@ struct RegisterOf {
 #endif
             to = x > y;
     }
-    /// a where x < y, else b.
     [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y, const Numbers& a,
                                                const Numbers& b) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)

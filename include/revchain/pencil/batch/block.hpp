@@ -9,27 +9,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Chains in one block; each kind of processor takes them in registers of its own width.
+/// Chains in one block; each kind of processor uses registers of its own width.
 inline constexpr std::ptrdiff_t block_lanes = 16;
 
-/// Raw numbers of `block_lanes` chains of `size` links, lowest first: number m of lane i stands at m * block_lanes + i.
+/// Numbers of `block_lanes` chains of `size` links, lowest first: [m * block_lanes + lane].
 struct LaneBlock {
     std::ptrdiff_t size = 0;
     const double* weight = nullptr;
     const double* length = nullptr;
-    const double* centroid = nullptr;  ///< absent: plummets, the mass at the lower pin
-    const double* turning = nullptr;   ///< radius of gyration, or pendulum length, of each link
+    const double* centroid = nullptr;  ///< null for plummets, with the mass at the lower pin
+    const double* turning = nullptr;   ///< radius of gyration, or pendulum length
     bool turning_is_radius = false;
 };
 
-/// A shape of given mu as far as it has been carried, from one end of the chain: offset of the pin reached, force in
-/// the link that leads on, and the sums y^T M y and y^T K y over the links passed.
+/// A shape of given mu, carried from one end of the chain: the offset of the pin reached, the force
+/// in the link ahead, and the sums y^T M y and y^T K y over the links passed.
 template <class V>
 struct LaneShape {
-    V offset, force, inertia, stiffness;
-    V earlier_inertia, earlier_stiffness;  // sums of sums: fewer roundings
-    [[gnu::always_inline]] LaneShape(double y, double f)
-        : offset(y), force(f), inertia(0.0), stiffness(0.0), earlier_inertia(0.0), earlier_stiffness(0.0) {}
+    V offset, force, inertia{}, stiffness{};
+    V earlier_inertia{}, earlier_stiffness{};  // sums of sums: fewer roundings
 };
 
 /// p(x), p'(x), p''(x)/2.
@@ -40,8 +38,7 @@ struct LaneTaylor {
 
 namespace detail {
 
-/// Powers of two that bring the total weight and the largest length near 1: exact, and what makes results the same
-/// whatever the units. `ordinary` where weights and lengths lie so close together that no product leaves the range.
+/// Powers of two that bring total weight and largest length near 1. `ordinary`: no overflow.
 template <class V>
 struct LaneUnits {
     V per_weight, per_length;
@@ -69,18 +66,18 @@ struct LaneUnits {
     }
 };
 
-/// What is kept of the links of the chains in one register's lanes: `Stored` numbers a link, in units near 1.
+/// `Stored` numbers for each link of the chains in one register's lanes, in units near 1.
 template <class V, std::ptrdiff_t Stored>
 class LaneNumbers {
    public:
-    static constexpr std::ptrdiff_t stored = Stored;
+    static constexpr std::ptrdiff_t stored = Stored, max_polynomial = 16;
 
     std::ptrdiff_t size() const { return size_; }
     [[gnu::always_inline]] V per_length() const { return units_.per_length; }
     [[gnu::always_inline]] typename V::Mask ordinary() const { return units_.ordinary; }
 
    protected:
-    /// For lanes lane, lane + 1, ... of the block; `work` holds size * stored * block_lanes numbers.
+    /// For lanes lane, lane + 1, ... of the block; `work` has size * stored * block_lanes numbers.
     [[gnu::always_inline]] LaneNumbers(const LaneBlock& block, std::ptrdiff_t lane, double* work)
         : size_(block.size), work_(work + lane), units_(block, lane) {}
 
@@ -98,7 +95,7 @@ class LaneNumbers {
     LaneUnits<V> units_;
 };
 
-/// Recurrences are brought back near 1 after every so many links, so that they can neither overflow nor underflow.
+/// Links after which recurrences are scaled near 1, so that they cannot leave the range.
 inline constexpr std::ptrdiff_t rescaled_every = 8;
 
 [[gnu::always_inline]] inline bool rescaled_after(std::ptrdiff_t m) { return m % rescaled_every == rescaled_every - 1; }
@@ -124,7 +121,7 @@ template <class V>
     s.earlier_stiffness = s.earlier_stiffness * (scale * scale);
 }
 
-/// After link m: sums of four links are put away, and the numbers brought near 1.
+/// After link m: sums of four links are added up, and the numbers brought near 1.
 template <class V>
 [[gnu::always_inline]] inline void tidy(std::ptrdiff_t m, LaneShape<V>& s) {
     if (m % 4 != 3) return;

@@ -9,15 +9,14 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 ///
 ///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung above the pin's thread) / a.
 ///
-/// y at the support is a polynomial in mu whose zeros are the modes. All functions inlined, all sums of one sign but in
-/// y.
+/// y at the support is a polynomial in mu whose zeros are the modes; other sums have one sign.
 template <class V>
 class PlummetLanes : public detail::LaneNumbers<V, 3> {
     using Numbers = detail::LaneNumbers<V, 3>;
     using Numbers::get, Numbers::put, Numbers::units;
 
    public:
-    using Numbers::size;
+    using Numbers::size, Numbers::max_polynomial;
 
     [[gnu::always_inline]] PlummetLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
         : Numbers(block, lane, work) {
@@ -32,7 +31,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         }
     }
 
-    /// Coefficients of y at the support, size() + 1 of them, lowest first. Cost N^2.
+    /// The size() + 1 coefficients of y at the support, lowest first. Cost N^2.
     [[gnu::always_inline]] void polynomial(V* y) const {
         V f[max_polynomial];  // F / (-mu)
         y[0] = V(1.0);
@@ -46,8 +45,8 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
     }
 
-    /// Offset y and force F, up one link, with derivatives. Written out: as one template for numbers and for truncated
-    /// power series it took 1.1 to 1.25 times as long, since the terms in x then wait for y.
+    /// Carries y and F with derivatives up one link. One template for numbers and for truncated
+    /// power series took 1.1 to 1.25 times as long: the terms in x then wait for y.
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
         const V weight = get(m, 0), flexibility = get(m, 2);
         f.curvature = f.curvature - weight * (x * y.curvature + y.slope);
@@ -58,13 +57,11 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         y.value = y.value + flexibility * f.value;
     }
 
-    /// The value alone.
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, V& y, V& f) const {
         f = f - (x * get(m, 0)) * y;
         y = y + get(m, 2) * f;
     }
 
-    /// The shape, up one link.
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
         const V push = get(m, 0) * s.offset;
         s.inertia = s.inertia + push * s.offset;
@@ -72,7 +69,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         stretch(m, s);
     }
 
-    /// The shape, down one link; its force has the other sign.
+    /// Carries the shape down one link; its force has the other sign.
     [[gnu::always_inline]] void descend(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
         stretch(m, s);
         const V push = get(m, 0) * s.offset;
@@ -80,37 +77,34 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         s.force = s.force - x * push;
     }
 
-    /// Mass of link m felt at its lower pin, its stiffness, and mass of link m felt at its upper pin.
+    /// Mass of link m at its lower pin, its stiffness, and its mass at its upper pin.
     [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, 0); }
     [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, 1); }
     [[gnu::always_inline]] V upper_mass(std::ptrdiff_t) const { return V(0.0); }
 
-    static constexpr std::ptrdiff_t max_polynomial = 16;
-
    private:
     [[gnu::always_inline]] void stretch(std::ptrdiff_t m, LaneShape<V>& s) const {
         const V next = s.offset + get(m, 2) * s.force;
-        const V stretched = next - s.offset;  // as rounded: the quotient's error is then the square of the offsets'
+        const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         s.stiffness = s.stiffness + (get(m, 1) * stretched) * stretched;
         s.offset = next;
     }
 };
 
-/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2), y_G = p y + q y'
-/// the offset of its centre of gravity and d = y' - y,
+/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2),
+/// y_G = p y + q y' the offset of its centre of gravity and d = y' - y,
 ///
 ///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - t).
 ///
-/// Times (k + mu X)/k, link by link, y becomes a polynomial in mu and needs no division (`polynomial`, `taylor`,
-/// `modes_below`), whose changes of sign are the negative pivots of K - mu M also where k + mu X is negative.
+/// Multiplied by (k + mu X)/k for each link, y is a polynomial in mu without divisions. Its sign
+/// changes are the negative pivots of K - mu M, also if k + mu X < 0.
 template <class V>
 class RigidLanes : public detail::LaneNumbers<V, 12> {
     using Numbers = detail::LaneNumbers<V, 12>;
     using Numbers::get, Numbers::put, Numbers::units;
 
    public:
-    using Numbers::size;
-    static constexpr std::ptrdiff_t max_polynomial = 16;
+    using Numbers::size, Numbers::max_polynomial;
 
     [[gnu::always_inline]] RigidLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
         : Numbers(block, lane, work) {
@@ -192,26 +186,15 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
     [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const { return get(m, upper) * get(m, stiffness_); }
 
    private:
-    enum : std::ptrdiff_t {
-        weight_,
-        weight_a,
-        weight_aa,
-        p_,
-        q_,
-        turn,
-        stiffness_,
-        cross,
-        flexibility_,
-        lower,
-        upper,
-        coupling
-    };
+    static constexpr std::ptrdiff_t weight_ = 0, weight_a = 1, weight_aa = 2, p_ = 3, q_ = 4, turn = 5;
+    static constexpr std::ptrdiff_t stiffness_ = 6, cross = 7, flexibility_ = 8, lower = 9, upper = 10;
+    static constexpr std::ptrdiff_t coupling = 11;
 
-    /// From a pin at the distance `far` from the centre of gravity to one at `near`, a y_G = near y + far y'.
+    /// From a pin `far` from the centre of gravity to one `near` it, a y_G = near y + far y'.
     [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
         const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
         const V next = s.offset + (s.force - (x * pull) * s.offset) / (k + x * get(m, cross));
-        const V stretched = next - s.offset;  // as rounded: the quotient's error is then the square of the offsets'
+        const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         const V moment = near * s.offset + far * next;
         s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment + (get(m, turn) * stretched) * stretched);
         s.stiffness = s.stiffness + (k * stretched) * stretched;

@@ -5,26 +5,87 @@
 #include <cstdint>
 
 #include "revchain/pencil/batch/links.hpp"
-#include "revchain/pencil/batch/quotients.hpp"
 #include "revchain/pencil/batch/zeros.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Where the first approximations come from. With the recurrence alone all modes of 10 links took
-/// 2.5 times as long, of 16 3 times. Chains one by one, by `modes`, take 2.2 to 2.8 times as long
-/// as the recurrence for 17 links, 1.2 to 1.5 times for 100.
+/// The method of the first approximations. With the recurrence alone all modes of 10 links took 2.5
+/// times as long, of 16 3 times. `modes`, chain by chain, takes 2.2 to 2.8 times as long as the
+/// recurrence for 17 links, 1.2 to 1.5 times for 100.
 enum class LaneMethod {
-    coefficients,  ///< zeros of the polynomial written out, deflated: cheapest up to 16 links
+    coefficients,  ///< zeros of the expanded polynomial, deflated: cheapest up to 16 links
     recurrence,    ///< zeros of the recurrence, known ones divided out: any number of links
 };
 
 namespace detail {
 
-/// Squared residual of a shape that will do: the quotient's relative error is at most this over the relative gap.
+/// Rayleigh quotient stiffness / inertia; `imbalance` is its squared residual over the quotient.
+template <class V>
+struct LaneQuotient {
+    V stiffness, inertia, imbalance;
+};
+
+/// The quotient of a shape with the residual `force` at one pin, which has the mass `mass`.
+template <class V>
+[[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia, const V& force,
+                                                          const V& mass) {
+    return {stiffness, inertia, force * force * inertia / (mass * (stiffness * stiffness))};
+}
+
+/// The quotient of the shape carried from the free end to the topmost pin below the support.
+template <class V, class Links>
+[[gnu::always_inline]] inline LaneQuotient<V> quotient(const Links& links, const V& x) {
+    LaneShape<V> s{1.0, 0.0};
+    const std::ptrdiff_t top = links.size() - 1;
+    for (std::ptrdiff_t m = 0; m < top; ++m) {
+        links.rise(m, x, s);
+        tidy(m, s);
+    }
+    const V k = links.stiffness(top), mass = links.lower_mass(top);
+    return quotient_of(((k * s.offset) * s.offset + s.stiffness) + s.earlier_stiffness,
+                       ((mass * s.offset) * s.offset + s.inertia) + s.earlier_inertia,
+                       s.force - x * (mass * s.offset) + k * s.offset, mass);
+}
+
+/// The quotient of the shape from both ends to the pin where they meet best: modes low in the chain
+/// would grow upwards from rounding. `work`: 4 * size * block_lanes numbers.
+template <class V, class Links>
+[[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x, double* work) {
+    LaneShape<V> s{1.0, 0.0};
+    for (std::ptrdiff_t m = 0; m < links.size(); ++m) {
+        double* const here = work + 4 * m * block_lanes;
+        s.offset.store(here);
+        s.force.store(here + block_lanes);
+        (s.inertia + s.earlier_inertia).store(here + 2 * block_lanes);
+        (s.stiffness + s.earlier_stiffness).store(here + 3 * block_lanes);
+        links.rise(m, x, s);
+        tidy(m, s);
+    }
+    LaneShape<V> t{0.0, 1.0};
+    LaneQuotient<V> best{V(0.0), V(0.0), V(std::numeric_limits<double>::infinity())};
+    for (std::ptrdiff_t m = links.size(); m-- > 0;) {
+        links.descend(m, x, t);
+        tidy(m, t);
+        const double* const here = work + 4 * m * block_lanes;
+        const V up = V(1.0) / V::load(here), down = V(1.0) / t.offset;
+        const V mass = m == 0 ? links.lower_mass(m) : links.lower_mass(m) + links.upper_mass(m - 1);
+        const LaneQuotient<V> q =
+            quotient_of(V::load(here + 3 * block_lanes) * up * up + (t.stiffness + t.earlier_stiffness) * down * down,
+                        V::load(here + 2 * block_lanes) * up * up + (t.inertia + t.earlier_inertia) * down * down,
+                        V::load(here + block_lanes) * up + t.force * down, mass);
+        const auto better = q.imbalance < best.imbalance;
+        best.stiffness = select(better, q.stiffness, best.stiffness);
+        best.inertia = select(better, q.inertia, best.inertia);
+        best.imbalance = select(better, q.imbalance, best.imbalance);
+    }
+    return best;
+}
+
+/// Squared residual that is accurate: the quotient's error is at most this over the gap (relative).
 inline constexpr double negligible_imbalance = 1e-18;
 
-/// `modes_below` at two points side by side, which as one loop over an array of points took 1.3 times as long (rods).
-/// Whether by count `i` modes lie below `low` and one more below `high`.
+/// Whether, by count, `i` modes lie below `low` and one more below `high`. This is `modes_below` at
+/// two points; one loop over an array of points took 1.3 times as long (rods).
 template <class V, class Links>
 [[gnu::always_inline]] inline typename V::Mask numbered(const Links& links, std::ptrdiff_t i, const V& low,
                                                         const V& high) {
@@ -41,11 +102,11 @@ template <class V, class Links>
             rescale(z, g);
         }
     }
-    const V huge(0x1p1000);  // what is no number is below nothing
+    const V huge(0x1p1000);  // false for NaN
     return (below == typename V::Mask(i)) & (above == typename V::Mask(i + 1)) & (abs(y) < huge) & (abs(z) < huge);
 }
 
-/// The `count` smallest mu of the lanes at `lane`, as heights 1/mu; `verified` where counts prove each of them.
+/// The `count` smallest mu of lanes from `lane`, as heights 1/mu; `verified` if counts prove each.
 template <class V, template <class> class LinksOf>
 [[gnu::always_inline]] inline void spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method,
                                             std::ptrdiff_t lane, double* work, double* height, std::int64_t* verified) {
@@ -59,14 +120,10 @@ template <class V, template <class> class LinksOf>
     V x(0.0);
     const V per_length = links.per_length();
     typename V::Mask good = links.ordinary();
-    // Well above the count's own error, a tenth of an ulp for each link.
+    // Well above the error of the count, a tenth of an ulp for each link.
     const V margin((16.0 + 0.25 * static_cast<double>(block.size)) * 0x1p-52);
     for (std::ptrdiff_t i = 0; i < count; ++i) {
-        if (written_out) {
-            x = next_zero(c, block.size - i, x);
-        } else {
-            x = next_zero<V>(links, found, i);
-        }
+        x = written_out ? next_zero(c, block.size - i, x) : next_zero<V>(links, found, i);
         V mu = x, h(0.0);
         typename V::Mask active(-1);
         for (int round = 0; round < 4 && any(active); ++round) {
@@ -89,38 +146,35 @@ template <class V, template <class> class LinksOf>
 
 }  // namespace detail
 
-/// Numbers of scratch that `lane_spectrum` takes.
+/// The numbers of scratch that `lane_spectrum` needs.
 inline std::size_t lane_work(std::ptrdiff_t size) {
     return static_cast<std::size_t>((RigidLanes<Pack<double>>::stored + 5) * size * block_lanes);
 }
 
-/// The `count` largest conical heights of each of `block_lanes` chains, descending: height[j * block_lanes + i], in the
-/// unit of the lengths. Where `verified[i]` is not 0, counts in double at both ends of every
-/// interval of a relative 16 + size/4 ulp around chain i's heights say that it holds the mode of that number and no
-/// other; elsewhere nothing is known of them.
+/// The `count` largest conical heights of `block_lanes` chains, descending, [j * block_lanes + i],
+/// in the unit of the lengths. If `verified[i]` is not 0, counts in double at both ends of an
+/// interval of 16 + size/4 ulp (relative) about each height of chain i show that it holds the mode
+/// of that number and no other; otherwise nothing is known.
 ///
-/// Preconditions: weights, lengths and centroids positive and finite, radii of gyration not negative, pendulum lengths
-/// at least the centroid; 1 <= count <= size; size <= 16 for LaneMethod::coefficients.
-///
-/// A recurrence of its own beside that of `aberth_spectrum`: there the shifts of one chain lie side by side, here
-/// chains, which takes a third of the time for all modes of 10 links (as long for 40). The lumped masses of that
-/// recurrence would not do here: they cancel where centroids lie below their links.
-///
-/// First approximations by Laguerre's iteration from the left, in y at the support as a polynomial in mu = 1/lambda,
-/// known zeros divided out; then the Rayleigh quotient of the shape there, whose error is the square of the shape's.
-/// What a lane computes depends on its own numbers alone (finished lanes stand still while others go on), so results
-/// are bitwise the same wherever a chain stands; another kind of processor may change last digits.
-inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work, double* height,
-                          std::int64_t* verified) {
+/// First approximations by Laguerre's iteration from the left on y at the support as a polynomial
+/// in mu = 1/lambda, known zeros divided out; then the Rayleigh quotient of the shape there, whose
+/// error is the square of the shape's. A lane depends on its own numbers alone, so results are
+/// bitwise the same wherever a chain stands; another kind of processor may change last digits.
+/// `aberth_spectrum` has its shifts of one chain side by side, this function has chains: a third of
+/// the time for all modes of 10 links (as long for 40). The lumped masses used there would cancel
+/// where centroids lie below their links. Preconditions: weights, lengths and centroids positive
+/// and finite, radii of gyration not negative, pendulum lengths >= centroid; 1 <= count <= size, 16
+/// for `coefficients`.
+inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work,
+                          double* height, std::int64_t* verified) {
     simd([&](auto registers) REVCHAIN_INLINED {
         // Eight doubles to a register were slower than four (N = 10, Zen 4).
         using V = Pack<double, std::min(registers.doubles, pack_size), 4>;
         for (std::ptrdiff_t lane = 0; lane < block_lanes; lane += static_cast<std::ptrdiff_t>(V::size)) {
-            if (block.centroid == nullptr) {
+            if (block.centroid == nullptr)
                 detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height, verified);
-            } else {
+            else
                 detail::spectrum<V, RigidLanes>(block, count, method, lane, work, height, verified);
-            }
         }
     });
 }

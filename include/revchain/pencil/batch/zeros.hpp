@@ -7,11 +7,11 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 
-/// Laguerre's iteration ends with a step of this relative size: the error left is about its cube.
+/// The relative step at which Laguerre's iteration ends; the error left is about its cube.
 inline constexpr double last_step = 2e-4;
 
-/// Square root to a relative 1e-10: a first guess from the exponent, three Newton steps for 1/sqrt. The built-in one is
-/// not vectorised where it has to set errno. Precondition: x is normal, or 0.
+/// Square root to a relative 1e-10: a first guess from the exponent, three Newton steps for 1/sqrt.
+/// The built-in one is not vectorised where it has to set errno. Precondition: x is normal, or 0.
 template <class V>
 [[gnu::always_inline]] inline V rough_sqrt(const V& x) {
     V r = rough_inverse_root(x);
@@ -33,7 +33,7 @@ template <class V, class Links>
     return y;
 }
 
-/// How many modes lie below x (Sturm): changes of sign of y from pin to pin.
+/// The number of modes below x (Sturm): changes of sign of y from pin to pin.
 template <class V, class Links>
 [[gnu::always_inline]] inline typename V::Mask modes_below(const Links& links, const V& x) {
     V y(1.0), f(0.0);
@@ -47,7 +47,7 @@ template <class V, class Links>
     return changes;
 }
 
-/// Laguerre's step towards the next of `left` zeros: from the left of all of them it never passes the first.
+/// Laguerre's step to the next of `left` zeros; from the left of all it never passes the first.
 template <class V>
 [[gnu::always_inline]] inline V laguerre_step(const V& value, const V& slope, const V& square, std::ptrdiff_t left) {
     const V n(static_cast<double>(left)), rest(static_cast<double>(left - 1));
@@ -55,10 +55,10 @@ template <class V>
     under = select(under < V(0.0), V(0.0), under);
     const V root = rough_sqrt(under);
     const V step = n * value / (slope + select(slope < V(0.0), -root, root));
-    return select(abs(step) < V(0x1p1000), step, V(0.0));  // none where x is a zero to the last digit
+    return select(abs(step) < V(0x1p1000), step, V(0.0));  // 0 where x is the zero
 }
 
-/// A zero of c[0] + ... + c[degree] x^degree near its smallest, from x at its left, to about 1e-10; divides it out.
+/// The zero of c[0] + ... + c[degree] x^degree above `from`, to about 1e-10; divides it out.
 template <class V>
 [[gnu::always_inline]] inline V next_zero(V* c, std::ptrdiff_t degree, const V& from) {
     V x = from;
@@ -73,7 +73,7 @@ template <class V>
         const V n(static_cast<double>(degree)), rest(static_cast<double>(degree - 1));
         const V step = laguerre_step(value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
         x = select(active, x - step, x);
-        active = active & (V(last_step) * abs(x) < abs(step));  // the last step's error is about its cube
+        active = active & (V(last_step) * abs(x) < abs(step));  // its error is about its cube
     }
     V carried = c[degree];
     for (std::ptrdiff_t j = degree; j-- > 0;) {
@@ -84,8 +84,7 @@ template <class V>
     return x;
 }
 
-/// A point to the right of the last of `count` known zeros and, by count, to the left of the next; far enough from the
-/// known one that dividing it out does not cancel.
+/// A point above the last known zero, far enough to divide that out, and by count below the next.
 template <class V, class Links>
 [[gnu::always_inline]] inline V between_zeros(const Links& links, const double* known, std::ptrdiff_t count) {
     if (count == 0) return V(0.0);
@@ -105,7 +104,7 @@ template <class V, class Links>
     return x;
 }
 
-/// Finds the next zero by the recurrence; the `known` zeros found so far are divided out.
+/// The next zero by the recurrence, with the `count` zeros in `known` divided out.
 template <class V, class Links>
 [[gnu::always_inline]] inline V next_zero(const Links& links, const double* known, std::ptrdiff_t count) {
     const std::ptrdiff_t left = links.size() - count;

@@ -10,8 +10,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A B and A'B. Eigen compiles a product of expressions anew for each kind of them, which takes seconds for a scalar of
-/// two words.
+/// A B and A'B. Eigen compiles products anew for each kind of expression: seconds for two words.
 template <class S>
 Matrix<S> product(const Matrix<S>& A, const Matrix<S>& B) {
     return A * B;
@@ -21,39 +20,37 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
     return product<S>(A.transpose(), B);
 }
 
-/// A gyroscopic system that motion in a mirror leaves alone,
+/// A gyroscopic system with mirror symmetry: with x, y exp(s t) so is x, -y exp(-s t).
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
-/// A and M symmetric and positive definite, K and C symmetric. With x, y exp(s t) so is x, -y exp(-s t). Time in
-/// a unit in which B is about as large as A and M.
+/// A and M symmetric and positive definite, K and C symmetric; in units with B about A and M.
 template <class S>
 struct MirroredPencil {
     Matrix<S> A, B, M, K, C;
 };
 
-/// Complex columns by their parts.
+/// Complex columns, real and imaginary parts apart.
 template <class S>
 struct ComplexColumns {
     Matrix<S> real, imag;
 };
 
-/// Its modes: the squares of the exponents s with an estimate of what rounding in the eigenvalue solver may change
-/// them by, and as columns x and s y.
+/// Squares of the exponents s, estimates of their rounding errors, and columns x and s y.
 template <class S>
 struct MirroredModes {
     Vector<std::complex<S>> square;
     Vector<double> error;
     ComplexColumns<S> x, y;
-    bool is_symmetric = false;  ///< squares of a symmetric matrix: real, even if two coincide
+    bool is_symmetric = false;  ///< a symmetric matrix: all squares are real
 };
 
-/// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u = (x, r), v = (p,
-/// -y):
+/// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u =
+/// (x, r), v = (p, -y):
 ///     u' = diag(1, C) v,    v' = -Q u,    Q = [K + 4 B B', -2 B; -2 B', 1],
-/// so that s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. Where C is positive definite they are
-/// those of a symmetric matrix: real, and no motion grows in oscillations. As Q u is the eigenvector on the left, a
-/// change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|.
-/// Dense, backward stable; a defective s^2 spreads by the square root of rounding, and so does an s next to 0. Cost
-/// some 30 n^3, symmetric 10 n^3, n the number of unknowns x and y. Nothing where rounding leaves A or M indefinite.
+/// so that s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. If C is positive
+/// definite they are those of a symmetric matrix: real, and no oscillation grows. As Q u is the
+/// left eigenvector, a change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|. Dense,
+/// backward stable; a defective s^2 spreads by the square root of rounding, and so does an s next
+/// to 0. Cost about 30 n^3, symmetric 10 n^3. Nothing if rounding leaves A or M indefinite.
 template <class S>
 std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) {
     using std::abs, std::sqrt;
@@ -84,7 +81,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         modes.is_symmetric = true;
         modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
     } else {
-        // Each r in a unit in which it is as large as its x: fast motions, of light links, beside those of about n.
+        // Each r in a unit in which it is as large as its x: light links have fast motions.
         Vector<S> unit = Vector<S>::Ones(n + k);
         for (Index i = 0; i < k; ++i) unit[n + i] = sqrt(S(1) + abs(C(i, i)));
         Matrix<S> T = -Q;
@@ -92,7 +89,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index i = 0; i < n + k; ++i) T.col(i) *= unit[i], T.row(i) /= unit[i];
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
-        const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: the real part, then the imaginary part
+        const Matrix<S> parts = solver.pseudoEigenvectors();  // a pair: real, imaginary
         ComplexColumns<S> right = u, left;
         for (Index j = 0; j < n + k; ++j) {
             const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);
@@ -110,10 +107,10 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index j = 0; j < n + k; ++j) {
             const auto p = right.real.col(j), q = right.imag.col(j);
             const auto l = left.real.col(j), m = left.imag.col(j);
-            const double sizes = static_cast<double>(
-                sqrt(S((p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm()))));
-            const double overlap =
-                std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
+            const S squares = (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
+            const double sizes = static_cast<double>(sqrt(squares));
+            const double overlap = std::hypot(static_cast<double>(p.dot(l) - q.dot(m)),
+                                              static_cast<double>(p.dot(m) + q.dot(l)));
             modes.error[j] = whole * sizes / overlap;
         }
     }
@@ -124,7 +121,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     return modes;
 }
 
-/// How many eigenvalues of a symmetric matrix are negative, and the least of all.
+/// The number of negative eigenvalues of a symmetric matrix, and the least eigenvalue.
 struct Inertia {
     Index negative = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -2,18 +2,50 @@
 #pragma once
 
 #include "revchain/numeric/interval.hpp"
-#include "revchain/pencil/complex/complex_word.hpp"
 #include "revchain/pencil/complex/roots_in_lanes.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+/// Values of det Q with error bounds, and distances between approximate roots, to prove all roots.
+namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Values of det Q with error bounds, and distances between approximate roots: with them all roots are proved at once.
-namespace revchain::inline REVCHAIN_BUILD::pencil::detail {
+/// A complex number of two double words; std::complex is for built-in scalars only.
+struct ComplexWord {
+    using S = DoubleWord<double>;
+    S real{}, imag{};
+
+    ComplexWord() = default;
+    ComplexWord(const S& x) : real(x) {}  // NOLINT(google-explicit-constructor)
+    ComplexWord(const S& x, const S& y) : real(x), imag(y) {}
+    explicit ComplexWord(const std::complex<double>& z) : real(z.real()), imag(z.imag()) {}
+    explicit operator std::complex<double>() const { return {static_cast<double>(real), static_cast<double>(imag)}; }
+
+    friend ComplexWord operator-(const ComplexWord& x) { return {-x.real, -x.imag}; }
+    friend ComplexWord operator+(const ComplexWord& x, const ComplexWord& y) {
+        return {x.real + y.real, x.imag + y.imag};
+    }
+    friend ComplexWord operator-(const ComplexWord& x, const ComplexWord& y) {
+        return {x.real - y.real, x.imag - y.imag};
+    }
+    friend ComplexWord operator*(const ComplexWord& x, const ComplexWord& y) {
+        return {x.real * y.real - x.imag * y.imag, x.real * y.imag + x.imag * y.real};
+    }
+    /// Smith's rule: the square of the divisor cannot leave the range.
+    friend ComplexWord operator/(const ComplexWord& x, const ComplexWord& y) {
+        if (abs(y.real) < abs(y.imag)) {
+            const S r = y.real / y.imag, size = y.imag + y.real * r;
+            return {(x.real * r + x.imag) / size, (x.imag * r - x.real) / size};
+        }
+        const S r = y.imag / y.real, size = y.real + y.imag * r;
+        return {(x.real + x.imag * r) / size, (x.imag - x.real * r) / size};
+    }
+    /// The absolute value, to a few ulp of double.
+    friend double size_of(const ComplexWord& x) { return std::abs(std::complex<double>(x)); }
+};
+
+namespace detail {
 
 inline constexpr std::size_t value_lanes = most_doubles;
 
-/// A complex number times 2^exponent, and how far it may be off, relative; infinitely where nothing is known.
+/// A complex number times 2^exponent with a relative error; infinite where nothing is known.
 struct ScaledValue {
     std::complex<double> fraction{1.0};
     double exponent = 0, error = 0;
@@ -28,7 +60,7 @@ struct ScaledValue {
     }
 };
 
-/// A product of complex numbers in each lane, scaled as `ScaledValue` is. Its error, 4 ulp a factor, is not tracked.
+/// A product of complex numbers in each lane; its error, 4 ulp a factor, is not tracked.
 template <class V>
 struct ProductInLanes {
     ComplexLanes<V> fraction{V(1.0), V(0.0)};
@@ -47,14 +79,8 @@ struct ProductInLanes {
     }
 };
 
-/// A number of an element in all lanes, in two words.
-template <class V>
-struct WideLanes {
-    [[gnu::always_inline]] DoubleWord<V> operator()(const Wide<double>& x) const { return {V(x.high), V(x.low)}; }
-};
-
-/// det Q at the x in each lane, with the running bound of `certified_count`: its slopes and roundings hold in the
-/// complex plane, too, by the mean value inequality; a complex operation takes 16 roundings at most.
+/// det Q at the x in each lane, with the running bound of `certified_count`, which holds in the
+/// complex plane too, by the mean value inequality; a complex operation has at most 16 roundings.
 template <class Where>
 [[gnu::always_inline]] inline void values_in_lanes(Where, const SignedPencil<Wide<double>>& pencil,
                                                    const ComplexWord* at, ScaledValue* values) {
@@ -69,7 +95,9 @@ template <class Where>
     }
     const Z x{W(V::load(part[0]), V::load(part[1])), W(V::load(part[2]), V::load(part[3]))};
     const Z square = x * x;
-    const WideLanes<V> number;
+    const auto number = [](const Wide<double>& word) REVCHAIN_INLINED {
+        return revchain::detail::in_all_lanes<V>(word);
+    };
     constexpr double eps = std::numeric_limits<double>::epsilon();
     const double u = 16 * operation_error<Wide<double>>();
     const V slack(1 + 8 * eps), inflate(1 + 64 * eps), one(1.0), tiny(2 * least_pivot<double>());
@@ -105,8 +133,7 @@ template <class Where>
         const V next_size = size_of(below);
         const V roundings = unit8 *
                                 ((L_size + V(upper)) * D_size + L_size * V(lower + upper + 2 * cross) +
-                                 V(lower * upper + cross * cross)) *
-                                inverse_least +
+                                 V(lower * upper + cross * cross)) * inverse_least +
                             next_size * (p_rounding * inverse_least + unit4);
         const V lost =
             underflow * (one + L_size + V(upper + lower + upper + 2 * cross) + D_size) * (one + inverse_least);
@@ -118,7 +145,7 @@ template <class Where>
             unproved[i] == 0 && share[i] < 0.5 ? share[i] * (1 + share[i]) : std::numeric_limits<double>::infinity();
 }
 
-/// All approximations, parts apart so that lanes load them, and radii of discs about them.
+/// All approximations, parts separate so that lanes load them, and the radii of their discs.
 struct SplitWords {
     std::vector<double> re, im, re_low, im_low, radius;
     explicit SplitWords(const std::vector<ComplexWord>& x) : radius(x.size()) {
@@ -130,7 +157,7 @@ struct SplitWords {
     std::size_t size() const { return re.size(); }
 };
 
-/// For the approximations number `first` ... in each lane, x - x_j of all others: f(x - x_j, j, whether j is itself).
+/// Calls f(x - x_j, j, whether j is itself) for every j; x in each lane is number `lane[i]`.
 template <class V, class F>
 [[gnu::always_inline]] inline void for_differences(const SplitWords& all, const std::size_t* lane, const F& f) {
     constexpr std::size_t L = V::size;
@@ -149,21 +176,21 @@ template <class V, class F>
     }
 }
 
-/// The product of x - x_j over all others, in each lane; each factor is known to 4 ulp where the high parts are apart.
+/// In each lane the product of x - x_j over all others; factors have 4 ulp if high parts differ.
 template <class Where>
 [[gnu::always_inline]] inline void products_in_lanes(Where, const SplitWords& all, const std::size_t* lane,
                                                      ScaledValue* products) {
     constexpr std::size_t width = std::min(Where::doubles, value_lanes);
     using V = Pack<double, width, value_lanes / width>;
     ProductInLanes<V> product;
-    for_differences<V>(all, lane,
-                       [&](const ComplexLanes<V>& apart, std::size_t, const typename V::Mask& own) REVCHAIN_INLINED {
-                           product.times({select(own, V(1.0), apart.re), select(own, V(0.0), apart.im)});
-                       });
+    const auto take = [&](const ComplexLanes<V>& apart, std::size_t, const typename V::Mask& own) REVCHAIN_INLINED {
+        product.times({select(own, V(1.0), apart.re), select(own, V(0.0), apart.im)});
+    };
+    for_differences<V>(all, lane, take);
     product.store(products);
 }
 
-/// In each lane, over all others: the least of |x - x_j| - r_j, and the sum of r_j/(|x - x_j| - r_j).
+/// In each lane, over all others: the least d = |x - x_j| - r_j, and the sum of r_j/d.
 template <class Where>
 [[gnu::always_inline]] inline void distances_in_lanes(Where, const SplitWords& all, const std::size_t* lane,
                                                       double* nearest, double* shares) {
@@ -180,8 +207,8 @@ template <class Where>
     least.store(nearest), sum.store(shares);
 }
 
-/// The degree of det Q and its leading coefficient, with an error of infinity where the degree may be less. Elements
-/// that stiffen with x hold their pins together; the others have the masses between them.
+/// Degree and leading coefficient of det Q, its error infinite if the degree may be less. Elements
+/// that stiffen with x tie their pins together; the others have the masses between.
 struct LeadingTerm {
     Index degree = 0;
     ScaledValue coefficient;
@@ -196,13 +223,12 @@ inline LeadingTerm leading_term(const SignedPencil<Wide<double>>& pencil) {
             size > 0 ? off / size + epsilon<double>() : std::numeric_limits<double>::infinity();
         leading.degree += degree;
     };
-    const auto entry = [](const Wide<double>& x, double off) {
-        return I(x - Wide<double>(off), x + Wide<double>(off));
-    };
+    using revchain::detail::around;
     I below;  // the dynamic stiffness of what hangs below, where all else is rigid
     for (const auto& e : pencil.elements) {
-        const ElementError<double>& off = e.error;
-        const I lower = entry(e.lower, off.lower), upper = entry(e.upper, off.upper), cross = entry(e.cross, off.cross);
+        const auto& off = e.error;
+        const I lower = around(e.lower, off.lower), upper = around(e.upper, off.upper);
+        const I cross = around(e.cross, off.cross);
         if (!vanishes(e.stiffness, off.stiffness)) {
             factor(pencil.quadratic ? 2 : 1, e.stiffness, off.stiffness);
         } else if (pencil.quadratic && !vanishes(e.spin, off.spin)) {
@@ -218,6 +244,5 @@ inline LeadingTerm leading_term(const SignedPencil<Wide<double>>& pencil) {
     return leading;
 }
 
-}  // namespace revchain::pencil::detail
-
-#pragma GCC diagnostic pop
+}  // namespace detail
+}  // namespace revchain::pencil

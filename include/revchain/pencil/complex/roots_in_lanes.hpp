@@ -12,13 +12,9 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
-/// All roots of det Q(x) at once, in double, eight and more in the lanes of a pack: starts that prove nothing.
+/// Unproved starts for all roots of det Q(x), in double, one in each lane of a pack.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A complex number in each lane.
 template <class V>
 struct ComplexLanes {
     V re{}, im{};
@@ -71,7 +67,7 @@ template <bool quadratic, class V>
     return sum;
 }
 
-/// Roots in double: real and imaginary parts apart, so that lanes load them.
+/// Roots in double, real and imaginary parts separate, so that lanes load them.
 struct SplitRoots {
     std::vector<double> re, im;
 
@@ -80,8 +76,7 @@ struct SplitRoots {
     std::complex<double> operator[](std::size_t i) const { return {re[i], im[i]}; }
 };
 
-/// Moves roots by up to a tenth of what is between neighbours: Aberth's method can neither part what is equal nor leave
-/// the real axis.
+/// Moves roots by up to a tenth of their distances, because equal or real roots would stay so.
 inline void scatter(SplitRoots& roots) {
     for (std::size_t i = 0; i < roots.size(); ++i) {
         const double turn = 4e-4 * static_cast<double>(i % 97 + 1) / static_cast<double>(roots.size());
@@ -90,8 +85,8 @@ inline void scatter(SplitRoots& roots) {
     }
 }
 
-/// Newton steps with the other roots divided out (Ehrlich, Aberth) of the roots named by `active`, all from the same
-/// places: results do not depend on the number of threads.
+/// Newton steps of the roots listed in `active`, the other roots divided out (Ehrlich, Aberth); all
+/// from the same roots, so that results do not depend on the number of threads.
 inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros,
                          const SplitRoots& roots, const std::vector<std::size_t>& active, SplitRoots& step) {
     constexpr std::size_t L = 2 * most_doubles;
@@ -127,7 +122,7 @@ inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool qua
     });
 }
 
-/// Moves roots until none moves by more than a share `finest` of itself, or further than before; how many sweeps.
+/// Moves roots until no step exceeds the share `finest` or grows; returns the number of sweeps.
 inline int aberth(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros, SplitRoots& roots,
                   double finest, int most, const std::function<void()>& advance) {
     std::vector<std::size_t> active(roots.size());
@@ -159,8 +154,8 @@ inline SplitRoots roots_of(const RoundedElement& e, bool quadratic) {
     } else if (!quadratic) {
         roots.push_back(e.lower / e.stiffness);
     } else {
-        const std::complex<double> square =
-            std::sqrt(std::complex<double>(e.spin * e.spin + 4 * e.stiffness * e.lower));
+        const std::complex<double> discriminant = e.spin * e.spin + 4 * e.stiffness * e.lower;
+        const std::complex<double> square = std::sqrt(discriminant);
         const std::complex<double> far = (e.spin < 0 ? square - e.spin : -e.spin - square) / (2 * e.stiffness);
         roots.push_back(far);
         roots.push_back(std::abs(far) > 0 ? -e.lower / (e.stiffness * far) : far);
@@ -168,7 +163,7 @@ inline SplitRoots roots_of(const RoundedElement& e, bool quadratic) {
     return roots;
 }
 
-/// Near the roots of `links` elements in double: first those of the two halves, each held at its upper end.
+/// Approximate roots of `links` elements, from those of the two halves, each held at its upper end.
 inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bool quadratic,
                                const std::function<void()>& advance) {
     if (links == 1) return roots_of(rows[0], quadratic);
@@ -180,7 +175,7 @@ inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bo
     return roots;
 }
 
-/// All roots in double, `degree` of them, but for `zeros` at 0.
+/// All `degree` roots in double except `zeros` at 0.
 inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                                      Index degree, const std::function<void(double)>& advance) {
     const auto rows = rounded<double>(pencil).elements;
@@ -192,7 +187,7 @@ inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<dou
     const auto look = [&] { advance(0.1); };
     if (half > 0) add(halved_roots(rows.data(), half, pencil.quadratic, look));
     add(halved_roots(rows.data() + half, links - half, pencil.quadratic, look));
-    // The smallest stand for those that are 0.
+    // The smallest stands for those that are 0.
     std::sort(starts.begin(), starts.end(), [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
     if (starts.empty()) starts.emplace_back(1.0);
     while (starts.size() < wanted) starts.push_back(starts.back() / 2.0);
@@ -207,5 +202,3 @@ inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<dou
 
 }  // namespace detail
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

@@ -7,18 +7,18 @@
 
 #include "revchain/pencil/complex/isolation.hpp"
 
-/// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign: what counts cannot number.
+/// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// An x, how far (in the plane) the exact one may be from it, and whether that is proved.
+/// A root x with the radius of a disc that holds the exact root.
 struct EnclosedRoot {
-    ComplexWord x{};                                          ///< to some 30 digits where roots are apart
+    ComplexWord x{};                                          ///< to about 30 digits if isolated
     std::complex<double> value{};                             ///< rounded
-    double radius = std::numeric_limits<double>::infinity();  ///< about `value`; finite: an exact root lies within
+    double radius = std::numeric_limits<double>::infinity();  ///< about `value`; proved if finite
     bool is_real = false;
 };
 
-/// Roots by size, largest first. `proved`: each disc holds exactly one root, all others of det Q are 0.
+/// Roots by size, largest first. `proved`: each disc holds exactly one root, all others are 0.
 struct ComplexSpectrum {
     std::vector<EnclosedRoot> roots;
     bool proved = false;
@@ -30,13 +30,12 @@ namespace detail {
 /// (x_j - x_k)), c the leading coefficient of P = det Q without its zeros at 0.
 struct WeierstrassSteps {
     std::vector<std::complex<double>> step;
-    std::vector<double> blur;  ///< how far a step may be off, relative; infinite where not known
+    std::vector<double> blur;  ///< the relative error of a step; infinite where unknown
 };
 
-/// Calls f(lanes, how many of them count) for all of `which`, so many at a time.
+/// Calls f(lanes, number of lanes in use) for all of `which`.
 template <class F>
-void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
-               const F& f) {
+void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance, const F& f) {
     constexpr std::size_t L = value_lanes;
     revchain::detail::parallel_for(which.size(), L, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += L) {
@@ -48,7 +47,6 @@ void for_lanes(const std::vector<std::size_t>& which, const std::function<void(d
     });
 }
 
-/// P at the roots `which`.
 inline void evaluate(const SignedPencil<Wide<double>>& pencil,
                      const std::vector<ComplexWord>& roots, const std::vector<std::size_t>& which,
                      std::vector<ScaledValue>& values, const std::function<void(double)>& advance) {
@@ -61,7 +59,6 @@ inline void evaluate(const SignedPencil<Wide<double>>& pencil,
     });
 }
 
-/// The steps of the roots `which` from the values of P there.
 inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index zeros,
                               const std::vector<ComplexWord>& roots,
                               const std::vector<std::size_t>& which,
@@ -83,18 +80,15 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
             const double exponent = value.exponent - under.exponent - leading.exponent;
             const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
             const std::complex<double> ratio = value.fraction / under.fraction;
-            result.step[lane[i]] = {std::ldexp(ratio.real(), shift),
-                                    std::ldexp(ratio.imag(), shift)};
-            result.blur[lane[i]] =
-                (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
+            result.step[lane[i]] = {std::ldexp(ratio.real(), shift), std::ldexp(ratio.imag(), shift)};
+            result.blur[lane[i]] = (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
         }
     });
     return result;
 }
 
-/// Those roots that are `meant`, until they stand still: by Weierstrass's steps, each divided by
-/// one more than the sum of w_j/(x_i - x_j) over the others (Börsch-Supan), which also parts what
-/// lies close together.
+/// Moves the roots that are `meant` until they converge, by Weierstrass's steps, each divided by 1
+/// plus the sum of w_j/(x_i - x_j) over the others (Börsch-Supan); this also separates close roots.
 inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
                    const std::vector<bool>& meant, const std::function<void(double)>& advance) {
     constexpr int sweeps = 60;
@@ -124,8 +118,8 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
     }
 }
 
-/// Roots as the polynomial has them, which is real: those within a share `flat` of the real axis on it, first; then
-/// pairs. Nothing where there are not as many above the axis as below.
+/// Roots of the real polynomial: first those on the real axis, within the share `flat`, then pairs.
+/// Nothing unless as many are above the axis as below.
 struct Conjugates {
     std::vector<ComplexWord> roots;
     std::size_t real = 0;
@@ -144,14 +138,12 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
     return result;
 }
 
-/// Discs that hold exactly one root each. All roots lie within d |w_j| of the approximations x_j, d
-/// the degree and w_j the steps of Weierstrass's method, and where such discs are apart each holds
-/// one (Smith). Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) -
-/// 1), s the sum of r_k/(|x_j - x_k| - r_k). Returns which discs meet others; `found` has the roots
-/// if none does.
+/// Discs that hold exactly one root each. All roots lie within d |w_j| of the x_j, d the degree and
+/// w_j Weierstrass's steps; where such discs are apart each holds one (Smith). Then x_j - root =
+/// w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum of r_k/(|x_j -
+/// x_k| - r_k). Returns the discs that meet others; if none, `found` has the roots.
 inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
-                                 std::vector<EnclosedRoot>& found,
-                                 const std::function<void(double)>& advance) {
+                                 std::vector<EnclosedRoot>& found, const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
     const std::size_t n = at.roots.size();
@@ -159,7 +151,7 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (std::size_t i = 0; i < n; i += i < at.real ? 1 : 2) heads.push_back(i);
     std::vector<std::size_t> left = heads;
     std::vector<ScaledValue> values(n);
-    // At the very root, or where a pivot vanishes, nothing is proved: then beside it.
+    // At the exact root, or where a pivot vanishes, nothing is proved: then beside it.
     for (const double aside : {0.0, 0x1p-64, 0x1p-56, 0x1p-48, 0x1p-40}) {
         for (const std::size_t i : left) {
             ComplexWord& x = at.roots[i];
@@ -184,9 +176,7 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     std::vector<double> nearest(n), shares(n);
     for_lanes(heads, advance, [&](const std::size_t* lane, std::size_t count) {
         double near[value_lanes], sums[value_lanes];
-        simd([&](auto where) REVCHAIN_INLINED {
-            distances_in_lanes(where, split, lane, near, sums);
-        });
+        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
         for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
     });
     std::vector<bool> meets(n, false);
@@ -195,14 +185,15 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (const std::size_t i : heads) {
         const ComplexWord& x = at.roots[i];
         const double radius = split.radius[i], size = size_of(x);
-        const bool alone = known[i] && nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size &&
-                           radius < size / 2 && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
+        const bool far = nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size && radius < size / 2;
+        const bool alone = known[i] && far && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
         apart = apart && alone;
         meets[i] = !alone;
         EnclosedRoot root{x - ComplexWord(w.step[i])};
         root.value = std::complex<double>(root.x);
         root.is_real = i < at.real;
-        const double rounded = size_of(root.x - ComplexWord(root.value)), spread = shares[i] * (1 + shares[i]);
+        const double rounded = size_of(root.x - ComplexWord(root.value));
+        const double spread = shares[i] * (1 + shares[i]);
         const double off = (spread + 2 * w.blur[i]) * (1 + spread) * std::abs(w.step[i]);
         root.radius = (off + rounded) * slack + 0x1p-98 * size;
         found.push_back(root);
@@ -218,13 +209,12 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
 
 }  // namespace detail
 
-/// Every x with det Q(x) = 0, but for `zeros` that are surely at 0. Preconditions: at least one element.
-///
-/// Method: all roots at once in double (Ehrlich and Aberth, from the roots of either half of the chain), then one step
-/// in two words, with discs that are proved to hold one root each. Where discs meet, roots are first refined in two
-/// words. A disc about a real approximation holds a real root, since the conjugate of another would be in it, too.
-/// Cost, N elements (AVX-512): 0.15 microseconds N^2, with momentum 0.3. `advance(share)` is called after every sweep
-/// and may throw, on any thread.
+/// Every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least one
+/// element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two halves),
+/// then one step in two words, with discs proved to hold one root each; where discs meet, roots are
+/// first refined in two words. A disc about a real approximation holds a real root, because it
+/// would also hold the conjugate of another. Cost, N elements (AVX-512): 0.15 microseconds N^2,
+/// with momentum 0.3. `advance(share)` is called after every sweep and may throw, on any thread.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
     const Index degree = detail::leading_term(pencil).degree - zeros;
@@ -234,7 +224,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
         return result;
     }
     std::vector<ComplexWord> words;
-    for (const std::complex<double>& x : detail::first_roots(pencil, zeros, degree, advance)) words.emplace_back(x);
+    for (const auto& x : detail::first_roots(pencil, zeros, degree, advance)) words.emplace_back(x);
     constexpr double most_work = 4e6;  // a tenth of a second a sweep
     for (const double flat : {0x1p-40, 1e-22}) {
         std::vector<bool> meets(words.size(), true);
@@ -243,8 +233,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);
-            // Two that meet on the real axis may belong beside it, and a pair on it: symmetry keeps
-            // them.
+            // Two roots on the real axis may be a pair off it, and a pair two on it.
             for (std::size_t i = 0; i < words.size(); ++i) {
                 if (!meets[i]) continue;
                 if (i < there->real)
@@ -253,7 +242,8 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
                     words[i].real = words[i].real + words[i].imag * Wide<double>(0.25);
             }
         }
-        const double work = static_cast<double>(std::count(meets.begin(), meets.end(), true) * pencil.size());
+        const auto meeting = std::count(meets.begin(), meets.end(), true);
+        const double work = static_cast<double>(meeting * pencil.size());
         if (flat < 0x1p-40 || work > most_work) break;
         detail::refine(pencil, zeros, words, meets, advance);
     }

@@ -2,15 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "revchain/pencil/condensed/pencil.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A run of links condensed so far: its transfer in T, the three numbers that matter most in `Wide<T>` too, and what
-/// all roundings and truncations on the way have changed (docs/theory/blocks.md).
+/// A run of links condensed so far: its transfer in T, the three most important numbers also in
+/// `Wide<T>`, and the errors of all roundings and truncations (docs/theory/blocks.md).
 template <Real T>
 struct CondensedRun {
     using S = Wide<T>;
@@ -22,7 +21,7 @@ struct CondensedRun {
     bool alone = false;                 ///< not to be merged
 };
 
-/// Gathers the runs of a chain, lowest first, into blocks that hold for every lambda >= `least_shift`.
+/// Merges the runs of a chain, lowest first, into blocks valid for every lambda >= `least_shift`.
 template <Real T>
 class CondensedPencilBuilder {
    public:
@@ -34,38 +33,37 @@ class CondensedPencilBuilder {
 
     const T& least_shift() const { return least_shift_; }
 
-    /// mu (mass) / (stiffness): about the square of the phase a mode goes through across the run.
+    /// mu (mass) / (stiffness): about the square of a mode's phase across the run.
     T phase(const Run& run) const { return mu_ * static_cast<T>(run.weight) * static_cast<T>(run.flexibility); }
 
-    /// Beyond this phase degree 6 leaves out more than rounding does (7th term: 2/14! phase^6), whatever the weights.
+    /// Whether degree 6 omits less than rounding (7th term: 2/14! phase^6), for any weights.
     bool is_short(const Run& run) const { return phase(run) <= T(0.075); }
 
-    /// Whether polynomials of `kept` terms leave nothing out that matters beside rounding.
+    /// Whether what polynomials of `Kept` terms omit is negligible beside rounding.
     template <std::size_t Kept>
     bool is_complete(const Run& run) const {
         const Error cut = truncation<Kept>(run);
         return cut.stiffness + cut.mass <= epsilon<T>() / T(64);
     }
 
-    /// Whether so many ulp cover what has been noted. Blocks keep to `most_ulp`: their heights are then proved to 2
-    /// ulp.
+    /// Whether the errors noted are at most `ulp` ulp; with `most_ulp` heights are proved to 2 ulp.
     bool is_accurate(const Run& run, const T& ulp) const {
         return run.stiffness_error + run.mass_error <= ulp * epsilon<T>();
     }
     static constexpr T most_ulp = T(1.1);
 
-    /// Adds to the errors of `run` what polynomials of `kept` terms leave out.
+    /// Adds to the errors of `run` what polynomials of `Kept` terms omit.
     template <std::size_t Kept>
     void note_truncation(Run& run) const {
         const Error cut = truncation<Kept>(run);
         run.stiffness_error += cut.stiffness;
-        run.mass_error += T(2) * cut.mass;  // may all be at the pin that has little
+        run.mass_error += T(2) * cut.mass;  // possibly all at the pin with less mass
     }
 
-    /// The second coefficients of the series, times mu, relative to the first: how much spring and masses of the block
-    /// depend on mu, and the force on two free pins, which merging turns into mass.
+    /// The second coefficients of the series, times mu, relative to the first: how spring and
+    /// masses depend on mu, and the force on two free pins, which merging turns into mass.
     struct SecondTerms {
-        T spring{}, mass{}, force{};  ///< b2 / b1, (a2 + d2) / (b1 c0), c1 / c0; each at most 1/4 of the phase
+        T spring{}, mass{}, force{};  ///< b2/b1, (a2 + d2)/(b1 c0), c1/c0: at most 1/4 of the phase
     };
 
     SecondTerms second_terms(const Run& run) const {
@@ -75,16 +73,16 @@ class CondensedPencilBuilder {
         return {by_flexibility * t.b[1], by_flexibility * (t.a[1] + t.d[1]) / weight, mu_ * t.c[1] / weight};
     }
 
-    /// Adds those of `roundings` in the coefficients beyond the first.
+    /// Adds the errors of `roundings` in the coefficients beyond the first.
     void note_roundings(Run& run, const T& roundings, const SecondTerms& terms) const {
         const T each = roundings * epsilon<T>() / T(2) / (T(1) - terms.spring);
         run.stiffness_error += each * terms.spring;
         run.mass_error += T(2) * each * (terms.mass + terms.force);  // twice: see note_truncation
     }
 
-    /// Adds those of a mass moved from pin to pin by a relative error of a1, `square` being a1^2 / (b1 c0). With e its
-    /// share of the mass it changes the energy by no more than e sqrt(phase) of the elastic and twice that of the
-    /// kinetic energy.
+    /// Adds the error of a mass moved from pin to pin by the relative `error` of a1, `square` being
+    /// a1^2 / (b1 c0). With e its share of the mass, it changes the energies by at most e
+    /// sqrt(phase) of the elastic and twice that of the kinetic energy.
     void note_moved_mass(Run& run, const T& error, const T& square) const {
         using std::sqrt;
         const T moved = error * sqrt(mu_ * square);
@@ -92,7 +90,7 @@ class CondensedPencilBuilder {
         run.mass_error += T(2) * moved;
     }
 
-    /// The next run up the chain; merged with those below as long as the result is small enough.
+    /// Adds the next run and merges it with those below while the result is small enough.
     void add(const Run& run) {
         runs_.push_back(run);
         for (std::size_t top = runs_.size() - 1;
@@ -103,7 +101,7 @@ class CondensedPencilBuilder {
     CondensedPencil<T> finish() const {
         CondensedPencil<T> pencil;
         pencil.least_shift = least_shift_;
-        std::vector<Run> runs;  // neighbours that `add` left apart because the lower one was longer
+        std::vector<Run> runs;  // `add` leaves neighbours apart if the lower one is longer
         for (const Run& run : runs_)
             if (runs.empty() || !merge(runs.back(), run)) runs.push_back(run);
         T stiffness_error(0), mass_error(0), evaluation(0), largest(0);
@@ -140,8 +138,7 @@ class CondensedPencilBuilder {
         T stiffness{}, mass{};
     };
 
-    /// What a series with log-concave coefficients (`last`, `before`: the last two kept, times their powers of mu) adds
-    /// up to beyond them, relative to `last`.
+    /// The sum of a series with log-concave coefficients beyond its terms `before` and `last`.
     static T tail(const T& last, const T& before) {
         if (!(last > T(0))) return T(0);
         const T ratio = last / before;
@@ -157,10 +154,10 @@ class CondensedPencilBuilder {
         const T moved = tail(t.a[Kept - 1] * power * mu_, t.a[Kept - 2] * power) +
                         tail(t.d[Kept - 1] * power * mu_, t.d[Kept - 2] * power);
         return {tail(t.b[Kept] * power * mu_ * mu_, t.b[Kept - 1] * power * mu_) / flexibility,
-                weight == T(0) ? T(0) : moved / (flexibility * weight)};  // a massless run leaves nothing out
+                weight == T(0) ? T(0) : moved / (flexibility * weight)};  // nothing is omitted
     }
 
-    /// `upper` on top of `lower`, if the result is still small enough.
+    /// Puts `upper` on top of `lower`, if the result is still small enough.
     bool merge(Run& lower, const Run& upper) const {
         if (lower.alone || upper.alone) return false;
         Run both;

@@ -9,37 +9,35 @@
 #include "revchain/pencil/sturm.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A run of links condensed to its two end pins, exactly up to rounding and truncation: a spring between the pins and a
-/// mass at each, all depending on mu = 1/lambda. With z = -mu and t = 1 + b1 z + b2 z^2 + ... they are
+/// A run of links condensed to its two end pins, exact up to rounding and truncation: a spring
+/// between the pins and a mass at each, depending on mu = 1/lambda. With z = -mu, t = 1 + b1 z + b2
+/// z^2 + ...:
 ///
 ///     lambda k / t + cross,    (lower + a1 z + ...) / t,    (upper + d1 z + ...) / t.
 ///
-/// The leading numbers are kept in `Wide<T>`; the rest, smaller by mu (mass)/(stiffness) of the block, in T.
+/// The leading numbers are in `Wide<T>`; the rest, smaller by mu (mass)/(stiffness), in T.
 template <Real T>
 struct Block {
     static constexpr std::size_t degree = 6;
     Wide<T> stiffness{}, lower{}, upper{};
-    Wide<T> cross{};  ///< off-diagonal mass of a link that stands alone; its spring may be negative
+    Wide<T> cross{};  ///< off-diagonal mass of a single link; its spring may be negative
     std::array<T, degree> b{};
     std::array<T, degree - 1> a{}, d{};
     Index links = 0;
 };
 
-/// A chain of blocks, lowest first; the last one's upper pin is held. Valid for shifts lambda >= `least_shift`.
+/// Blocks, lowest first; the last one's upper pin is held. Valid for lambda >= `least_shift`.
 template <Real T>
 struct CondensedPencil {
     std::vector<Block<T>> blocks;
     T least_shift{};
-    /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/theory/blocks.md.
+    /// Eigenvalues are within this (relative) of the exact chain's: docs/theory/blocks.md.
     T error{};
 };
 
-/// Dynamic stiffness of a block at one shift, lambda K - M:
+/// Dynamic stiffness lambda K - M of a block at one shift:
 ///
 ///     spring [ 1 -1 ; -1 1 ]  -  [ lower 0 ; 0 upper ].
 template <class S>
@@ -71,8 +69,8 @@ template <class N, class T, std::size_t Count>
 
 }  // namespace detail
 
-/// The block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words of packs, one shift a lane.
-/// The corrections are evaluated in T: they are small.
+/// The block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words of
+/// packs, one shift a lane. The corrections are small and evaluated in T.
 template <class S, Real T>
 [[gnu::always_inline]] inline LumpedElement<S> element_at(const Block<T>& block, const S& shift) {
     using N = Narrow<S>;
@@ -86,7 +84,7 @@ template <class S, Real T>
             upper + upper * change};
 }
 
-/// Those of all blocks, lowest first. Cost: 7 ns per block in packs of doubles, 35 in double words of such.
+/// The elements of all blocks. Cost: 7 ns per block in packs of doubles, 35 in double words.
 template <class S, Real T>
 std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
     std::vector<LumpedElement<S>> elements(pencil.blocks.size());
@@ -96,8 +94,7 @@ std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, cons
     return elements;
 }
 
-/// For each shift the number of eigenvalues above it, as `count_above` of an ElementPencil.
-/// Preconditions: shifts >= least_shift. Cost: 15 ns per block for 8 shifts of double.
+/// The number of eigenvalues above each shift, >= least_shift. Cost: 15 ns per block for 8 shifts.
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
@@ -127,10 +124,9 @@ struct CertifiedCounts {
     V above{}, proved{};
 };
 
-/// The count with a running bound on the error of the recursion from rounding, for the chain of exactly these elements:
-/// `proved` as in sturm.hpp, with fewer terms: elements change with the shift and have no cross mass. Apart from the
-/// loop of sturm.hpp, which would take 25 lines more for blocks than these two functions.
-/// Cost: 40 ns per block for the four shifts of a pack.
+/// The count with a running bound on the rounding error, for the chain of exactly these blocks.
+/// `proved` as in sturm.hpp, with fewer terms: elements change with the shift and have no cross
+/// mass. The loop of sturm.hpp would need more lines. Cost: 40 ns per block for four shifts.
 template <Real T>
 CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
@@ -144,7 +140,7 @@ CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const
         V error{};
         CertifiedCounts<V> result{zero, one};
         for (const Block<T>& block : pencil.blocks) {
-            const LumpedElement<S> e = element_at<S>(block, shift);  // here it fills the wait for the division
+            const LumpedElement<S> e = element_at<S>(block, shift);  // while the division waits
             const S hung = below - e.lower;
             const S pivot = hung + e.spring;
             const V spring = abs(e.spring.high), size = abs(pivot.high);
@@ -163,11 +159,10 @@ CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const
     });
 }
 
-/// Offsets of the pins between blocks, free end first, the held pin last (0), from their elements at an eigenvalue in
-/// each lane; 1 at the pin where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a
-/// double word of one.
-/// Cost: 30 ns per block in packs of doubles, 150 in double words of such, for four modes; `eigenvector`, which takes
-/// one, would take 2.8 times as long.
+/// Offsets of the pins between blocks, free end first, the held pin last (0), from their elements
+/// at an eigenvalue in each lane; 1 at the pin where upper and lower part balance best. S: a pack,
+/// or a double word of one. Cost: 30 ns per block in packs of doubles, 150 in double words of
+/// packs, for four modes; `eigenvector` of one would take 2.8 times as long.
 template <class S>
 std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     using V = Narrow<S>;
@@ -197,16 +192,15 @@ std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     });
 }
 
-/// A shift and by how much it has changed.
 template <class S>
 struct Improved {
     S shift{};
     Narrow<S> change{};
 };
 
-/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y being the twisted vector at `shift`:
-/// where one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the
-/// form is summed. Cost: 100 to 200 ns per block.
+/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y the twisted vector at
+/// `shift`: next to a single eigenvalue it cubes the error. S, a pack or a double word of one, is
+/// the accuracy of the form's sum. Cost: 100 to 200 ns per block.
 template <class S, Real T>
 Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;
@@ -222,8 +216,8 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
             const V lower = offset[m], upper = offset[m + 1], stretched = lower - upper;
             const S stretch = S(lower) - S(upper);
             const LumpedElement<S>& e = here[m];
-            form =
-                form + (stretch * stretch * e.spring - (S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper));
+            const S inertia = S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper;
+            form = form + (stretch * stretch * e.spring - inertia);
             const LumpedElement<V>& f = there[m];
             ahead += f.spring * stretched * stretched - (f.lower * lower * lower + f.upper * upper * upper);
         }
@@ -233,5 +227,3 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
 }
 
 }  // namespace revchain::pencil
-
-#pragma GCC diagnostic pop

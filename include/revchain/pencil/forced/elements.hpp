@@ -8,32 +8,30 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The speed of a drive: height and, where elements have a stiffness that goes with the speed,
-/// height times speed. Each within two operations of what is meant.
+/// A drive: height and, if a stiffness depends on the speed, height times speed, to two roundings.
 struct Driving {
     Wide<double> height, spin;
 };
 
-/// What one moved end does to a string of elements. Offsets are over that of the moved end.
+/// The response of a string of elements to one moved end; offsets are relative to that end's.
 struct Driven {
-    bool decided = false;    ///< else the drive cannot be told from resonance, and nothing but `negative` is meant
-    double error_bound = 0;  ///< of every offset, over the largest of a pin, before it is rounded to double
-    bool reversed = false;   ///< lowest pin against the moved end
-    Index negative = 0;      ///< negative pivots, those in doubt left out
-    double stiffness = 0;    ///< force at the moved end over its offset, in units of the last element
+    bool decided = false;    ///< else maybe at resonance, and only `negative` is valid
+    double error_bound = 0;  ///< of unrounded offsets, over the largest of a pin
+    bool reversed = false;   ///< whether the lowest pin moves against the moved end
+    Index negative = 0;      ///< negative pivots, without those in doubt
+    double stiffness = 0;    ///< force over offset at the moved end, in units of the last element
     double stiffness_error = 0;
 };
 
 namespace detail {
 
-using revchain::detail::around;
+using revchain::detail::around, revchain::detail::in_all_lanes;
 
 inline Interval<Wide<double>> rescaled(const Interval<Wide<double>>& x, int step) {
     return {ldexp(x.low, step), ldexp(x.high, step)};
 }
 
-/// How the offset of a pin follows from that of one above it: of the next, or of the next but one
-/// where the next is all but a node.
+/// How a pin's offset follows from the next pin's or, if that is nearly a node, the next but one.
 struct Follows {
     Interval<Wide<double>> ratio;
     int pins = 1;
@@ -41,15 +39,14 @@ struct Follows {
 
 }  // namespace detail
 
-/// Offsets of the pins below the moved end, lowest first, by intervals of two words: for drives and
-/// strings that `driven_lanes` leaves in doubt. Dynamic stiffness D of all below a pin is carried
-/// up,
+/// Offsets of the pins below the moved end, lowest first, by intervals of two words: for drives
+/// that `driven_lanes` leaves undecided. Dynamic stiffness D of all below a pin is carried up,
 ///
 ///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p,
 ///
-/// and where p vanishes, the pin above being a node, its reciprocal C' = p / ((L - B) p - (L +
-/// X)^2) for one link. D enters each step once: intervals widen as the error itself grows. `end` is
-/// the offset of the moved end, 1, if that is a pin of the chain, else 0: errors are over the
+/// and where p vanishes, the pin above being a node, for one link its reciprocal C' = p / ((L - B)
+/// p - (L + X)^2). D enters each step once: intervals widen only as the error grows. `end` is the
+/// offset of the moved end, 1, if that is a pin of the chain, else 0: errors are relative to the
 /// largest offset of a pin. Cost: about 1.5 microseconds for each element.
 template <class Offsets>
 Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset, double end = 1) {
@@ -75,17 +72,16 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
         const I square = revchain::square(coupling);
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;
-            // p of the pin below times that of this one, of one sign whatever that of the small one
+            // p here times p below: its sign does not depend on the small one
             const I pair =
                 earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) - detail::rescaled(earlier_square, step);
             if (pair.negative()) ++result.negative;
             if (!pair.negative() || whole.may_vanish()) return result;
-            const I force = coupling / whole;  // of what hangs below, over the offset of the pin above
+            const I force = coupling / whole;  // of all below, over the offset of the pin above
             const I ratio = below * force;
             follows[m] = {ratio, 1};
-            follows[m - 1].ratio = follows[m - 1].ratio * detail::rescaled(force, -step);
-            const I node = (detail::rescaled(earlier_rest, step) * below - I(S(1.0)));
-            follows[m - 1].ratio = follows[m - 1].ratio * node;
+            const I node = detail::rescaled(earlier_rest, step) * below - I(S(1.0));
+            follows[m - 1].ratio = follows[m - 1].ratio * detail::rescaled(force, -step) * node;
             below = upper - square * (below / whole);
             compliant = false;
             continue;
@@ -95,9 +91,7 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
         const bool small = std::abs(pivot.low.high) < 0x1p-40 * size || pivot.may_vanish();
         if (small && m + 1 < n) {
             const I denominator = upper * pivot - square;
-            if (denominator.may_vanish() || coupling.may_vanish()) {
-                return result;
-            }
+            if (denominator.may_vanish() || coupling.may_vanish()) return result;
             earlier_pivot = pivot, earlier_square = square, earlier_rest = upper;
             follows[m] = {I(S(1.0)) / coupling, 2};
             below = pivot / denominator;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "revchain/pencil/forced/elements.hpp"
 #include "revchain/simd/pack.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Which pins are wanted, and room for what leads from one of them to the next.
+/// The pins wanted, and room for the ratios between them.
 struct DrivenPins {
     std::vector<std::size_t> pins;  ///< ascending, all below the moved end
     std::vector<double> ratio{};
@@ -28,23 +26,18 @@ template <bool fused, class V>
     const DoubleWord<V> r = fast_two_sum(p.high, p.low + y.low * q);
     return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
 }
-template <class V>
-[[gnu::always_inline]] inline DoubleWord<V> everywhere(const Wide<double>& x) {
-    return {V(x.high), V(x.low)};
-}
 
-/// What is carried up for the drives in one pack.
+/// The state carried up for the drives in one pack.
 template <class V>
 struct DrivenWalk {
     DoubleWord<V> height, spin, below, product;
     V error;  ///< of `below`
-    V row;    ///< the part of it that the last element brought in
+    V row;    ///< the part of `error` from the last element
     V doubt;  ///< sum of the relative errors of the ratios
     typename V::Mask proved, negative, turned;
 };
 
-/// Four numbers of a pin that the sharper bound is made of: y over y above, one over the pivot, and the errors of the
-/// row itself and of D.
+/// For the sharper bound of a pin: y over y above, one over the pivot, errors of the row and of D.
 template <class V>
 struct DrivenRow {
     V ratio, inverse, row, below;
@@ -64,18 +57,18 @@ template <bool turning, bool fused, class V>
 [[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept, DrivenWalk<V>& w,
                                         DrivenRow<V>* row) {
     constexpr double unit = operation_error<Wide<double>>();
-    const DoubleWord<V> k = everywhere<V>(e.stiffness), mass = everywhere<V>(e.lower);
+    const DoubleWord<V> k = in_all_lanes<V>(e.stiffness), mass = in_all_lanes<V>(e.lower);
     DoubleWord<V> stiffness = product<fused>(w.height, k);
     V size = abs(stiffness.high);
     if constexpr (turning) {
-        const DoubleWord<V> added = product<fused>(w.spin, everywhere<V>(e.spin));
+        const DoubleWord<V> added = product<fused>(w.spin, in_all_lanes<V>(e.spin));
         stiffness = stiffness + added;
         size = size + abs(added.high);
     }
     const DoubleWord<V> pivot = (w.below - mass) + stiffness;
-    const DoubleWord<V> coupling = stiffness + everywhere<V>(e.cross);
+    const DoubleWord<V> coupling = stiffness + in_all_lanes<V>(e.cross);
     const DoubleWord<V> ratio = quotient<fused>(coupling, pivot);
-    const DoubleWord<V> carried = (stiffness - everywhere<V>(e.upper)) - product<fused>(coupling, ratio);
+    const DoubleWord<V> carried = (stiffness - in_all_lanes<V>(e.upper)) - product<fused>(coupling, ratio);
 
     constexpr double tiny = 0x1p-960;
     const V of_stiffness = w.height.high * V(e.error.stiffness) + V(12 * unit) * size + V(tiny);
@@ -104,17 +97,15 @@ template <bool turning, bool fused, class V>
 
 }  // namespace detail
 
-/// How many drives are walked together.
 template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
 inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 
-/// For the drives given (`driven_together`), what `driven` gives: one to a SIMD lane, in words of
-/// two doubles, with a running bound as that of `certified_count`. Units must be one for all
-/// elements. Undecided are drives next to a resonance, and those at which a pin is all but a node:
-/// `driven` is for them. `offset(lane, which, value)` for each pin wanted, highest first: value in
-/// two words, its relative error the bound. Cost: 8 to 20 ns for each link and drive with AVX-512,
-/// 26 to 40 ns with registers of two doubles (`bench_response`).
+/// `driven` for `driven_together` drives, one to a SIMD lane, in words of two doubles, with a
+/// running bound like that of `certified_count`. All elements are in one unit. Drives near a
+/// resonance, or with a pin nearly a node, are left undecided. Calls `offset(lane, which, value)`
+/// for each pin wanted, highest first; the bound is the relative error of the value. Cost a link
+/// and drive: 8 to 20 ns with AVX-512, 26 to 40 ns with two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
 [[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements,
                                                 const Driving* at, DrivenPins& wanted, Driven* result,
@@ -166,17 +157,16 @@ template <bool turning, bool fused, class V, class Offsets>
         }
 }
 
-/// Sharper bounds for drives that `driven_lanes` decided, to the first order of the errors and, by
-/// what is known of ratios and pivots already, rigorously so. With G = (height K - M)^-1, the moved
-/// end held, whose diagonal g follows from the top down,  g = 1/p + (y/y')^2 g',  and r the error
-/// of each row beside its offset,
+/// Sharper bounds for drives that `driven_lanes` decided: of first order in the errors, and
+/// rigorous by the known bounds of ratios and pivots. With G = (height K - M)^-1, the moved end
+/// held, its diagonal g from the top down by  g = 1/p + (y/y')^2 g',  r the error of each row over
+/// its offset, and E the error of D, which contains the rows below,
 ///
-///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i),
+///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i).
 ///
-/// E the error of D, which holds the rows below. The error of a coupling enters the row of its
-/// lower pin by the offset of the upper one. `end` as for `driven`. What `driven_lanes` adds up,
-/// errors of ratios, counts what happens to both sides of a node twice, without the signs. Cost:
-/// about that of `driven_lanes` and four numbers an element.
+/// The error of a coupling enters the row of its lower pin by the offset of the upper one. `end` as
+/// for `driven`. The errors of ratios that `driven_lanes` adds up count both sides of a node twice,
+/// without signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
 [[gnu::always_inline]] inline void sharpen(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
                                            Driven* result, std::vector<double>& scratch, double end = 1) {
@@ -195,7 +185,7 @@ template <bool turning, bool fused, class V>
         }
     }
     for (std::size_t p = 0; p < P; ++p) {
-        const V known = V(4.0) * walks[p].doubt + V(0x1p-48);  // relative, of a ratio squared and of a pivot
+        const V known = V(4.0) * walks[p].doubt + V(0x1p-48);  // of squared ratios and pivots
         V y(1.0), largest(end), g(0.0), slack(0.0), sum(0.0), worst(0.0);
         for (std::size_t m = n; m-- > 0;) {
             const double* from = scratch.data() + (m * P + p) * stored * L;

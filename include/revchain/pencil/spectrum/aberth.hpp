@@ -18,7 +18,7 @@ struct AberthSpectrum {
 
 namespace aberth {
 
-/// Numbers for every root; what is beyond the last is a copy of it.
+/// Shifts of all roots, padded with copies of the last one.
 struct Roots {
     static constexpr std::size_t room = most_walked;
     std::size_t count;
@@ -31,7 +31,7 @@ struct Roots {
         if (!std::is_sorted(shift, shift + count)) std::sort(shift, shift + count);
         fill_up();
     }
-    /// No NaN is among them then.
+    /// False also if a NaN is among them.
     bool lie_between(double lower, double upper) const {
         bool all = true;
         for (std::size_t i = 0; i < count; ++i) all = all && shift[i] >= lower && shift[i] <= upper;
@@ -39,8 +39,8 @@ struct Roots {
     }
 };
 
-/// First approximations: the polynomial at 2 or 3 N points between the bounds, evenly in a root of mu, and its changes
-/// of sign from pin to pin, which number the zeros below (Sturm). A zero alone between two points is interpolated.
+/// First approximations: signs of the polynomial from pin to pin at 2 or 3 N points between the
+/// bounds, even in a root of mu, count the zeros below each (Sturm). Single zeros are interpolated.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool first_roots(const LumpedLinks& links, Roots& roots) {
     const std::size_t points = 4 * (((rigid || links.size > 12 ? 3 : 2) * links.size + 7) / 4);
@@ -106,8 +106,8 @@ template <bool rigid, bool several>
     return true;
 }
 
-/// All zeros at once by Newton steps with the others divided out (Ehrlich and Aberth), each round cubing the error,
-/// until steps are small. Jacobi, so that rounds are the same whatever stands in a pack.
+/// All zeros at once by Newton steps with the others divided out (Ehrlich, Aberth), which cube the
+/// error, until steps are small. Jacobi, so that rounds do not depend on what else is in a pack.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline void improve(const LumpedLinks& links, Roots& roots) {
     constexpr std::size_t chunk = 12;  // differences multiplied before they are divided
@@ -149,7 +149,7 @@ template <bool rigid, bool several>
     }
 }
 
-/// Quotients and squared residuals of the vectors at all shifts; false where some number is of no use.
+/// Quotients and squared residuals of the vectors at all shifts; false where a number is unusable.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links, const double* flexibility_above,
                                                  const Roots& roots, AberthSpectrum& result, double* residual) {
@@ -159,7 +159,7 @@ template <bool rigid, bool several>
             std::array<Four, P> mu;
 #pragma GCC unroll 3
             for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-            // Where there is code for it, a chain of one leg does without sums of legs.
+            // If compiled, the form for a chain of one leg needs no sums of legs.
             const auto all = several && links.size <= leg ? quotients<rigid, !several, P>(links, flexibility_above, mu)
                                                           : quotients<rigid, true, P>(links, flexibility_above, mu);
 #pragma GCC unroll 3
@@ -177,15 +177,15 @@ template <bool rigid, bool several>
     return odd[0] + odd[1] + odd[2] + odd[3] == 0;
 }
 
-/// The bounds from the quotients and the sizes of their residuals; false where one exceeds the
-/// goal. Disjoint intervals, as many as eigenvalues: one in each. Then Kato and Temple. `rounding`:
-/// of the quotients. Beside `prove`, which needs lists: with it all modes of up to 10 links took
-/// 1.15 to 1.25 times as long, and with the quotients of `proved_roots`, too, twice.
+/// The bounds from the quotients and their residuals; false where one exceeds the goal. Disjoint
+/// intervals, as many as eigenvalues, hold one each; then Kato and Temple. `rounding`: of the
+/// quotients. With `prove`, which needs lists, all modes of up to 10 links took 1.15 to 1.25 times
+/// as long, and with the quotients of `proved_roots` too, twice.
 inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* residual, double rounding, double goal) {
     constexpr double slack = 1 + 0x1p-30;
-    const double blurred = 1.01 * rounding + 0x1p-50;  // what is stored is the vector's quotient but for rounding
+    const double blurred = 1.01 * rounding + 0x1p-50;  // the stored quotient has rounding errors
     const auto& value = result.eigenvalue;
-    double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
+    double upper_end = std::numeric_limits<double>::infinity();  // of the gap about eigenvalue i
     bool good = true;
     for (std::size_t i = 0; i < n; ++i) {
         const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
@@ -197,12 +197,12 @@ inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* resi
     return good;
 }
 
-/// See `aberth_spectrum`. What its constants count: docs/theory/spectrum.md, "Small chains".
+/// See `aberth_spectrum`; for the constants docs/theory/spectrum.md, "Small chains".
 template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
         constexpr bool several = any_packs<Registers>;
-        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
+        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;
         const std::size_t n = links.size;
         const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;
         Roots roots;
@@ -226,7 +226,7 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
         const double additions = static_cast<double>(std::min(n, leg) + (n - 1) / leg - 1);
         const double rounding =
             unit * (links.roundings.energies + (rigid ? 18 : 15) + 2 * additions + links.roundings.centroid) * slack;
-        const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
+        const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would matter
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
             if (!set_quotients<rigid, several>(links, above, roots, result, residual)) return false;
@@ -247,17 +247,17 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
 
 }  // namespace aberth
 
-/// All eigenvalues lambda of lambda K y = M y for a small chain, each with a bound that is proved, no larger than
-/// `tolerance` and 2^-32; false where that fails (then what is in `result` means nothing): neighbours too close,
-/// numbers that leave the range of double on the way.
+/// All eigenvalues lambda of lambda K y = M y for a small chain, each with a proved bound of at
+/// most `tolerance` and 2^-32. False, with no valid result, where neighbours are too close or
+/// numbers leave the range of double.
 ///
-/// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its zeros at once by
-/// Ehrlich's and Aberth's iteration, mostly three rounds; the Rayleigh quotients of twisted vectors, whose error is the
-/// square of the vectors'; residuals that give as many disjoint intervals as there are eigenvalues, and so number them.
-/// Accuracy as measured: 4 ulp. Proved: some 20 ulp for 10 links, 33 for 100.
-/// Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54 and 80 for 100 (bench_small).
-/// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses,
-/// flexibilities and shifts beyond 2^-64 ... 2^64.
+/// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its
+/// zeros at once by Ehrlich's and Aberth's iteration, mostly three rounds; Rayleigh quotients of
+/// twisted vectors, whose error is the square of the vectors'; residuals that give as many disjoint
+/// intervals as eigenvalues, and so number them. Accuracy, measured: 4 ulp; proved: about 20 ulp
+/// for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54
+/// and 80 for 100 (bench_small). Preconditions: 1 <= size <= most_links; X >= 0, M positive
+/// definite. Also refused: numbers beyond 2^-64 ... 2^64.
 inline bool aberth_spectrum(const aberth::LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return links.rigid ? aberth::solve<true>(links, tolerance, result) : aberth::solve<false>(links, tolerance, result);
 }

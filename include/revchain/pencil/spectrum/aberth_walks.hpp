@@ -7,50 +7,50 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// All eigenvalues of a small pencil of lumped links, four of them to a pack: what is done link by link.
-/// Walks of their own beside those of quotient.hpp, which cut long chains into legs and keep all they need on the heap:
-/// all modes of 10 plummets take 0.7 microseconds here and 19 there, of 40 11 and 44, of 100 49 and 134.
+/// All eigenvalues of a small pencil of lumped links, four to a pack: the steps from link to link.
+/// The walks of quotient.hpp cut long chains into legs and use the heap: all modes of 10 plummets
+/// take 0.7 microseconds here and 19 there, of 40 11 and 44, of 100 49 and 134.
 namespace revchain::inline REVCHAIN_BUILD::pencil::aberth {
 
-/// The largest chain served; its numbers stand on the stack.
+/// The largest chain served; its numbers are on the stack.
 inline constexpr std::size_t most_links = 128;
-/// Links between two looks at sizes and sums.
+/// Links between two checks of sizes and sums.
 inline constexpr std::size_t leg = 16;
 
-/// Bounds on what rounding did to the numbers of `LumpedLinks`, relative, in units of u = 2^-53.
+/// Bounds on the relative rounding errors in `LumpedLinks`, in units of u = 2^-53.
 struct Roundings {
     double energies = 0;  ///< y^T M y and y^T K y together
     double mass = 0;      ///< lumped masses
-    double drop = 0;      ///< a computed force over k + mu X, its division and product included
-    double centroid = 0;  ///< what those of the centroids' offsets add to y^T M y, where one is not in the middle
+    double drop = 0;      ///< a computed force over k + mu X, with its division and product
+    double centroid = 0;  ///< in y^T M y, of centroids that are not in the middle
 };
 
-/// A chain of links as lumped masses at the pins, springs between them, and the mass -X that only the difference of a
-/// link's two offsets feels (see `spectrum::LumpedLink`). In double: rounded as `roundings` says.
+/// A chain as lumped masses at the pins, springs between them, and the mass -X on the difference of
+/// a link's two offsets (see `spectrum::LumpedLink`), rounded as `roundings` says.
 struct LumpedLinks {
     using Numbers = std::array<double, most_links>;
     std::size_t size = 0;
-    bool rigid = false;      ///< whether the five columns from `cross_ratio` on are there; else all X are 0
+    bool rigid = false;      ///< whether the five columns from `cross_ratio` on are set; else X = 0
     Numbers mass;            ///< of the lower pin of link m
     Numbers stiffness;       ///< k
     Numbers flexibility;     ///< 1/k
     Numbers cross_ratio;     ///< X/k >= 0
     Numbers weight;          ///< W
-    Numbers lower_share;     ///< h/a, of the centroid's offset: the share of the lower pin's
+    Numbers lower_share;     ///< h/a: the share of the lower pin's offset in the centroid's
     Numbers upper_share;     ///< 1 - h/a
     Numbers turn;            ///< W rho^2/a^2
-    double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie between
+    double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie between these
     double greatest_shift = 0;
     Roundings roundings;
 };
 
 using Four = Pack<double>;
 
-/// Packs that are walked side by side: they share what is loaded and fill each other's waits.
+/// Packs that are walked side by side: they share loads and fill each other's waits.
 inline constexpr std::size_t packs_at_once = 3;
-/// Whether there is code for one and for two packs, and for chains of one leg, besides: 20 to 40 % faster up to 16
-/// links, and six times as much to compile (10 plummets: 0.86 us with it, 1.05 without). So only a build that chooses
-/// the instruction set at run time has it, and not in the form for the oldest processors.
+/// Whether there is also code for one and two packs, and for chains of one leg: 20 to 40 % faster
+/// up to 16 links (10 plummets: 0.86 us, else 1.05), but six times as much to compile. So only
+/// builds that choose the instruction set at run time have it, and not for the oldest processors.
 template <class Registers>
 inline constexpr bool any_packs =
 #if defined(REVCHAIN_DISPATCH)
@@ -59,16 +59,15 @@ inline constexpr bool any_packs =
     false;
 #endif
 
-/// How many shifts are walked for `count` of them.
+/// The number of shifts walked for `count` of them.
 template <bool several>
 constexpr std::size_t walked(std::size_t count) {
     constexpr std::size_t together = several ? 4 : 4 * packs_at_once;
     return (count + together - 1) / together * together;
 }
-/// Room for the shifts walked for `most_links` of them.
 inline constexpr std::size_t most_walked = walked<false>(most_links);
 
-/// f(P packs, first lane) for all packs.
+/// Calls f(P packs, first lane) for all packs.
 template <bool several, class F>
 [[gnu::always_inline]] inline void for_packs(std::size_t count, const F& f) {
     std::size_t i = 0;
@@ -83,8 +82,7 @@ template <bool several, class F>
     }
 }
 
-/// y at the support for a free end at 1, carried up without division: a polynomial in mu whose zeros are the
-/// eigenvalues.
+/// y at the support for a free end at 1, without division: a polynomial in mu, 0 at eigenvalues.
 template <bool rigid>
 struct Offset {
     Four value{1.0}, force{0.0};
@@ -101,7 +99,6 @@ struct Offset {
     }
 };
 
-/// An offset with its derivative.
 template <bool rigid>
 struct OffsetAndSlope {
     Four value{1.0}, force{0.0}, slope{0.0}, force_slope{0.0};
@@ -123,8 +120,8 @@ struct OffsetAndSlope {
     }
 };
 
-/// A vector built link by link from one end: offset y and spring force G of the link ahead, mu y^T M y and y^T K y so
-/// far. The sums belong to the offsets as stored and to their differences, whatever rounding did to the recurrence.
+/// A vector from one end, link by link: offset y, spring force G of the link ahead, mu y^T M y and
+/// y^T K y so far. The sums belong to the stored offsets and their differences, however rounded.
 template <bool rigid, bool tall>
 struct Walk {
     Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0}, earlier_stiffness{0.0};
@@ -151,7 +148,7 @@ struct Walk {
             inertia += Four(links.weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
         }
     }
-    /// Puts the sums of a leg away and brings the larger number to 1 ... 2, by a power of two for each lane.
+    /// Adds up the sums of a leg and scales the larger number to 1 ... 2, by a power of two.
     [[gnu::always_inline]] void tidy() {
         earlier_inertia += inertia;
         earlier_stiffness += stiffness;
@@ -164,22 +161,22 @@ struct Walk {
     }
 };
 
-/// What a twisted vector at a shift mu gives.
+/// The results of a twisted vector at a shift mu.
 struct Quotients {
     Four ratio;   ///< Rayleigh quotient times mu: 1 at an eigenvalue
-    Four square;  ///< squared residual, in the norm of K^-1 over that of K, but for rounding
+    Four square;  ///< squared residual in the norm of K^-1 over that of K, without rounding errors
     Four energy;  ///< y^T K y
-    Four scale;   ///< the lesser of the two factors that joined the energies of the walks
+    Four scale;   ///< the smaller of the two factors that joined the energies of the walks
 };
 
-/// For some packs of shifts the quotients of vectors carried from both ends and joined at the pin where the residual is
-/// least. `flexibility_above[t]`: sum of 1/k from link t up.
+/// For some packs of shifts the quotients of vectors from both ends, joined at the pin where the
+/// residual is least. `flexibility_above[t]`: sum of 1/k from link t up.
 template <bool rigid, bool tall, std::size_t P>
 [[gnu::always_inline]] inline std::array<Quotients, P> quotients(const LumpedLinks& links,
                                                                  const double* flexibility_above,
                                                                  const std::array<Four, P>& mu) {
     constexpr std::size_t kept = rigid ? 5 : 4;
-    alignas(Four) std::byte memory[kept * P * most_links * sizeof(Four)];  // not initialised: what is written is read
+    alignas(Four) std::byte memory[kept * P * most_links * sizeof(Four)];  // not initialised
     Four* const at_pins = reinterpret_cast<Four*>(memory);
     std::array<Walk<rigid, tall>, P> walk;
 #pragma GCC unroll 3
@@ -214,13 +211,13 @@ template <bool rigid, bool tall, std::size_t P>
             Quotients& joined = best[p];
             const Four* const here = at_pins + kept * (P * m + p);
             down.pass_link(links, m, rigid ? here[kept - 1] : Four(links.flexibility[m]), false);
-            // Each scaled by the other's offset, so that they meet.
+            // Each is scaled by the other's offset, so that they meet.
             const Four scale_up = down.offset * down.offset, scale_down = here[0] * here[0];
             const Four gap = here[1] * down.offset - down.force * here[0];
             const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
             const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
             const Four square = gap * gap * Four(flexibility_above[m]);
-            const Four other = joined.square * energy, own = square * joined.energy;  // never for a NaN
+            const Four other = joined.square * energy, own = square * joined.energy;  // NaN: no
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);

@@ -43,7 +43,7 @@ struct Chebyshev {
     }
 };
 
-/// `V::size` of the numbers x from `begin` on; beyond its end the last.
+/// `V::size` of the numbers x from `begin` on, padded with the last.
 template <class V>
 [[gnu::always_inline]] inline V part(const std::vector<double>& x, std::size_t begin) {
     if (begin + V::size <= x.size()) return V::load(&x[begin]);
@@ -79,7 +79,7 @@ template <class V>
     return p;
 }
 
-/// Value and q'/q of q = p/product of (x - known), up to a positive factor in the value.
+/// Value and q'/q of q = p/product of (x - known), the value up to a positive factor.
 template <class V>
 [[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known, const V& x, V& value,
                                             V& slope) {
@@ -92,9 +92,8 @@ template <class V>
     }
 }
 
-/// Zeros of p besides `known` between `low` and `high`, where p over the product of (x - known) has different signs:
-/// Newton's steps, halves where they leave the bracket, until the next would be below `precision` if it were its
-/// square.
+/// Zeros of p besides `known` between `low` and `high`, where p/product of (x - known) has
+/// different signs: Newton's steps or halves, until a step is below `precision`.
 template <class V>
 [[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& known,
                                                           const std::vector<double>& low,
@@ -121,8 +120,8 @@ template <class V>
     return root;
 }
 
-/// Where q = p/product of (x - known) has a least value of |q| in (a, b), a point where it has the other sign than at
-/// both ends: NaN if there is none. Intervals are cut into V::size + 1 at a time.
+/// A point in (a, b) where q = p/product of (x - known) has the other sign than at both ends, next
+/// to a minimum of |q|; NaN if there is none. Cuts intervals into V::size + 1 at a time.
 template <class V>
 [[gnu::always_inline]] inline double between_pair(const Chebyshev& p, const std::vector<double>& known, double a,
                                                   double b) {
@@ -146,7 +145,7 @@ template <class V>
     return none;
 }
 
-/// All zeros of the polynomial on [-1, 1] if there are `count` of them, ascending; else what was found.
+/// All zeros of the polynomial on [-1, 1] if there are `count`, ascending; else those found.
 template <class V>
 [[gnu::always_inline]] inline std::vector<double> zeros(const Chebyshev& p, Index count) {
     const std::size_t points = (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
@@ -158,7 +157,7 @@ template <class V>
         if ((f[i - 1] < 0) != (f[i] < 0)) low.push_back(x[i - 1]), high.push_back(x[i]);
     std::vector<double> root = refined<V>(p, {}, low, high, 1e-9);
     for (bool more = true; more && static_cast<Index>(root.size()) < count;) {
-        for (std::size_t i = 0; i < points; i += V::size) {  // the logarithmic slope, without the zeros known
+        for (std::size_t i = 0; i < points; i += V::size) {  // logarithmic slopes, deflated
             V value, slope;
             deflated(p, root, V::load(&x[i]), value, slope);
             slope.store(&f[i]);
@@ -179,8 +178,7 @@ template <class V>
     return root;
 }
 
-/// Whether every root is known to 1/1000 of its distance to the next: as far as rounding in the values and the
-/// coefficients cut off tell.
+/// Whether every root is known to 1/1000 of its distance to the next, by the last coefficients.
 template <class V>
 [[gnu::always_inline]] inline bool certain(const Chebyshev& p, const std::vector<double>& root) {
     double noise = 0;

@@ -12,24 +12,23 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace spectrum {
 
-/// An eigenvalue on its way to a proof.
 struct Candidate {
     double shift = 0;           ///< mu the vector was computed at
-    ProvedRoot<double> root{};  ///< its Rayleigh quotient, and how far rounding may have moved that
-    /// An eigenvalue lies within this of it, relative.
+    ProvedRoot<double> root{};  ///< its Rayleigh quotient, and the rounding error of that
+    /// An eigenvalue lies within this of the quotient, relative.
     double residual = std::numeric_limits<double>::infinity();
-    double rounding = 0;    ///< what rounding has in `residual`
-    std::size_t place = 0;  ///< links below where it lives
+    double rounding = 0;    ///< the part of `residual` due to rounding
+    std::size_t place = 0;  ///< links below the mode's largest offsets
 };
 
-/// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
+/// Relative rounding error of a Rayleigh quotient: plain sums over 16 links, one or two terms each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
     const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
     const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
-/// Vectors and quotients at the candidates' shifts; walks joined at a pin that `longest` divides.
+/// Vectors and quotients at the candidates' shifts; walks join at pins that `longest` divides.
 inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
                      bool placed, std::size_t longest) {
     std::vector<double> shifts;
@@ -42,11 +41,10 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
     for (std::size_t j = 0; j < which.size(); ++j) {
         Candidate& c = all[which[j]];
         const Quotient& q = quotients[j];
-        if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector says nothing of this shift
+        if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector is useless
         const double value = q.ratio / c.shift;
         c.root = {DoubleWord<double>(value), rounding_quotient(chain, c.shift) * value};
-        // The residual is least at the quotient; 2^-40 covers its own rounding and the change of
-        // scale, |ratio - 1|.
+        // The residual is least at the quotient; 2^-40 covers its rounding and the change of scale.
         c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
         if (std::isnan(c.residual)) c.residual = std::numeric_limits<double>::infinity();
         c.rounding = q.rounding;
@@ -54,7 +52,7 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
     }
 }
 
-/// Refines the quotients found to twice the digits. Walks are joined at every pin that `longest` divides.
+/// Refines the quotients found to twice the digits; walks join at pins that `longest` divides.
 inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
                    bool placed, std::size_t longest) {
     std::vector<double> shifts;
@@ -80,11 +78,10 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
     }
 }
 
-/// Below this tolerance quotients in double do not suffice.
+/// Below this tolerance quotients in double are not accurate enough.
 inline constexpr double loosest_fine = 40 * 0x1p-52;
 
-/// The candidates of some windows on their way to proved bounds: number `first` ... `last` - 1 of `total` eigenvalues,
-/// and those that share their windows.
+/// Proves eigenvalues number `first` ... `last - 1` of `total`, and those that share their windows.
 template <Real S>
 class Candidates {
    public:
@@ -104,7 +101,6 @@ class Candidates {
         return proved(first, last);
     }
 
-    /// By counts alone.
     std::vector<Certified<double>> counted(Index first, Index last, double guess) const {
         std::vector<Certified<double>> result;
         const double width = 2 * epsilon<double>();
@@ -117,7 +113,7 @@ class Candidates {
     }
 
    private:
-    /// First shifts. With the proved counts at both ends there are as many eigenvalues as candidates.
+    /// First shifts. Proved counts at both ends show that there are as many eigenvalues.
     bool separate(Index first, Index last, Index total) {
         std::vector<Window> found;
         if (!isolate(chain_, first, last, found, all_)) return false;
@@ -138,7 +134,7 @@ class Candidates {
         return true;
     }
 
-    /// Rounds of quotients until their error, the square of the vector's, is below rounding.
+    /// Repeats quotients until their error, the square of the vector's, is below rounding.
     void improve() {
         std::vector<std::size_t> which(all_.size()), astray;
         std::iota(which.begin(), which.end(), std::size_t(0));
@@ -150,11 +146,11 @@ class Candidates {
             std::vector<std::size_t> again;
             for (const std::size_t i : which) {
                 Candidate& c = all_[i];
-                if (!(c.rounding < 0x1p-10)) continue;  // double has no more to say
+                if (!(c.rounding < 0x1p-10)) continue;  // double cannot improve it
                 const double next = 1 / c.root.root.high, apart = room(i);
                 const bool rough = c.residual > 4 * c.rounding;
                 if (!rough || c.residual * c.residual < 0x1p-57 * apart / starts_[i]) continue;
-                // On to the quotient, unless a vector joined at a bad place led astray.
+                // On to the quotient, unless a vector joined at a bad pin led astray.
                 const bool near = std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
                 c.shift = near ? next : starts_[i];
                 (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray).push_back(i);
@@ -163,8 +159,8 @@ class Candidates {
         }
     }
 
-    /// Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray
-    /// at the first one, joined at any pin near where the mode seems to live, at last anywhere.
+    /// Once, and again where the vector's error is still relevant: at the better shift or, if that
+    /// led astray, at the first shift, joined at any pin near the mode, at last at any pin.
     void refine_roots() {
         for (int round = 0; round < 3; ++round) {
             // The bounds that `proved` will give if counts between intervals are as expected.
@@ -184,7 +180,7 @@ class Candidates {
                 if (!(std::abs(1 / value - starts_[i]) < 0.4 * room(i))) {
                     if (round == 0) continue;
                     c.root.root = DoubleWord<double>(1 / starts_[i]);
-                    c.residual = infinity;  // of this nothing is known
+                    c.residual = infinity;  // nothing is known of this root
                 }
                 some.push_back(i);
             }
@@ -205,7 +201,7 @@ class Candidates {
         return roots;
     }
 
-    /// Proves the roots: those of which no vector says anything, and those whose intervals meet others, by counts.
+    /// Proves the roots, by counts where vectors are useless or intervals meet others.
     std::optional<std::vector<Certified<double>>> proved(Index first, Index last) {
         std::vector<std::optional<Certified<double>>> sure(all_.size());
         for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -233,7 +229,6 @@ class Candidates {
         return result;
     }
 
-    /// To the next start.
     double room(std::size_t i) const {
         const double below = i > 0 ? starts_[i] - starts_[i - 1] : starts_[i];
         const double above = i + 1 < starts_.size() ? starts_[i + 1] - starts_[i] : starts_[i];
@@ -254,19 +249,21 @@ class Candidates {
 
 }  // namespace spectrum
 
-/// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with
-/// a bound that is proved: as theorems and counts say (docs/theory/spectrum.md), no larger than `tolerance` (2
-/// ulp or more) or what two words can prove. For several eigenvalues of a dozen links or more.
+/// The eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total`
+/// positive ones, each with a bound proved by theorems and counts (docs/theory/spectrum.md), at
+/// most `tolerance` (2 ulp or more) or what two words can prove. For several eigenvalues of a dozen
+/// links or more.
 ///
-/// Method: windows of some 60 eigenvalues by counts; the characteristic polynomial, without division, at 2.4 shifts per
-/// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual
-/// and those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters,
-/// negative cross masses) is left to bisection and counts in two words.
-/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20
-/// (2e-18 proved); else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
-/// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods,
-/// more where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3
-/// for random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
+/// Method: windows of about 60 eigenvalues by counts; the characteristic polynomial, without
+/// division, at 2.4 shifts per eigenvalue and the zeros of its Chebyshev interpolant; at each the
+/// Rayleigh quotient of a twisted vector, its residual and those of its neighbours; one shift to a
+/// SIMD lane. Clusters and negative cross masses are left to bisection and counts in two words.
+/// Accuracy, measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded
+/// mostly 1e-20 (2e-18 proved); else within 4 ulp for the chains of the tests (N up to 10,000,
+/// there a sample of the modes); random compound pendulums up to 45 ulp with a tolerance of 1e-11,
+/// 6 with 128 ulp. Proved: 28 ulp plummets, 36 rods, more where neighbours nearly coincide. Cost
+/// (AVX-512, N = 10,000) per mode and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5
+/// and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,

@@ -9,8 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
-/// and the mass -X that only the difference of the two offsets feels. A link's own inertia is
+/// One link of the all-modes engine: an elastic, massless link between two pins with lumped mass,
+/// and the mass -X on the difference of the two offsets. A link's own inertia is
 ///
 ///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W (p y_l + q y_u)^2 + turn (y_l - y_u)^2,    p = h/a, q = 1 - p,
 ///
@@ -26,36 +26,35 @@ struct LumpedLink {
     double turn;         ///< the element's c = W rho^2/a^2
 };
 
-/// What of the pencil's numbers is left when they are rounded to those of `LumpedLink`; and the cross mass X.
+/// The pencil's numbers minus the rounded ones of `LumpedLink`; and the cross mass X.
 struct LumpedRest {
     double stiffness, mass, cross, cross_rest;
 };
 
-/// Links between two looks at sizes and sums, at most.
+/// The largest number of links between two checks of sizes and sums.
 inline constexpr std::size_t longest_leg = 16;
 
-/// What rounding bounds need to know of a run of links: the largest X/k, and of k/m, m the mass of the pin above, the
-/// largest root and the largest root times X/k.
+/// Largest X/k, root = (k/m)^1/2 (m the mass of the pin above), and root X/k of a run of links.
 struct Bounds {
     double cross_ratio = 0, root = 0, cross_root = 0;
 };
 
-/// The pencil as lumped pins and links, every number within `data_error` (relative) of the exact one.
+/// The pencil as lumped pins and links; every number is within the relative `data_error`.
 struct LumpedChain {
     std::vector<LumpedLink> links;
     std::vector<LumpedRest> rests;          ///< of each link
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
     double tip_mass_rest = 0;
-    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md): sum of k_j (sum of 1/k from j up)
+    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md)
     std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
     double largest_cross_ratio = 0;     ///< max X/k
-    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
-    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
+    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k, growth in a link over mu
+    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): cancellation
     double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
-    double data_error = 0;              ///< what the wide entries' own error may come to, of any number
-    bool has_cross = false;             ///< some X is not 0
-    bool fit = true;                    ///< masses >= 0 and all numbers in a range whose squares are normal
+    double data_error = 0;              ///< relative error from the wide entries
+    bool has_cross = false;             ///< whether some X is not 0
+    bool fit = true;                    ///< masses >= 0, and squares of all numbers are normal
 
     std::size_t size() const { return links.size(); }
 };
@@ -76,12 +75,12 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         const Element<S>& e = wide.elements[m];
         const S cross = e.cross, mass = carried + (e.lower + cross);
         const double x = static_cast<double>(cross);
-        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // what its error is relative to
+        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // for errors
         const double size = carried_size + (static_cast<double>(e.lower) + cross_size);
         carried = e.upper + cross;
         carried_size = static_cast<double>(e.upper) + cross_size;
         const double pin = static_cast<double>(mass), rest = static_cast<double>(mass - S(pin));
-        // negative masses are not served, nor sums that cancel to less than a 2^-30th
+        // negative masses are not served, nor sums that cancel to less than 2^-30
         chain.fit = chain.fit && (pin == 0 || in_range(pin));
         if (pin != 0) cancelled = std::max(cancelled, size / pin);
         (m == 0 ? chain.tip_mass : chain.links[m - 1].mass) = pin;
@@ -112,7 +111,7 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
     for (std::size_t m = 0; m < n; ++m) {
         const LumpedLink& link = chain.links[m];
         Bounds& b = chain.bounds[m / longest_leg];
-        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
+        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // held pin
         b.cross_ratio = std::max(b.cross_ratio, link.cross_ratio);
         chain.largest_cross_ratio = std::max(chain.largest_cross_ratio, link.cross_ratio);
         b.root = std::max(b.root, root);
@@ -125,24 +124,22 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         chain.flexibility_above[m] = chain.flexibility_above[m + 1] + link.flexibility;
         square += link.stiffness * chain.flexibility_above[m];
         const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
-        chain.max_mass_to_stiffness =
-            std::max(chain.max_mass_to_stiffness,
-                     (std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness) * link.flexibility);
+        const double mass = std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness;
+        chain.max_mass_to_stiffness = std::max(chain.max_mass_to_stiffness, mass * link.flexibility);
     }
     chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
     return chain;
 }
 
-/// How many links may be walked before sizes are looked at, a power of 2: the growth stays below 2^300.
+/// A power of 2: links that may be walked between checks of sizes; growth stays below 2^300.
 inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift, std::size_t longest) {
     const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.max_mass_to_stiffness);
     return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
 }
 
-/// Whether some of the sizes between `least` and `most` are to be brought back near 1.
 template <class V>
 [[gnu::always_inline]] inline bool strays(const V& least, const V& most) {
-    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // NaN included
+    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // or NaN
 }
 
 }  // namespace revchain::pencil::spectrum

@@ -8,41 +8,38 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// What a twisted vector at a shift mu = 1/lambda gives.
+/// The results of a twisted vector at a shift mu = 1/lambda.
 struct Quotient {
     double ratio = 0;       ///< Rayleigh quotient times mu: 1 at an eigenvalue
-    double residual = 0;    ///< bound on |(mu M - K) y| in the norm of K^-1 over |y| in that of K, rounding and all
-    double rounding = 0;    ///< what rounding has in it
+    double residual = 0;    ///< bound on |(mu M - K) y| in the norm of K^-1 over |y| in that of K
+    double rounding = 0;    ///< the part of `residual` due to rounding
     std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
-/// Quotients of their own beside those of `proved_roots`, which take 2.4 to 6 times as long for
-/// each mode and link: with those, all modes of 300 links took 1.2 to 1.5 times as long, of 1000
-/// 1.6 to 2.2 times.
+/// Packs of shifts walked together. With the quotients of `proved_roots`, which take 2.4 to 6 times
+/// as long, all modes of 300 links took 1.2 to 1.5 times as long, of 1000 1.6 to 2.2 times.
 inline constexpr std::size_t quotient_packs = 4;
 
-/// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
-/// the link ahead, with y^T M y (with cross masses, else mu times it) and y^T K y so far. The sums belong to the
-/// offsets as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this
-/// vector.
+/// Vectors from one end, one for each shift of a pack: offset y, mu times the spring force G of the
+/// link ahead, and y^T M y (without cross masses mu times it) and y^T K y so far. The sums belong
+/// to the stored offsets and their differences: they are its energies.
 template <class V>
 struct Walk {
     V mu, offset, force;
-    CompensatedSum<V> inertia, stiffness;  // plain sums over a leg are added without loss
+    CompensatedSum<V> inertia, stiffness;  // of plain sums over legs
     V forces;                              ///< bound on the sum of (force/k)^2 k over the links
-    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
+    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over upper pins; for cross masses
 };
 
-/// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin `end`. Going up, a
-/// walk has passed the mass of the pin it stands at; going down, it has not.
+/// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin
+/// `end`. Upwards a walk has passed the mass of its pin, downwards not.
 template <bool has_cross, bool up, class V>
 [[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
                                              Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
-    for (std::size_t p = 0; p < P; ++p) {
+    for (std::size_t p = 0; p < P; ++p)
         mu[p] = walk[p].mu, offset[p] = walk[p].offset, force[p] = walk[p].force;
-    }
     for (std::size_t i = begin; i < end; ++i) {
         const LumpedLink e = chain.links[up ? i : begin + (end - 1 - i)];
 #pragma GCC unroll 8
@@ -61,8 +58,8 @@ template <bool has_cross, bool up, class V>
             const V square = d * d;
             stiffness[p] += e.stiffness * square;
             if constexpr (has_cross) {
-                const V centroid =
-                    e.lower_share * (up ? before : offset[p]) + e.upper_share * (up ? offset[p] : before);
+                const V lower = up ? before : offset[p], upper = up ? offset[p] : before;
+                const V centroid = e.lower_share * lower + e.upper_share * upper;
                 inertia[p] += e.weight * (centroid * centroid);
                 inertia[p] += e.turn * square;
             }
@@ -93,25 +90,19 @@ template <bool has_cross, bool up, class V>
     }
 }
 
-/// A walk at a pin where it may be joined with one from the other end.
+/// A walk at a pin where it may be joined to one from the other end.
 template <class V>
 struct AtPin {
     V offset, force, inertia, stiffness, forces, offsets;
-    AtPin() = default;
-    [[gnu::always_inline]] explicit AtPin(const Walk<V>& w)
-        : offset(w.offset),
-          force(w.force),
-          inertia(w.inertia.value()),
-          stiffness(w.stiffness.value()),
-          forces(w.forces),
-          offsets(w.offsets) {}
+    [[gnu::always_inline]] static AtPin of(const Walk<V>& w) {
+        return {w.offset, w.force, w.inertia.value(), w.stiffness.value(), w.forces, w.offsets};
+    }
 };
 
-/// What rounding of a twisted vector, and the pencil's own error, put into its residual; of its sums `forces` and
-/// `offsets` over |y|^2.
+/// The residual from rounding and the pencil's error; `forces`, `offsets`: sums over |y|^2.
 template <bool has_cross>
 double vector_rounding(const LumpedChain& chain, double mu, double forces, double offsets) {
-    // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
+    // for pins without mass: y_m^2 <= Phi_m |y|_K^2
     const double most = (1 + mu * chain.largest_cross_ratio) * chain.rounding_root;
     const double force_part = has_cross ? std::sqrt(forces) : 1.0;
     const double offset_part = has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
@@ -119,8 +110,7 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// How walks along the chain are cut: `leg` links between two looks at sizes and sums; twists at pins 0, leg, 2 leg,
-/// ... `last` leg < n, tried from number `low` to `high`.
+/// `leg` links between checks; twists at pins 0, leg, ... `last` leg < n, number `low` to `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
@@ -133,10 +123,9 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
     return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
 }
 
-/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
-/// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error
-/// is the square of the vector's.
-/// Cost per shift and link (AVX-512): 0.45 ns without cross masses, 0.86 with.
+/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined
+/// at the pin of least residual from `lowest` to `highest` that `longest`, a power of 2, divides.
+/// Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86 ns a link.
 template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                              std::size_t highest, std::size_t longest, Quotient* result,
@@ -156,7 +145,7 @@ template <bool has_cross, class V>
     for (std::size_t at = 0; at <= high; ++at) {
         if (at > 0) propagate<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
-        for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin<V>(walk[p]);
+        for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin<V>::of(walk[p]);
     }
 
     V twist[P], least[P], inertia[P], stiffness[P], forces[P], offsets[P];
@@ -173,7 +162,7 @@ template <bool has_cross, class V>
         const double above = chain.flexibility_above[begin];
         for (std::size_t p = 0; p < P; ++p) {
             const AtPin<V>& up = scratch[(at - low) * P + p];
-            const AtPin<V> down(walk[p]);
+            const AtPin<V> down = AtPin<V>::of(walk[p]);
             // each scaled by the other's offset, so that they meet
             const V gap = up.force * down.offset - down.force * up.offset;
             const V scale_up = down.offset * down.offset, scale_down = up.offset * up.offset;
@@ -196,7 +185,7 @@ template <bool has_cross, class V>
             const double energy = stiffness[p][i];
             const double rounding =
                 vector_rounding<has_cross>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
-            // Terms of second order are less than that 1.01 only where this is small.
+            // Terms of second order are covered by the factor 1.01 only where this is small.
             const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
                                                        : std::numeric_limits<double>::infinity();
             result[p * V::size + i] = {ratio[i], residual, rounding, static_cast<std::size_t>(twist[p][i])};
@@ -204,9 +193,9 @@ template <bool has_cross, class V>
     }
 }
 
-/// For any number of shifts what `solve(registers, has_cross, shifts, lowest, highest, results)` gives for `packs`
-/// packs of them, each joined near its `place`, or with no places given anywhere. Those that live together go together:
-/// what lies between the places is walked twice.
+/// For any number of shifts the results of `solve(registers, has_cross, shifts, lowest, highest,
+/// results)` for `packs` packs of them, each joined near its entry in `places`, or anywhere if that
+/// is empty. Shifts are sorted by place, because links between the places are walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {
@@ -226,11 +215,10 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
                 for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
                 const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
                 const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-                if (chain.has_cross) {
+                if (chain.has_cross)
                     solve(registers, std::true_type(), padded, lowest, highest, found);
-                } else {
+                else
                     solve(registers, std::false_type(), padded, lowest, highest, found);
-                }
                 for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
             }
         });
@@ -241,8 +229,7 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
 inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                            const std::vector<std::size_t>& places = {},
                                            std::size_t longest = longest_leg) {
-    return in_packs<Quotient, quotient_packs>(
-        chain, shifts, places,
+    return in_packs<Quotient, quotient_packs>(chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
             Quotient* found) REVCHAIN_INLINED {
             std::vector<AtPin<Pack<double, registers.doubles>>> scratch;

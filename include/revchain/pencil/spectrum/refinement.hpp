@@ -5,25 +5,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// What a twisted vector at a shift mu gives beyond what doubles hold: see `Quotient`.
+/// The results of a twisted vector at a shift mu to more digits than double: see `Quotient`.
 struct FineQuotient {
     double excess = 0;    ///< Rayleigh quotient times mu, less 1
-    double error = 0;     ///< bound on what rounding did to it, and the pencil's own error
-    double residual = 0;  ///< as of `Quotient`: evaluated, not bounded, but for what is of second order
+    double error = 0;     ///< bound of its error, with the pencil's own
+    double residual = 0;  ///< as in `Quotient`, but evaluated, with a bound of second order
     std::size_t twist = 0;
 };
 
 inline constexpr std::size_t fine_packs = 2;
 
-/// A vector built as that of `Walk`: offset y, and the sum of m y over the pins passed in two words. What rounding
-/// leaves in doubt is evaluated: f = mu (sum of m y) - (k + mu X) d of each link, d the difference of the offsets as
-/// stored, is the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
+/// A vector as in `Walk`: offset y, and the sum of m y over pins in two words. Rounding residuals
+/// are evaluated: with d the difference of the stored offsets, f = mu (sum of m y) - (k + mu X) d
+/// of each link is the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
 template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
     V excess, squares, stiffness;  ///< sums of f d, f^2 / k, k d^2
-    V forces,
-        offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
+    V forces;   ///< sum of (force/k)^2 k; with cross masses only
+    V offsets;  ///< sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 template <bool has_cross, bool up, bool fused, class V>
@@ -96,11 +96,9 @@ template <bool has_cross, bool up, bool fused, class V>
     }
 }
 
-/// For each shift what `quotients` gives, to twice the digits: the vector is the same but for rounding, and its
-/// residual is evaluated by sums and products whose roundings are kept. Walks are joined at a pin whose number
-/// `longest` divides, a power of 2.
-/// Accuracy: docs/theory/spectrum.md, "To the last digit". Cost per shift and link: about three times that of
-/// `quotients`.
+/// `quotients` to twice the digits: the same vector but for rounding, with a residual that includes
+/// roundings. Walks join at a pin that `longest`, a power of 2, divides. Accuracy:
+/// docs/theory/spectrum.md, "To the last digit". Cost: about three times `quotients`.
 template <bool has_cross, bool fused, class V>
 [[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                                   std::size_t highest, std::size_t longest, FineQuotient* result,
@@ -168,14 +166,14 @@ template <bool has_cross, bool fused, class V>
             const double mu = shifts[p * V::size + i], energy = joined[p].stiffness[i];
             const double rounding =
                 vector_rounding<has_cross>(chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
-            const double second = rounding * (8 * epsilon<double>() * (static_cast<double>(n) + 16) +
-                                              2 * chain.data_error / epsilon<double>());
-            const double residual =
-                (std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i])) * (1 + 0x1p-20) + second;
-            const double swung =
-                has_cross ? std::sqrt(joined[p].forces[i] / energy) : 1.0;  // no less than mu X d^2 over |y|^2
+            const double sums = 8 * epsilon<double>() * (static_cast<double>(n) + 16);
+            const double second = rounding * (sums + 2 * chain.data_error / epsilon<double>());
+            const double evaluated = std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i]);
+            const double residual = evaluated * (1 + 0x1p-20) + second;
+            // at least mu X d^2 over |y|^2
+            const double swung = has_cross ? std::sqrt(joined[p].forces[i] / energy) : 1.0;
             const double data = chain.data_error * (3 + 3 * swung);
-            const double error = second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
+            const double error = second + sums * residual + data;
             const bool good = rounding < 0x1p-10 && residual < 0x1p-10 && energy > 0x1p-900 && energy < 0x1p1000;
             result[p * V::size + i] = {joined[p].excess[i] / energy, error,
                                        good ? residual : std::numeric_limits<double>::infinity(),
@@ -186,8 +184,7 @@ template <bool has_cross, bool fused, class V>
 inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                                     const std::vector<std::size_t>& places,
                                                     std::size_t longest = longest_leg) {
-    return in_packs<FineQuotient, fine_packs>(
-        chain, shifts, places,
+    return in_packs<FineQuotient, fine_packs>(chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
             FineQuotient* found) REVCHAIN_INLINED {
             std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;

@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The characteristic polynomial at a shift, value * 2^exponent, and the number of eigenvalues mu below the shift.
+/// The characteristic polynomial at a shift, value * 2^exponent, and the eigenvalues mu below.
 struct Sample {
     double value = 0;
     int exponent = 0;
@@ -21,15 +21,15 @@ inline std::size_t history_words(std::size_t links) { return links / history_ste
 
 inline constexpr std::size_t sample_packs = 6;
 
-/// Offset of the held pin over that of the free end, as a function of mu = 1/lambda, times the product of 1 + mu X/k
-/// over the links: a polynomial whose zeros are the eigenvalues. Division-free: with s = 1 + mu X/k,
+/// The offset of the held pin for a free end at 1, as a function of mu = 1/lambda, times the
+/// product of s = 1 + mu X/k over the links: a polynomial whose zeros are the eigenvalues.
+/// Division-free:
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// Cost per shift and link (AVX-512): 0.13 ns without cross masses (X = 0), 0.23 with.
-///
-/// With `count`, also the number of eigenvalues below the shift; else `history`, the sign of the offset after every
-/// `history_step` links from the free end, 64 signs to a word, the first in the highest bit used.
+/// With `count` it also counts eigenvalues below the shift; else `history` receives the sign of the
+/// offset after every `history_step` links from the free end, 64 signs to a word, the first in the
+/// highest bit used. Cost per shift and link (AVX-512): 0.13 ns without cross masses, 0.23 with.
 template <class V, bool has_cross, bool count>
 [[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts, Sample* samples,
                                           std::uint64_t* history) {
@@ -91,7 +91,7 @@ template <class V, bool has_cross, bool count>
                                         static_cast<Index>(changes[p][i])};
 }
 
-/// Samples any number of shifts. Without `history` these are counts; with it, `history_words` of history a shift.
+/// Samples any number of shifts, with counts or, given `history`, `history_words` for each.
 inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                       std::vector<std::uint64_t>* history = nullptr) {
     std::vector<Sample> samples(shifts.size());
@@ -121,12 +121,12 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
     return samples;
 }
 
-/// Where along the chain a mode lives whose eigenvalue is the only one between two shifts: the part of the chain below
-/// some pin has an eigenvalue between them too only if it holds the mode, so from there on the offsets differ in sign.
-/// Returns the number of links below. Only good for a guess: `signs` of modes nearby interfere.
+/// The number of links below the mode whose eigenvalue is the only one between two shifts: a guess,
+/// because nearby modes interfere. The chain below some pin has an eigenvalue between the shifts
+/// too only if it contains the mode; from there on the offsets, given by signs, differ.
 inline std::size_t place(const std::uint64_t* one, const std::uint64_t* other, std::size_t links) {
     const std::size_t steps = links / history_step;
-    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements so far: least where the mode begins
+    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and their least
     std::size_t at = 0;
     for (std::size_t i = 0; i < steps; ++i) {
         const std::size_t word = i / 64, used = std::min<std::size_t>(64, steps - word * 64);

@@ -6,7 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The eigenvalues mu number first ... last - 1 (from 0, ascending) lie in [lower, upper), by counts in double.
+/// Eigenvalues mu number first ... last - 1 (from 0, ascending) lie in [lower, upper), by count.
 struct Window {
     double lower = 0, upper = 0;
     Index first = 0, last = 0;
@@ -14,8 +14,7 @@ struct Window {
     Index size() const { return last - first; }
 };
 
-/// Cuts each window at `cuts(window)` shifts `at(window, number, cuts)`, from number 1 on, by counts. Pieces that hold
-/// no eigenvalue are left out.
+/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`; drops pieces without eigenvalues.
 template <class Cuts, class At>
 std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows, const Cuts& cuts, const At& at) {
     std::vector<double> shifts;
@@ -27,7 +26,7 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
     for (const Window& w : windows) {
         Window rest = w;
         for (int c = 1; c <= cuts(w); ++c, ++next) {
-            // counts may waver within a few ulp: clamped, no eigenvalue is lost
+            // rounding may shift counts within a few ulp: clamped, no eigenvalue is lost
             const Index below = std::clamp(counted[next].below, rest.first, rest.last);
             if (below > rest.first) pieces.push_back({rest.lower, shifts[next], rest.first, below});
             rest.lower = shifts[next], rest.first = below;
@@ -37,13 +36,13 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
     return pieces;
 }
 
-/// Cuts the spectrum from eigenvalue `first` to `last` (mu = 1/lambda, ascending) into windows of at most `most`
-/// eigenvalues each, by counts. Windows end at the ends of the range only where other eigenvalues are cut off, so the
-/// first and the last may hold more than was asked. Ascending. Cost: about 2 (last - first)/most counts.
+/// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
+/// `most` eigenvalues, by counts; the end ones may hold more. Cost: about 2 (last - first)/most
+/// counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
-    const Index piece = std::max<Index>(most / 5, 1);  // merged at the end: windows are then nearly full
-    // all of them: mu from 0 up, by powers of 4 until the count suffices. Not by round numbers: at those a part of a
-    // chain of equal links may have an eigenvalue, and no count is proved.
+    const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
+    // The whole range: mu by powers of 4 until the count suffices. Not round numbers: part of a
+    // chain of equal links may have an eigenvalue there, and no count is proved.
     double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
@@ -58,7 +57,6 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
                 whole.lower = shifts[i], whole.first = counted[i].below;
             }
         }
-        if (!found) continue;
     }
     const auto cuts = [&](const Window& w) {
         return static_cast<int>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
@@ -92,17 +90,16 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     return merged;
 }
 
-/// Nodes for a window, a multiple of 8: a sine with as many zeros needs pi/2 each and a margin that grows with the cube
-/// root.
+/// Nodes for a window, a multiple of 8: pi/2 a zero, as for a sine, and a margin (cube root).
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
 }
 
-/// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, ascending:
-/// the zeros of the interpolant of f exp(-trend), where the trend, quadratic in the shift, takes the exponential growth
-/// out of f and leaves its zeros where they are. Empty where their number is not that of the counts, or where one is
-/// less certain than 1/1000 of its distance to the next: then `sure` windows have to be smaller.
+/// Approximate eigenvalues of a window, ascending, from samples of the characteristic polynomial f
+/// at its Chebyshev nodes: zeros of the interpolant of f exp(-trend), whose trend, quadratic in the
+/// shift, removes the exponential growth of f. Empty if their number is not that of the counts or,
+/// with `sure`, if one is less certain than 1/1000 of its distance to the next.
 inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n, bool sure) {
     std::vector<double> values(n), nodes(n);
     std::vector<int> exponents(n);
@@ -110,7 +107,8 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     for (std::size_t i = 0; i < n; ++i) {
         values[i] = std::frexp(samples[i].value, &exponents[i]);
         exponents[i] += samples[i].exponent;
-        const double size = std::log2(std::abs(values[i]) + 1e-30) + exponents[i], x = nodes[i] = Chebyshev::node(i, n);
+        const double x = nodes[i] = Chebyshev::node(i, n);
+        const double size = std::log2(std::abs(values[i]) + 1e-30) + exponents[i];
         t0 += size, t1 += size * x, t2 += size * (2 * x * x - 1);
     }
     const double count = static_cast<double>(n);
@@ -120,7 +118,7 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
         values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
     std::vector<double> roots;
     simd([&](auto registers) REVCHAIN_INLINED {
-        // As many at a time as the latency of one fused multiply-add has room for and registers can hold.
+        // As many lanes as fill the latency of one fused multiply-add and fit in registers.
         using V = Pack<double, registers.doubles, registers.bytes / 16>;
         const Chebyshev p = interpolant<V>(values);
         roots = zeros<V>(p, window.size());
@@ -131,9 +129,9 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     return roots;
 }
 
-/// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows, into
-/// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has
-/// not as many zeros as counts say are cut up; false if that does not end.
+/// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows,
+/// ascending, into `candidates[.].shift`, and the links below the mode into `.place`. Windows whose
+/// interpolant has too few or too many zeros are cut up; false if that does not end.
 template <class Candidate>
 bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
@@ -146,9 +144,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         return w.lower + (w.upper - w.lower) * (0.25 * number + 0.01);
     };
     for (int round = 0; round < 12 && !work.empty(); ++round) {
-        if (round > 0)
-            work = cut(
-                chain, work, [](const Window&) { return 3; }, quarter);
+        if (round > 0) work = cut(chain, work, [](const Window&) { return 3; }, quarter);
         std::vector<double> shifts;
         std::vector<std::size_t> starts;
         for (const Window& w : work) {
@@ -162,7 +158,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         const std::size_t words = history_words(chain.size());
         std::vector<Window> failed;
         struct Neighbours {
-            std::size_t number, below, above;  // of the candidate, and of samples with no other zero between
+            std::size_t number, below, above;  // of the candidate and the samples beside it
         };
         std::vector<Neighbours> placed;
         std::vector<double> between_roots;
@@ -177,20 +173,20 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
             const std::size_t at = starts[k];
             if (static_cast<Index>(roots.size()) != w.size()) {
                 failed.push_back(w);
-            } else {
-                std::size_t cell = node_count(w.size()) - 1;  // nodes descend
-                for (std::size_t i = 0; i < roots.size(); ++i) {
-                    const std::size_t before = cell;
-                    while (cell > 1 && shifts[at + cell - 1] < roots[i]) --cell;
-                    const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
-                    candidates[number].shift = roots[i];
-                    Neighbours around{number, at + cell, at + cell - 1};
-                    if (i > 0 && before == cell) {  // two between the same nodes: another sample between them
-                        placed.back().above = around.below = samples.size() + between_roots.size();
-                        between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
-                    }
-                    placed.push_back(around);
+                continue;
+            }
+            std::size_t cell = node_count(w.size()) - 1;  // nodes descend
+            for (std::size_t i = 0; i < roots.size(); ++i) {
+                const std::size_t before = cell;
+                while (cell > 1 && shifts[at + cell - 1] < roots[i]) --cell;
+                const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
+                candidates[number].shift = roots[i];
+                Neighbours around{number, at + cell, at + cell - 1};
+                if (i > 0 && before == cell) {  // two between nodes: another sample
+                    placed.back().above = around.below = samples.size() + between_roots.size();
+                    between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
                 }
+                placed.push_back(around);
             }
         }
         std::vector<std::uint64_t> more;
@@ -201,7 +197,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
             candidates[i.number].place = place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
-    // What is left has a bracket too narrow for the interpolant to tell its zeros apart: counts will have to.
+    // What is left has a bracket too narrow for the interpolant: counts have to separate its zeros.
     for (const Window& w : work)
         for (Index j = w.first; j < w.last; ++j)
             candidates[static_cast<std::size_t>(j - begin)].shift = w.lower + (w.upper - w.lower) / 2;
