@@ -32,9 +32,8 @@ S turning_of(const Link<S>& link) {
     return is_zero(link.cross) ? link.cross : link.length * link.cross;
 }
 
-namespace detail {
-using revchain::detail::down;
-using revchain::detail::up;
+using detail::down;
+using detail::up;
 
 /// Largest t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
 inline constexpr double steepest_half_bend = 0.2862167011199732;
@@ -136,5 +135,4 @@ Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning,
             first_passing(high, rounding_step(high), tries, [&](const T& t) { return load(t).low >= R.high; })};
 }
 
-}  // namespace detail
 }  // namespace revchain::finite

@@ -8,7 +8,7 @@
 
 /// The equation of one link for several loads at once: what finite/balance/taylor.hpp needs of
 /// finite/balance/link_equation.hpp, for packs.
-namespace revchain::inline REVCHAIN_BUILD::finite::detail {
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// `any` and `if_less` for numbers, so that one text serves numbers and packs.
 inline bool any(bool yes) { return yes; }
@@ -83,4 +83,4 @@ template <IsPack V>
     return {-above[0], above[1]};
 }
 
-}  // namespace revchain::finite::detail
+}  // namespace revchain::finite

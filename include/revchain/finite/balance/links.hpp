@@ -49,14 +49,13 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     using S = Wide<T>;
     using E = Narrow<S>;
     if (!chain.has_one_weight_unit())
-        revchain::detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
-                                        chain.total_weight());
+        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
     Links<S> result;
     result.units = chain.units();
     result.links.reserve(static_cast<std::size_t>(chain.size()));
     S below(T(0));
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % revchain::detail::segment_size == 0) below = chain.weight_below(m);
+        if (m % detail::segment_size == 0) below = chain.weight_below(m);
         const revchain::Link<T> link = chain.link(m);
         const S weight(E(ldexp(link.weight, -result.units.weight_exponent)));
         const S hung = ldexp(below, -result.units.weight_exponent);
@@ -91,19 +90,17 @@ Interval<T> enclosed(const S& x) {
     if (near == T(0)) return Interval<T>(near);
     if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<S>::digits) {
         if (S(near) == x) return Interval<T>(near);
-        return Interval<T>(revchain::detail::down(near), revchain::detail::up(near));
+        return Interval<T>(detail::down(near), detail::up(near));
     } else {
         using std::abs;
         const T off = abs(near) * T(256) * T(operation_error<S>());
-        return Interval<T>(revchain::detail::down(T(near - off)), revchain::detail::up(T(near + off)));
+        return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
     }
 }
 template <class T, class S>
 EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
-
-namespace detail {
 
 /// Whether the sine of the inclination of this tangent is 1 and its cosine 1/|tangent| to every digit.
 template <class S>
@@ -119,7 +116,5 @@ S cosine_at(const S& tangent) {
     using std::sqrt;
     return S(1) / (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
 }
-
-}  // namespace detail
 
 }  // namespace revchain::finite

@@ -21,8 +21,6 @@ struct Balanced {
     }
 };
 
-namespace detail {
-
 /// cos d of sin d = d/a, from (a - d)(a + d): the inclination may be all but a right angle.
 template <class S>
 S cosine_of(const S& length, const S& difference, bool stands = false) {
@@ -60,8 +58,6 @@ inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<d
         x[m] = (x[m] - (m + 1 < x.size() ? upper[m] * x[m + 1] : 0.0)) / diagonal[m];
 }
 
-}  // namespace detail
-
 /// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of
 /// forces at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the
 /// elements, in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N)
@@ -86,7 +82,7 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
             if (!(abs(d) < link.length)) return result;
-            const S cosine = detail::cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
+            const S cosine = cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
@@ -106,7 +102,7 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
                 diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
             }
         }
-        detail::solve_tridiagonal(diagonal, upper, change);
+        solve_tridiagonal(diagonal, upper, change);
         double largest = 0;
         for (std::size_t m = 0; m < rows; ++m) {
             const double share = static_cast<double>(abs(y[m]));

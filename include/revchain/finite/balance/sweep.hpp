@@ -55,10 +55,10 @@ struct PlainSweep {
 
     const S& tighten(const S& x) const { return x; }
     bool propagate(std::size_t m, const S& R, S& t) const {
-        t = detail::tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
+        t = tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
         return true;
     }
-    S sine(std::size_t, const S& t) const { return detail::sine_at(t); }
+    S sine(std::size_t, const S& t) const { return sine_at(t); }
     S upright(const S& t) const { return height * links[0].pull * t; }
     void pass(std::size_t, const S& t, const S& y) const {
         if (tangents) tangents->push_back(t);
@@ -77,8 +77,6 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
     return y;
 }
 
-namespace detail {
-
 /// How far the topmost pin is from where the `support` holds it, for a tangent of the lowest link or for all of an
 /// interval; puts the tangents of all links into `tangents`.
 template <class S, class End = OnAxis>
@@ -95,5 +93,4 @@ int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t
     return support_offset(links, height, Interval<T>(t), support).sign();
 }
 
-}  // namespace detail
 }  // namespace revchain::finite

@@ -92,7 +92,7 @@ class Cell {
             off_[i] = {-reach, reach};
         }
         each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
-            using revchain::detail::up;
+            using detail::up;
             const T reach = off_[i].high;
             product_[k] = i == j ? Interval<T>(T(0), up(T(up(T(reach * reach)) / T(2)))) : off_[i] * off_[j];
         });
@@ -129,8 +129,6 @@ class Cell {
     std::array<Interval<T>, Taylor<T, D>::pairs> product_;
 };
 
-namespace detail {
-
 /// Sine of the inclination whose tangent is t.
 template <class T, std::size_t D>
 [[gnu::always_inline]] inline Taylor<T, D> sine_at(const Taylor<T, D>& t) {
@@ -159,8 +157,6 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
     t.bend[0] = (is_zero(turning) ? R.bend[0] : R.bend[0] + bend * square(t.slope[0])) / growth;
     return !growth.may_vanish();
 }
-
-}  // namespace detail
 
 /// Momentum of the flywheels: that of each link over its length, and n sqrt(lambda), where n is the speed.
 template <class S>
@@ -198,8 +194,8 @@ class CellSweep {
             const I speed = spread(kept->speed);
             speed_ = speed / sqrt(height), centre_speed_ = speed / sqrt(centre_height);
         }
-        start(detail::in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
-        for (std::size_t m = 1; m < links.size(); ++m) pass(m, detail::in_lanes<T>(links[m]), is_zero(links[m].cross));
+        start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
+        for (std::size_t m = 1; m < links.size(); ++m) pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
     /// Offset of the topmost pin, and H there.
     [[gnu::always_inline]] Taylor<T, D> offset() const {
@@ -237,7 +233,7 @@ class CellSweep {
     }
 
     [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass, const Taylor<T, D>& t) {
-        const auto s = cell_.centred(detail::sine_at(t));
+        const auto s = cell_.centred(sine_at(t));
         const Pull pull = pull_of(0, link.pull);
         const I weight = D == 1 ? height_ * link.pull : pull.whole;
         Taylor<T, D> R;
@@ -273,9 +269,8 @@ class CellSweep {
         I bend;
         for (std::size_t which = 2; which-- > 0;) {
             const I stiffness = heights[which] * pulls[which], turning = link.length * link.cross;
-            tangent[which] =
-                is_plummet ? loads[which] / stiffness : detail::tangent_of(stiffness, turning, loads[which]);
-            const detail::Sine<T> s(tangent[which]);
+            tangent[which] = is_plummet ? loads[which] / stiffness : tangent_of(stiffness, turning, loads[which]);
+            const Sine<T> s(tangent[which]);
             sine[which] = s.value, growth[which] = is_plummet ? stiffness : stiffness + turning * s.slope;
             along[which] = s.slope / growth[which];
             if (which == 0) bend = I(T(-3)) * s.half_bend * (is_plummet ? I(T(1)) : stiffness / growth[which]);
@@ -328,7 +323,6 @@ class CellSweep {
         const T a = weight * p_.offset.middle(), b = p_.sum.middle(), c = weight * q_.offset.middle(),
                 d = q_.sum.middle(), share = (a * c + b * d) / (a * a + b * b);
         const T near = share * (a * c + b * d), far = T(0.9) * (c * c + d * d);
-        using detail::any, detail::if_less;
         if (!any(far < near)) return;
         const I of_p(if_less(far, near, share, T(0)));
         q_.offset = q_.offset - of_p * p_.offset, q_.sum = q_.sum - of_p * p_.sum;

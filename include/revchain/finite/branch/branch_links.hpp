@@ -84,7 +84,7 @@ struct BranchSystem {
     BranchSystem(const Rig& of, double g, Rotation sense)
         : rig(of), units(of.chain().units()), gravity(g), direction(sense) {
         using std::sqrt;
-        for (const revchain::detail::RigLink& link : revchain::detail::rig_links(of)) {
+        for (const detail::RigLink& link : detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
             links.links.push_back(
                 {link.length, stands ? -link.tension : link.tension, link.cross, link.moment, link.rest});
@@ -120,7 +120,7 @@ struct BranchSystem {
 inline EnclosedLinks<Far> folded_links(const RiggedLinks& rig) {
     EnclosedLinks<Far> result = enclosed<Far>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
-        result[m].pull = detail::effective_tension<Far>(rig.given[m], rig.speed);
+        result[m].pull = effective_tension<Far>(rig.given[m], rig.speed);
         if (rig.posture[m] == Posture::stands) result[m].pull = -result[m].pull;
     }
     return result;

@@ -32,8 +32,7 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 namespace finite {
 
 /// The branch from rest: from a tenth of the slower of the first critical speed and the speed given.
-inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points,
-                        double max_step) {
+inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points, double max_step) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
     trace_of(result).system = root.system;
@@ -48,8 +47,8 @@ inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_
 }
 
 /// The branch of a mode.
-inline Branch from_vertical(BranchRoot root, Index mode, double conical_height,
-                            std::size_t max_points, double max_step) {
+inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, std::size_t max_points,
+                            double max_step) {
     Branch result;
     result.mode = mode;
     trace_of(result).system = root.system;
@@ -99,11 +98,10 @@ Branch followed(const System& system, const Options& options) {
     BranchRoot root = BranchRoot::of("branch", system, options);
     if (!root.onset) return from_rest(std::move(root), conical_height, options.max_points, options.max_step);
     if (!root.onset->rises() && !(conical_height < root.height))
-        revchain::detail::throw_invalid(
-            "branch",
-            "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
-                revchain::detail::in_digits(root.height) + ": the height to follow it to must be less",
-            conical_height);
+        detail::throw_invalid("branch",
+                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                                  detail::in_digits(root.height) + ": the height to follow it to must be less",
+                              conical_height);
     return from_vertical(std::move(root), options.mode, conical_height, options.max_points, options.max_step);
 }
 
@@ -122,11 +120,11 @@ template <class System, class Options>
 SteadyShape first_on_branch(const System& system, const Options& options) {
     ShapesOnBranch found = search_branch<ShapesOnBranch>(system, options, 1);
     if (found.shapes.empty())
-        revchain::detail::throw_invalid(
+        detail::throw_invalid(
             "steady_shape",
             "what is given is not met on the branch " +
                 (found.from_rest ? std::string("from rest") : "of mode " + std::to_string(options.mode)) +
-                "; looked down to the conical height, got " + revchain::detail::in_digits(found.searched_to) +
+                "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
                 (found.end == BranchEnd::loose    ? "; there the spring at the support no longer holds the whole"
                  : found.end != BranchEnd::height ? "; it could not be followed farther"
                  : options.conical_height || options.angular_speed ? "; the state there did not pass every check"
@@ -137,8 +135,7 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
-                                                const OnBranchOptions& options,
+REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
@@ -146,8 +143,7 @@ REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranc
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain,
-                                         const OnBranchOptions& options) {
+REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options) {
     return finite::first_on_branch(chain, options);
 }
 REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {

@@ -34,7 +34,7 @@ class BranchWalk {
 
     /// One step on; false if none down to 1e-9 of arc passes.
     bool advance() {
-        revchain::detail::look();
+        detail::look();
         for (; step_ > least; step_ /= 2) {
             const double reach = std::min({step_, longest, max_rise / (largest_rise(here_.tangent) + 1e-300)});
             step_ = reach;

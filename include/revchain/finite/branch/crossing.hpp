@@ -67,8 +67,6 @@ struct WithinStep {
     BranchPoint point;
 };
 
-namespace detail {
-
 /// Where f(measured) vanishes between two points of the step at which its signs differ.
 template <class Measure, class F>
 std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
@@ -84,20 +82,18 @@ std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measu
     if (at_high == 0)
         value_at(high);
     else
-        zero_between(revchain::detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
+        zero_between(detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
                      {.width = 2e-16, .value = tolerance});
     if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end is near enough
     return best;
 }
-
-}  // namespace detail
 
 /// Where in the last step the number turns, if its slopes at both ends differ in sign.
 template <class Measure>
 std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& measure) {
     const Measured a = measure(walk.before()), b = measure(walk.here());
     if (!(a.slope * b.slope < 0)) return std::nullopt;
-    return detail::vanishing(
+    return vanishing(
         walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
 }
 
@@ -108,7 +104,7 @@ std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& meas
     const Measured a = measure(walk.before()), b = measure(walk.here());
     const auto between = [&](double low, double high, double at_low, double at_high) {
         if (!(at_low * at_high < 0) && at_high != 0) return;
-        auto point = detail::vanishing(
+        auto point = vanishing(
             walk, measure, [](const Measured& x) { return x.value; }, low, high, at_low, at_high,
             1e-10 * std::max(std::abs(at_low), std::abs(at_high)));
         if (point) found.push_back(std::move(*point));

@@ -55,14 +55,14 @@ class ChainQuestions {
         std::vector<double> found;
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
-            const double each = revchain::detail::one_mode(chain_, mode, false).conical_height;
+            const double each = detail::one_mode(chain_, mode, false).conical_height;
             if (each > height) found.push_back(each);  // at the very height of a mode, as rounded, it has no branch yet
         }
         return found;
     }
     bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
     /// Above the first mode there is no shape: see steady_shapes.
-    std::optional<double> settled_above() const { return revchain::detail::one_mode(chain_, 1, false).conical_height; }
+    std::optional<double> settled_above() const { return detail::one_mode(chain_, 1, false).conical_height; }
     std::string not_provable(double lowest) const {
         const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
         return single ? "" : "links hang at several inclinations";
@@ -140,8 +140,8 @@ class RigQuestions {
 
     const Rig& rig_;
     const RigDiagramOptions& options_;
-    revchain::detail::ModesOfOneSense modes_;
-    std::vector<revchain::detail::ModesOfOneSense::Mode> found_;
+    detail::ModesOfOneSense modes_;
+    std::vector<detail::ModesOfOneSense::Mode> found_;
 };
 
 /// Branches and proved lists of shapes brought together.
@@ -275,8 +275,8 @@ class Diagram {
         else if (!result_.consistent)
             result_.remark = "a loop was found that lists of all shapes do not agree with";
         else
-            result_.remark += ", between the heights " + revchain::detail::in_digits(proof.open_low / unit_) + " and " +
-                              revchain::detail::in_digits(proof.open_high / unit_);
+            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) + " and " +
+                              detail::in_digits(proof.open_high / unit_);
     }
     /// Off the axis for both signs of the lowest link's tangent.
     DiagramProof proved_between(double lowest, double first) {
@@ -336,7 +336,7 @@ class Diagram {
 template <class Questions, class System, class Options>
 Branches diagram_of(const System& system, const Options& options) {
     const double lowest = lowest_height("branches", options);
-    if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     return Diagram<Questions, Options>(system, lowest, options).run();
 }
 

@@ -75,7 +75,7 @@ class DiagramProver {
             const double share = 1.0 / slabs, high = highest * std::pow(lowest / highest, i * share),
                          low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
             const Rectangle slab{0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)};
-            detail::each_cell<batch>(std::deque{slab}, spent, visit, open);
+            each_cell<batch>(std::deque{slab}, spent, visit, open);
         }
         return proof;
     }
@@ -116,7 +116,7 @@ class DiagramProver {
                 result[i] = diagram_.spinning_over(Cell<double, 2>(parts[i].x(), parts[i].height()));
             return result;
         }
-        return revchain::detail::for_own([&]<class Registers>(Registers) {
+        return detail::for_own([&]<class Registers>(Registers) {
             using V = Pack<double, Registers::doubles>;
             std::array<Taylor<double, 2>, batch> result;
             for (std::size_t first = 0; first < count; first += V::size) {
@@ -173,8 +173,8 @@ class DiagramProver {
             const Interval<double> y = diagram_.at(x, height);
             return y.may_vanish() ? 0.0 : y.middle();
         };
-        const revchain::detail::SignChange<double> ends{{within.height_low, at_low.middle()},
-                                                        {within.height_high, at_high.middle()}};
+        const detail::SignChange<double> ends{{within.height_low, at_low.middle()},
+                                              {within.height_high, at_high.middle()}};
         return {x, zero_between(ends, value)};
     }
 
@@ -189,7 +189,7 @@ class DiagramProver {
             by_height = std::log(part.height_high / part.height_low);
         const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
         if ((thin && low) || (at_zero && part.high < 1e-30) ||
-            detail::rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
+            rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
             return false;
         Rectangle first = part, second = part;
         if (low || (!thin && by_x >= by_height))
@@ -203,7 +203,7 @@ class DiagramProver {
 
     EnclosedDiagram diagram_;
     long budget_;
-    detail::Cutting<double> cutting_;
+    Cutting<double> cutting_;
 };
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a

@@ -63,8 +63,7 @@ class EnclosedDiagram {
         const Interval<double> lambda(at.height);
         const double turned = side_ < 0 ? -1 : 1;
         std::vector<Interval<double>> tangents;
-        const auto y =
-            detail::support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda, OnAxis{}, &tangents);
+        const auto y = support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda, OnAxis{}, &tangents);
         BranchState state;
         double reach = 0;
         for (const auto& t : tangents) state.rise.push_back(turned * std::asinh(t.middle()));
@@ -99,7 +98,7 @@ class EnclosedDiagram {
                 is_symmetric(), firm_};
     }
     Interval<double> offset(const EnclosedLinks<double>& links, double x, const Interval<double>& lambda) const {
-        return detail::support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
+        return support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
     }
     template <class T>
     [[gnu::always_inline]] static Interval<T> spread(const Interval<double>& x) {

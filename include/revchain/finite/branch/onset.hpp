@@ -127,7 +127,7 @@ struct BranchRoot {
     template <class Options>
     static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
         require_mode(place, options.mode, chain.mode_count());
-        const auto found = revchain::detail::one_mode(chain, options.mode);
+        const auto found = detail::one_mode(chain, options.mode);
         return from(std::make_shared<const BranchSystem>(chain), found.conical_height, &found.shape);
     }
     template <class Options>
@@ -135,17 +135,17 @@ struct BranchRoot {
         const Index mode = options.mode;
         const double gravity = options.gravity;
         const Rotation direction = options.direction;
-        revchain::detail::require_positive(place, "gravity", gravity);
+        detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
-                revchain::detail::throw_invalid(place,
-                                                "with a support off the axis mode must be 1, the branch from rest; "
-                                                "branches lists those born in folds",
-                                                mode);
+                detail::throw_invalid(place,
+                                      "with a support off the axis mode must be 1, the branch from rest; "
+                                      "branches lists those born in folds",
+                                      mode);
             return from(std::make_shared<const BranchSystem>(rig, gravity, direction),
                         first_height(place, rig, gravity, direction), nullptr);
         }
-        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         require_mode(place, mode, modes.count());
         const auto found = modes.found(mode, 1).front();
         const Vector<double> shape = modes.shape(found);
@@ -153,7 +153,7 @@ struct BranchRoot {
     }
     /// Conical height of the slowest mode of a rig whose support is in the axis; its length where it has none.
     static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
-        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
     }
 
@@ -173,8 +173,7 @@ struct BranchRoot {
    private:
     static void require_mode(std::string_view place, Index mode, Index count) {
         if (mode < 1 || mode > count)
-            revchain::detail::throw_invalid(
-                place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
+            detail::throw_invalid(place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
     }
     static BranchRoot from(std::shared_ptr<const BranchSystem> system, double height, const Vector<double>* mode) {
         auto narrow = rounded(system->links);

@@ -51,7 +51,7 @@ struct GivenTipInclination : Condition<S> {
     std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S&,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = detail::cosine_of(a, d);
+        const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
         const S signed_sine = d < S(0) ? -sine : sine;
         row[0] = static_cast<double>((cosine + s * signed_sine / c) / a);
         return {signed_sine * c - s * cosine, 0.0};
@@ -106,8 +106,7 @@ struct GivenPlace : Condition<S> {
         double sum = 0;
         const double share = 1 / static_cast<double>(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
-            const S &a = links.links[m].length, d = y[m] - y[m + 1],
-                    c = links.is_spring(m) ? S(1) : detail::cosine_of(a, d);
+            const S &a = links.links[m].length, d = y[m] - y[m + 1], c = links.is_spring(m) ? S(1) : cosine_of(a, d);
             const double tangent = static_cast<double>(d / (a * c)), length = static_cast<double>(a),
                          slope = links.is_spring(m) ? std::hypot(1, tangent) : static_cast<double>(c * c);
             row[m] = share * point->tangent.rise[m] / (length * slope);
@@ -191,7 +190,7 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
             const Link<S>& link = links.links[m];
             const S d = y[m] - y[m + 1];
             if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
-            const S cosine = links.is_spring(m) ? S(1) : detail::cosine_of(link.length, d),
+            const S cosine = links.is_spring(m) ? S(1) : cosine_of(link.length, d),
                     factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
                     pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];

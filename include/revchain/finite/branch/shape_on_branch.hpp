@@ -142,7 +142,7 @@ inline double reach_of(const Rig& rig) {
 /// The height given, as it is or as a speed.
 template <class Options>
 Wide<double> height_given(std::string_view place, const Options& given) {
-    using revchain::detail::require_positive;
+    using detail::require_positive;
     if (given.conical_height) {
         require_positive(place, "conical height", *given.conical_height);
         return Wide<double>(*given.conical_height);
@@ -158,7 +158,7 @@ Wide<double> height_given(std::string_view place, const Options& given) {
 template <class Search, class System, class Options>
 auto search_by_number(std::string_view place, const System& system, const BranchRoot& root, const Options& given,
                       const Search& search) {
-    using revchain::detail::require_positive, revchain::detail::throw_invalid;
+    using detail::require_positive, detail::throw_invalid;
     using S = Wide<double>;
     const ChainUnits& units = root.system->units;
     const double unit = std::ldexp(1.0, -units.length_exponent);
@@ -205,7 +205,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
 /// The states on the branch at which the number given is met.
 template <class Found, class System, class Options>
 Found search_branch(const System& system, const Options& given, std::size_t max_shapes) {
-    using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
+    using detail::in_digits, detail::require_positive, detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
     using S = Wide<double>;
     const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
@@ -235,7 +235,7 @@ Found search_branch(const System& system, const Options& given, std::size_t max_
                                 });
     const S height = height_given(place, given);
     const double near = static_cast<double>(height);
-    if (falls && !(near < root.height)) revchain::detail::throw_too_slow(place, given.mode, root.height, near, given);
+    if (falls && !(near < root.height)) detail::throw_too_slow(place, given.mode, root.height, near, given);
     const double wanted = std::log(near * unit);
     return run(HeightMeasure{wanted}, GivenHeight<S>(height * S(unit)),
                root.onset ? amplitude_at(*root.system, *root.onset, height * S(unit)) : 0.0,

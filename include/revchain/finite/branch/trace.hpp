@@ -31,7 +31,7 @@ void append(Branch& branch, const BranchPoint& point) {
     }
     branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
     const double inclination = std::atan(std::sinh(point.state.rise[0]));
-    branch.tip_inclination.push_back(system.stands(0) ? detail::beyond(-inclination, inclination < 0) : inclination);
+    branch.tip_inclination.push_back(system.stands(0) ? beyond(-inclination, inclination < 0) : inclination);
     branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
     branch.top_tension.push_back(weight(std::hypot(static_cast<double>(system.bearing), sideways / height)));
     branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * system.units.length_exponent)));

@@ -20,7 +20,7 @@ class PathEnergies {
     }
     template <class Series>
     void operator()(const Series& series, double duration) {
-        static const auto rule = revchain::detail::gauss_rule(16);
+        static const auto rule = detail::gauss_rule(16);
         for (const auto& [t, weight] : rule) {
             const PathState x = series.state(duration * t);
             const double below = kind_.weight_below(x.arc), step = duration * weight;
@@ -124,7 +124,7 @@ class BranchLine {
     template <class F>
     std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
         const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
-        const revchain::detail::SignChange<double> ends{{0, value(a)}, {1, value(b)}};
+        const detail::SignChange<double> ends{{0, value(a)}, {1, value(b)}};
         double least = std::min(std::abs(ends.low.value), std::abs(ends.high.value));
         std::optional<Point> best = std::abs(ends.low.value) == least ? a : b;
         const auto at = [&](double along) {
@@ -134,7 +134,7 @@ class BranchLine {
             if (std::abs(now) <= least) least = std::abs(now), best = point;
             return now;
         };
-        const double share = revchain::detail::zero_between(ends, at, {.width = 4e-16});
+        const double share = detail::zero_between(ends, at, {.width = 4e-16});
         if (std::isnan(share)) return std::nullopt;
         return best;
     }

@@ -122,7 +122,7 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
     BranchLineWalk walk(line, start, std::min(0.02, longest));
     walk.longest = longest;
     while (branch.size() < most) {
-        revchain::detail::look();
+        detail::look();
         const BranchLine::Point last = walk.at();
         if (!walk.advance())
             return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;

@@ -122,18 +122,17 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
 /// Length over conical height. Throws InvalidArgument above 1e6: so far no path is followed.
 inline double length_in_heights(std::string_view place, double length, double height) {
     const double heights = length / height;
-    if (!(heights <= 1e6))
-        revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
+    if (!(heights <= 1e6)) detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
     return heights;
 }
 
 /// Throws InvalidArgument for a path that ended before the support.
 inline void require_followed(std::string_view place, const Path& path, double length, double height) {
     if (!(path.end() > length))
-        revchain::detail::throw_invalid(place,
-                                        "the density is too rough, or the tip too heavy, to be followed; the "
-                                        "series ended at arc length",
-                                        path.end() * height);
+        detail::throw_invalid(place,
+                              "the density is too rough, or the tip too heavy, to be followed; the "
+                              "series ended at arc length",
+                              path.end() * height);
 }
 
 inline CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
@@ -178,13 +177,12 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
 /// Throws InvalidArgument for a count below 1 or above 1e5.
 inline Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     constexpr std::string_view place = "modes";
-    if (count < 1 || count > 100'000)
-        revchain::detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
+    if (count < 1 || count > 100'000) detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
     Vector<double> heights(count);
     const auto place_of = [&](double height, Index crossing) {
         const Path path = path_at_rest(chain, height, {.crossings = static_cast<int>(crossing)});
         if (static_cast<Index>(path.crossings().size()) < crossing)
-            revchain::detail::throw_invalid(
+            detail::throw_invalid(
                 place,
                 chain.density != nullptr
                     ? "the line density is too rough to follow up to critical height"
@@ -202,8 +200,8 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
             return std::log(place_of(height, j).back().arc * height / chain.length);
         };
         const double guess = j == 1 ? chain.length : heights[j - 2];
-        heights[j - 1] = revchain::detail::zero_between(
-            revchain::detail::sign_change_near(guess, excess), excess, {.value = 2 * epsilon<double>()});
+        heights[j - 1] =
+            detail::zero_between(detail::sign_change_near(guess, excess), excess, {.value = 2 * epsilon<double>()});
     }
     return heights;
 }
@@ -238,7 +236,7 @@ class CordModeShape {
     }
     /// Where it is vertical, one above each node: T y'' = -rho (y / height + y').
     Vector<double> vertical_points() const {
-        return revchain::detail::zeros_between(nodes(), chain_.length, [&](double s) {
+        return detail::zeros_between(nodes(), chain_.length, [&](double s) {
             const PathState at = state("CordModes::vertical_points", s);
             const double steep = slope(at), part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
             return std::pair(steep, -part * (at.offset / height_ + steep) / height_);
@@ -248,7 +246,7 @@ class CordModeShape {
    private:
     PathState state(std::string_view place, double s) const {
         if (!(s >= 0 && s <= chain_.length))
-            revchain::detail::throw_invalid(place, "s must lie between 0 (free end) and the length", s);
+            detail::throw_invalid(place, "s must lie between 0 (free end) and the length", s);
         return state_at(path_.kind(), path_.steps(), 1, s / height_);
     }
     double slope(const PathState& at) const {

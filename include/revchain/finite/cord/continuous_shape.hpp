@@ -193,8 +193,7 @@ class ShapeSamples {
         double data = epsilon<double>();
         if (kind_.density != nullptr)
             data = std::max(4 * data, 2 * kind_.density->error(std::min(1.0, length) * kind_.unit));
-        shape.error_bound =
-            data * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
+        shape.error_bound = data * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
     }
 
     PathKind kind_;

@@ -52,7 +52,7 @@ class Path {
         }
         PathSeries series;
         while (!ended(options, state)) {
-            revchain::detail::look();
+            detail::look();
             series.start(kind, state, options.with_change ? &change : nullptr);
             double duration = within_piece(series, series.reach(options.tolerance));
             PathSeries::Reached next = series.reached(duration);

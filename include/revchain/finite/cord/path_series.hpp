@@ -307,7 +307,7 @@ class PathSeries {
 /// digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
-    return revchain::detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
+    return detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
 }
 
 /// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.

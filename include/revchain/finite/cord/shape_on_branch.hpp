@@ -21,7 +21,7 @@ class WantedOnLine {
 
     /// Throws InvalidArgument unless exactly one number is given, within its range.
     WantedOnLine(const BranchLine& line, double critical, const OnBranchOptions& given) : line_(line) {
-        using revchain::detail::require_positive, revchain::detail::throw_invalid;
+        using detail::require_positive, detail::throw_invalid;
         constexpr std::string_view place = "steady_shape";
         const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                           given.tip_inclination.has_value() + given.tip_radius.has_value() +
@@ -36,8 +36,7 @@ class WantedOnLine {
             height_ = given.conical_height ? *given.conical_height
                                            : conical_pendulum::height(*given.angular_speed, given.gravity);
             require_positive(place, given.conical_height ? "conical height" : "gravity / angular speed^2", height_);
-            if (!(height_ < critical))
-                revchain::detail::throw_too_slow(place, line.crossing(), critical, height_, given);
+            if (!(height_ < critical)) detail::throw_too_slow(place, line.crossing(), critical, height_, given);
             kind_ = Kind::height, wanted_ = std::log(height_);
         } else if (given.tip_inclination) {
             if (!(*given.tip_inclination > 0 && *given.tip_inclination < std::numbers::pi / 2))
@@ -78,20 +77,20 @@ class WantedOnLine {
 };
 
 /// All shapes on the branch of a mode at which a number is as given; `critical` is the height of the mode.
-inline CordShapesOnBranch search_branch(const Cord& cord, double critical,
-                                        const OnBranchOptions& given, std::size_t max_shapes) {
+inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
+                                        std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));
     const WantedOnLine wanted(*line, critical, given);
     double lowest = wanted.kind() == WantedOnLine::Kind::height ? wanted.height() / 2 : 1e-6 * critical;
     if (given.min_conical_height) {
         lowest = *given.min_conical_height;
-        revchain::detail::require_positive(place, "min_conical_height", lowest);
+        detail::require_positive(place, "min_conical_height", lowest);
         if (!(lowest < critical))
-            revchain::detail::throw_invalid(place,
-                                            "min_conical_height must be less than the conical height of the mode, " +
-                                                revchain::detail::in_digits(critical),
-                                            lowest);
+            detail::throw_invalid(
+                place,
+                "min_conical_height must be less than the conical height of the mode, " + detail::in_digits(critical),
+                lowest);
     }
     const double log_end = std::log(std::max(lowest, 1.0001e-6 * cord.length()));
     CordShapesOnBranch result;

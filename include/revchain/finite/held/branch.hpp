@@ -37,7 +37,7 @@ std::optional<HeldState> fold_between(System& held, const HeldState& from, const
     const double at_low = turning(from), at_high = turning(to);
     if (!(at_low * at_high < 0)) return {};
     const auto at = [&](double share) { return held.curve().across_chord(from, to, share); };
-    return revchain::detail::state_between(at_low, at_high, at, turning);
+    return detail::state_between(at_low, at_high, at, turning);
 }
 
 /// The branch that begins with a state, for heights from its own on. `describe(state, is_fold)` returns a shape.

@@ -368,9 +368,9 @@ class HeldCells : public HeldBounds {
             Direction<double> way{R.middle() / std::hypot(R.middle(), V.middle()),
                                   V.middle() / std::hypot(R.middle(), V.middle())};
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
-            if (!(detail::settle(near, R.middle(), V.middle(), way) > 0)) return result;
+            if (!(settle(near, R.middle(), V.middle(), way) > 0)) return result;
             Direction<Span> all;
-            const Span growth = detail::settle_near(link, R, V, way, all);
+            const Span growth = settle_near(link, R, V, way, all);
             if (!growth.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));
             result.pull = sqrt(square(V + turning * result.cosine) + square(R));

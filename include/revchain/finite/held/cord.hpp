@@ -97,7 +97,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
             samples.emplace_back(series.place(t), series.change(t, lambda));
         }
         last = series.place(duration);
-        static const auto rule = revchain::detail::gauss_rule(24);
+        static const auto rule = detail::gauss_rule(24);
         for (const auto& [t, part] : rule) {
             const HeldCordState x = series.place(duration * t);
             inertia += part * duration * std::hypot(x.across, x.along) * x.offset * x.offset;

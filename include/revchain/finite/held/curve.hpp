@@ -34,7 +34,7 @@ class HeldCurve {
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
-        revchain::detail::look();
+        detail::look();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
         if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
         (*shooter_)(state.forces, true);
@@ -120,7 +120,7 @@ class HeldCurve {
             const double here = off(state);
             if (here * was < 0) {
                 const auto at = [&](double share) { return across_chord(before, state, share); };
-                met = revchain::detail::state_between(was, here, at, off);
+                met = detail::state_between(was, here, at, off);
                 if (met) return false;
                 shooter_->keep(there);
             }
@@ -157,7 +157,7 @@ class HeldCurve {
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         const auto at = [&](double share) { return at_share(a, b, share, wanted); };
         const auto off = [](const Tense& x) { return x.off; };
-        const auto best = revchain::detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
+        const auto best = detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
         if (best) visit(best->state);
     }
     /// A state between two on the other side of the tension wanted, where it is nearest to it.
@@ -230,7 +230,7 @@ class HeldCurve {
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
         for (int count = 0; count < max_steps && step > 1e-9; ++count) {
-            revchain::detail::look();
+            detail::look();
             const auto [over_y, over_z] = gradients<third>(end, scale);
             Triple tangent = normalised(over_y, over_z);
             if (!(dot(tangent, tangent) > 0.5)) return;

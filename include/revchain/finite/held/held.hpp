@@ -75,9 +75,8 @@ class HeldChain {
     std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
         // Nearly straight and without gravity it has the shape y of a mode under a tension of 1, whose height is the
         // force along the axis.
-        const revchain::detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent),
-                                              .weightless = true};
-        const auto taut = revchain::detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
+        const detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
+        const auto taut = detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
         if (half_waves > taut.available.count) return {};
         const auto guess = static_cast<double>(weight_ * length_);
         const auto bracket = taut.roots.brackets(half_waves - 1, 1, guess, {}).front();
@@ -133,14 +132,14 @@ class HeldChain {
     void draw(const HeldForces<double>& forces) {
         straighten();
         std::vector<Direction<double>> drawn;
-        const auto settle = [&](std::size_t m, double R, double V, Direction<double>& way) {
+        const auto at_pull = [&](std::size_t m, double R, double V, Direction<double>& way) {
             const double pull = std::hypot(R, V);
             way = {R / pull, V / pull};
-            const double growth = detail::settle(links_[m], R, V, way);
+            const double growth = settle(links_[m], R, V, way);
             drawn.push_back(way);
             return growth;
         };
-        if (held_sweep<2>(links_, ends(forces.height), forces, settle).known) kept_ = drawn;
+        if (held_sweep<2>(links_, ends(forces.height), forces, at_pull).known) kept_ = drawn;
     }
 
     /// A state near the forces given whose tension at the upper end, times the height, is `wanted`.

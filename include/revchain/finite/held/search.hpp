@@ -33,7 +33,7 @@ class HeldSearch {
         scale_ = pulls.high;
         const Span tangents(chain_.mirrored() ? 0.0 : -1.0, 1.0);
         const std::deque<HeldCell> whole{{{pulls, tangents}, false}, {{pulls, tangents}, true}};
-        detail::each_cell<1, true>(
+        each_cell<1, true>(
             whole, [&] { return budget_ <= 0; },
             [&](const std::vector<HeldCell>& one, const auto& wait) { visit(one[0], wait); },
             [&](const HeldCell& cell) { found_.undecided.push_back(cell); });

@@ -60,8 +60,6 @@ struct HeldEnd {
     }
 };
 
-namespace detail {
-
 /// Links turn in the plane of the shape by the pull (R, V) of what they carry, R across the axis and V along it:
 ///     V s + a X s c - R c = 0.
 /// Returns the derivative with the inclination, positive where the link settles: the pull, if the link is a plummet. Of
@@ -125,8 +123,6 @@ struct SeesNothing {
     void operator()(std::size_t, const Any&...) const {}
 };
 
-}  // namespace detail
-
 /// From the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
 ///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
 ///     y = y_below - length s,         H = R + rest y,
@@ -135,7 +131,7 @@ struct SeesNothing {
 /// `settle(m, R, V, way)` gives link m its direction under its load and returns the derivative of its moment with the
 /// inclination; the sweep ends where that is not positive. `each(m, y, R, H, growth, change of the inclination)` sees
 /// every link, y of the lower pin and H of the upper.
-template <std::size_t K, class S, class Settle, class Each = detail::SeesNothing>
+template <std::size_t K, class S, class Settle, class Each = SeesNothing>
 HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
                          const Settle& settle, const Each& each = {}) {
     const Held<S>&lower = ends.lower, &upper = ends.upper;
@@ -188,15 +184,15 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
 
 /// The sweep in numbers. A link points where it is pulled, above the horizontal or below: every link is in tension.
 /// `direction` holds where to look, and what was found. Cost O(N): 0.1 microseconds a link in double.
-template <class S, class Each = detail::SeesNothing>
+template <class S, class Each = SeesNothing>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
                       std::vector<Direction<S>>& direction, const Each& each = {}) {
-    const auto settle = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
-        const S growth = detail::settle(links[m], R, V, direction[m]);
+    const auto at_pull = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
+        const S growth = settle(links[m], R, V, direction[m]);
         way = direction[m];
         return growth;
     };
-    return held_sweep<3>(links, ends, forces, settle, each);
+    return held_sweep<3>(links, ends, forces, at_pull, each);
 }
 
 /// Newton's method on the forces at the lower end, their height kept, until the upper end has the

@@ -19,15 +19,11 @@ inline Wide<double> height_at_speed(double angular_speed, double gravity) {
     return ldexp(g / n / n, of_gravity - 2 * of_speed);
 }
 
-namespace detail {
-
 /// An angle and pi, or less pi, rounded once.
 inline double beyond(double angle, bool backwards) {
     const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }
-
-}  // namespace detail
 
 /// Everything about a shape that the offsets of its pins tell: all but its error bound and condition. `hung`: the
 /// weights that bear on the upper pins.
@@ -43,8 +39,7 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
     shape.inclination.resize(size), shape.tension.resize(size), shape.reaction_inclination.resize(size);
     shape.offset.resize(size + 1), shape.height.resize(size + 1);
     std::vector<S> up(n + 1);
-    for (std::size_t m = n; m-- > 0;)
-        up[m] = up[m + 1] - detail::cosine_in(found, chain.links, m) * chain.links[m].length;
+    for (std::size_t m = n; m-- > 0;) up[m] = up[m + 1] - cosine_in(found, chain.links, m) * chain.links[m].length;
     S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
     double last_sign = 0, reach = 0, worst_moment = 0;
     for (std::size_t m = 0; m <= n; ++m) {
@@ -57,10 +52,10 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
             if (y * last_sign < 0) ++shape.half_waves;
             last_sign = y > 0 ? 1 : -1;
         }
-        const S d = lower - upper, cosine = detail::cosine_in(found, chain.links, m),
-                tangent = detail::tangent_in(found, chain.links, m);
+        const S d = lower - upper, cosine = cosine_in(found, chain.links, m),
+                tangent = tangent_in(found, chain.links, m);
         const double inclination = std::atan(static_cast<double>(tangent));
-        shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
+        shape.inclination[i] = found.stands(m) ? beyond(inclination, d < S(0)) : inclination;
         // the moment about the upper pin of all that hangs there, over the length, times lambda
         const S left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
         worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));

@@ -42,8 +42,6 @@ struct Isolation {
     long cells = 0;                     ///< looked at
 };
 
-namespace detail {
-
 /// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but
 /// rounding makes it wide (or is not known at all): splitting the cell would show no more.
 template <Real T>
@@ -85,7 +83,7 @@ template <std::size_t batch = 1, bool large_first = false, class Cell, class Spe
 void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
     while (!waiting.empty()) {
-        revchain::detail::look();
+        detail::look();
         cells.clear();
         while (cells.size() < batch && !waiting.empty()) {
             cells.push_back(large_first ? waiting.front() : waiting.back());
@@ -148,7 +146,5 @@ Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, c
                         [&](const Bracket<T>& part) { found.undecided.push_back(part); });
     return found;
 }
-
-}  // namespace detail
 
 }  // namespace revchain::finite

@@ -62,7 +62,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
         T seen_at{};
         int seen = 0;
         const auto note = [&](const T& t) {
-            revchain::detail::look();
+            detail::look();
             const int here = t > T(0) ? sign(t) : 0;
             if (here == 0) return;
             if (here == -seen) found.push_back({seen_at, t});
@@ -82,7 +82,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const Isolation<double> first = detail::isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
+    const Isolation<double> first = isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
@@ -91,8 +91,8 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
     const Interval<Far> height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
     for (const Bracket<double>& open : joined(first.undecided)) {
-        const auto again = detail::isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
-                                                std::max(0L, budget - found.cells), support_wide);
+        const auto again = isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
+                                        std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
@@ -100,8 +100,8 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
     if (found.undecided.empty()) return found;
     found.undecided = joined(found.undecided);
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
-        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
+        const int sign = sign_at(narrow, lambda, static_cast<double>(t), support);
+        return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
@@ -115,7 +115,7 @@ std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
     S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return detail::support_offset(links, height, t, support) < S(0); };
+    const auto falls_short = [&](const S& t) { return support_offset(links, height, t, support) < S(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
@@ -125,7 +125,7 @@ std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide
     for (int round = 0; round < 16; ++round) {
         auto found = balance(links, height, swept(links, height, halve()), {}, support);
         if (found.converged) {
-            const S tangent = detail::tangent_in(found, links, 0);
+            const S tangent = tangent_in(found, links, 0);
             if (bracket.low.word() < tangent && tangent < bracket.high.word()) return found;
         }
         for (int i = 0; i < 6; ++i) halve();
@@ -141,20 +141,20 @@ double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& he
                          const Balanced<Wide<double>>& found, const std::vector<Link<Wide<double>>>& middle,
                          const End& support) {
     const Interval<Far> lambda = enclosed<Far>(height);
-    const Far tangent(detail::tangent_in(found, middle, 0));
+    const Far tangent(tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
     for (int round = 0;; ++round, reach = reach * Far(16)) {
         const bool far = round == 300;  // 16^300 overflows
         const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
         const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
-        const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
-        if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
+        const auto sign = [&](const Far& t) { return sign_at(links, lambda, t, support); };
+        if (!far && !whole && sign(low) * sign(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
-        detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
+        support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
-            const Far t(detail::tangent_in(found, middle, m));
+            const Far t(tangent_in(found, middle, m));
             const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
             const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
             const double change =
@@ -169,10 +169,10 @@ double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& he
 template <class End>
 Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
                       Bracket<Far> bracket) {
-    const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
+    const int low_sign = sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
         const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
-        const int sign = detail::sign_at(links, lambda, middle, support);
+        const int sign = sign_at(links, lambda, middle, support);
         if (sign == 0 || !(bracket.low < middle && middle < bracket.high)) break;
         (sign == low_sign ? bracket.low : bracket.high) = middle;
     }
@@ -188,11 +188,11 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<do
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
     TangentBox<Far> near;
-    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
+    support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
-    auto found = detail::settled(chain, height, balance, near);
+    auto found = settled(chain, height, balance, near);
     if (!found) return std::nullopt;
-    const Far tangent = abs(Far(detail::tangent_in(found->shape, chain.links, 0)));
+    const Far tangent = abs(Far(tangent_in(found->shape, chain.links, 0)));
     const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
     return inside ? std::move(found) : std::nullopt;
 }
@@ -214,7 +214,7 @@ void leave_open(const Bracket<Far>& part, Result& result) {
 /// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
 inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
-        if (std::abs(static_cast<double>(detail::tangent_in(found, links, m))) > 1e8) return true;
+        if (std::abs(static_cast<double>(tangent_in(found, links, m))) > 1e8) return true;
     return false;
 }
 
@@ -256,9 +256,9 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
     std::vector<Result> each(isolation.shapes.size());
-    revchain::detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
+    detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            revchain::detail::look();
+            detail::look();
             add_isolated(links, narrow, height, isolation.shapes[i], each[i]);
         }
     });

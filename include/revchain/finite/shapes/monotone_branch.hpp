@@ -41,11 +41,11 @@ class Response {
     bool is_single() const { return single_; }
 
     Interval<T> load(const Interval<T>& t) const {
-        return is_plummet() ? stiffness_ * t : stiffness_ * t + turning_ * detail::sine_at(t);
+        return is_plummet() ? stiffness_ * t : stiffness_ * t + turning_ * sine_at(t);
     }
 
     LoadedTangents<T> met(MonotoneBranch branch, const Interval<T>& R) const {
-        if (branch == MonotoneBranch::whole) return {detail::tangent_of(stiffness_, turning_, R), true, true};
+        if (branch == MonotoneBranch::whole) return {tangent_of(stiffness_, turning_, R), true, true};
         if (branch == MonotoneBranch::right) return right_of_joint(R);
         if (branch == MonotoneBranch::middle) return between_joints(R);
         LoadedTangents<T> mirrored = right_of_joint(-R);
@@ -55,7 +55,7 @@ class Response {
 
    private:
     Interval<T> at(const T& t) const { return load(Interval<T>(t)); }
-    Interval<T> growth(const T& t) const { return stiffness_ + turning_ * detail::Sine<T>(Interval<T>(t)).slope; }
+    Interval<T> growth(const T& t) const { return stiffness_ + turning_ * Sine<T>(Interval<T>(t)).slope; }
 
     void find_joint() {
         using std::cbrt;
@@ -71,16 +71,16 @@ class Response {
         }
         constexpr int to_overflow = 2 * std::numeric_limits<T>::max_exponent;
         const T step = T(4) * epsilon<T>() * near + std::numeric_limits<T>::min();
-        joint_.high = detail::first_passing(near, step, to_overflow, [&](const T& t) { return growth(t).positive(); });
-        joint_.low = detail::first_passing(near, T(-step), to_overflow,
-                                           [&](const T& t) { return !(t > T(0)) || growth(t).negative(); });
+        joint_.high = first_passing(near, step, to_overflow, [&](const T& t) { return growth(t).positive(); });
+        joint_.low =
+            first_passing(near, T(-step), to_overflow, [&](const T& t) { return !(t > T(0)) || growth(t).negative(); });
         if (!(joint_.low > T(0))) joint_.low = T(0);
         least_ = load(joint_);
     }
 
     /// Where R(t) = wanted, from a side from which Newton's method does not overshoot: R bends upwards for t > 0.
     T near(const T& start, const T& wanted) const {
-        return detail::tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
+        return tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
     }
 
     static constexpr int tries = 60;
@@ -94,14 +94,14 @@ class Response {
         LoadedTangents<T> met;
         met.smooth = R.low > least_.high;
         const T high = met.smooth || R.high > least_.high ? std::max(joint_.high, from_right(R.high)) : joint_.high;
-        met.tangent.high = detail::first_passing(high, detail::rounding_step(high), 2 * tries,
-                                                 [&](const T& t) { return at(t).low >= R.high; });
+        met.tangent.high =
+            first_passing(high, rounding_step(high), 2 * tries, [&](const T& t) { return at(t).low >= R.high; });
         if (!(met.tangent.high == met.tangent.high)) return {met.tangent.high, true, false};  // nothing is known
         met.tangent.low = joint_.low;
         if (!met.smooth) return met;
         const T low = from_right(R.low);
-        const T passed = detail::first_passing(low, T(-detail::rounding_step(low)), tries,
-                                               [&](const T& t) { return !(t > joint_.high) || at(t).high <= R.low; });
+        const T passed = first_passing(low, T(-rounding_step(low)), tries,
+                                       [&](const T& t) { return !(t > joint_.high) || at(t).high <= R.low; });
         met.smooth = passed > joint_.high;
         if (met.smooth) met.tangent.low = passed;
         return met;
@@ -111,9 +111,8 @@ class Response {
     std::pair<T, bool> last_between(const T& R) const {
         if (R <= least_.high) return {joint_.high, false};
         T t = R > T(0) ? (R < -least_.high ? T(-near(T(0), T(-R))) : T(-joint_.low)) : near(T(0), R);
-        t = detail::first_passing(t, detail::rounding_step(t), tries, [&](const T& x) {
-            return !(x < joint_.low) || (x > -joint_.low && at(x).high <= R);
-        });
+        t = first_passing(t, rounding_step(t), tries,
+                          [&](const T& x) { return !(x < joint_.low) || (x > -joint_.low && at(x).high <= R); });
         return t < joint_.low ? std::pair(t, true) : std::pair(joint_.high, false);
     }
 

@@ -72,7 +72,7 @@ class PostureSearch {
             support_.is_symmetric() && std::none_of(whole.choice.begin(), whole.choice.end(), [](MonotoneBranch p) {
                 return p == MonotoneBranch::right || p == MonotoneBranch::left;
             });
-        return detail::split(
+        return split(
             Bracket<T>{whole.low, whole.high}, last, narrowest, budget,
             [&](const Bracket<T>& part, long& cells) {
                 return classify(whole.choice, part, straight && part.low == T(0), cells);
@@ -86,7 +86,6 @@ class PostureSearch {
     template <Real, class>
     friend class PostureSearch;
 
-    using Seen = detail::Seen;
     /// A part is settled where every shape in it is in the list.
     Seen classify(const std::vector<MonotoneBranch>& choice, const Bracket<T>& part, bool holds_straight, long& cells) {
         const Cell<T, 1> cell(Interval<T>(part.low, part.high));
@@ -99,8 +98,8 @@ class PostureSearch {
         if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Seen::settled;
         cells += static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
         if (zeros_.settles(box_)) return Seen::settled;
-        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope[0], y.centre_slope[0])
-                                                        : detail::rounding_rules(y.value, y.centre_value));
+        const bool rounding = smooth && (holds_straight ? rounding_rules(y.slope[0], y.centre_slope[0])
+                                                        : rounding_rules(y.value, y.centre_value));
         return rounding ? Seen::ruled_by_rounding : Seen::open;
     }
 
@@ -124,15 +123,15 @@ class PostureSearch {
             }
             const LoadedTangents<T> centre = response.met(choice[m], R.centre_value);
             t.centre_value = centre.tangent;
-            smooth = centre.possible && centre.smooth && detail::derive(response.stiffness(), response.turning(), R, t);
+            smooth = centre.possible && centre.smooth && derive(response.stiffness(), response.turning(), R, t);
             return true;
         }
         Taylor<T, 1> sine(std::size_t m, const Taylor<T, 1>& t) const {
             Taylor<T, 1> s;
             if (smooth)
-                s = detail::sine_at(t);
+                s = sine_at(t);
             else
-                s.value = detail::sine_at(t.value);
+                s.value = sine_at(t.value);
             return search.balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
         }
         Taylor<T, 1> upright(const Taylor<T, 1>& t) const { return search.response_[0].stiffness() * t; }

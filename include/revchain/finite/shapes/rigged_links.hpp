@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
 /// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
 struct RiggedLinks : Links<Wide<double>> {
-    std::vector<revchain::detail::RigLink> given;
+    std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
     Wide<double> speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
     Held<Wide<double>> support{};
@@ -28,17 +28,13 @@ struct RiggedLinks : Links<Wide<double>> {
     }
 };
 
-namespace detail {
-
 /// sigma + n H/a, which may cancel: enclosed in double-double first.
 template <class T>
-Interval<T> effective_tension(const revchain::detail::RigLink& link, const Wide<double>& speed) {
+Interval<T> effective_tension(const detail::RigLink& link, const Wide<double>& speed) {
     if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
     const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
-    return {revchain::detail::down(static_cast<T>(pull.low)), revchain::detail::up(static_cast<T>(pull.high))};
+    return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
-
-}  // namespace detail
 
 inline const Held<Wide<double>>& support_of(const RiggedLinks& rig) { return rig.support; }
 inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
@@ -48,7 +44,7 @@ template <class T>
 EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
     EnclosedLinks<T> result = enclosed<T>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
-        result[m].pull = detail::effective_tension<T>(rig.given[m], rig.speed);
+        result[m].pull = effective_tension<T>(rig.given[m], rig.speed);
         if (rig.turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
     }
     return result;
@@ -91,7 +87,7 @@ template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
     std::vector<double> hung;
-    for (const revchain::detail::RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    for (const detail::RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
     Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
     const S top = found.offset.back();
     double last = 0;
@@ -115,25 +111,24 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
     using S = Wide<double>;
     RiggedLinks result;
     result.units = rig.chain().units();
-    result.given = revchain::detail::rig_links(rig);
+    result.given = detail::rig_links(rig);
     result.total_weight = std::ldexp(rig.chain().total_weight(), -result.units.weight_exponent);
     if (rig.has_momentum()) result.speed = speed;
     for (Index m = 0; m < rig.size(); ++m) {
-        const revchain::detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
+        const detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
         const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
-            revchain::detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what),
-                                            pull.high);
+            detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what), pull.high);
         };
-        if (detail::effective_tension<Far>(link, result.speed).may_vanish())
+        if (effective_tension<Far>(link, result.speed).may_vanish())
             reject("the effective tension (tension and n times momentum over length) must not vanish at this speed");
         if (m == 0 && enclosed<Far>(link.moment).may_vanish())
             reject("the lowest link's weight that moves must not balance about its upper pin");
         result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
         result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);
         result.axial_moment =
-            result.axial_moment + ldexp(rig.flywheel(m).axial_moment,
-                                        -result.units.weight_exponent - 2 * result.units.length_exponent);
+            result.axial_moment +
+            ldexp(rig.flywheel(m).axial_moment, -result.units.weight_exponent - 2 * result.units.length_exponent);
     }
     const Support& held = rig.support();
     const auto length = [&](double x) { return S(std::ldexp(x, -result.units.length_exponent)); };

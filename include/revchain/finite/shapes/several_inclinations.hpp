@@ -24,8 +24,6 @@ struct SeveralInclinations {
     long cells = 0;
 };
 
-namespace detail {
-
 /// A box that holds one zero for certain, as small as double-double allows, about one known to double precision.
 template <class End>
 std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, const TangentBox<Far>& near) {
@@ -114,8 +112,6 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     return result;
 }
 
-}  // namespace detail
-
 /// All shapes with links in one posture, found in double and, where that leaves parts open, in double-double.
 template <class AnyLinks>
 void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
@@ -146,7 +142,7 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
     for (const auto& part : second.open()) leave_open(part.low, part.high);
     for (const auto& zero : second.zeros()) {
         if (zero.straight) continue;
-        if (auto shape = detail::settled(chain, height, second.balance(), zero.near))
+        if (auto shape = settled(chain, height, second.balance(), zero.near))
             result.shapes.push_back(std::move(*shape));
         else
             leave_open(zero.near[0].low, zero.near[0].high);

@@ -98,10 +98,9 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 /// Whether the speed is given as a conical height, and not as an angular speed.
 template <class Options>
 bool height_is_given(const Options& options) {
-    revchain::detail::require_one_speed("steady_shapes", options);
-    if (options.conical_height)
-        revchain::detail::require_positive("steady_shapes", "conical height", *options.conical_height);
-    revchain::detail::require_positive("steady_shapes", "gravity", options.gravity);
+    detail::require_one_speed("steady_shapes", options);
+    if (options.conical_height) detail::require_positive("steady_shapes", "conical height", *options.conical_height);
+    detail::require_positive("steady_shapes", "gravity", options.gravity);
     return options.conical_height.has_value();
 }
 

@@ -41,8 +41,6 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     return result;
 }
 
-namespace detail {
-
 /// Replaces a matrix, given by its rows, by its inverse (Gauss and Jordan); returns whether it has one in sight.
 template <Real T>
 bool invert(std::vector<T>& a, std::size_t size) {
@@ -65,8 +63,6 @@ bool invert(std::vector<T>& a, std::size_t size) {
     matrix = rows.rightCols(n);
     return matrix.allFinite();
 }
-
-}  // namespace detail
 
 /// The balance of the whole chain in the tangents of all its links, each in its posture, s the sines:
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
@@ -108,7 +104,7 @@ class WholeBalance {
         return y;
     }
 
-    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, detail::Sine<T>(t).value); }
+    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, Sine<T>(t).value); }
 
     /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the
     /// box holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3. The
@@ -121,7 +117,7 @@ class WholeBalance {
         const TangentBox<T> left = scaled(*inverse, value(centre));
         TangentBox<T> result(size_), slope(size_), off(size_);
         for (std::size_t r = 0; r < size_; ++r) {
-            slope[r] = signed_(r, detail::Sine<T>(box[r]).slope);
+            slope[r] = signed_(r, Sine<T>(box[r]).slope);
             off[r] = box[r] - Interval<T>(centre[r]);
         }
         for (std::size_t m = 0; m < size_; ++m) {
@@ -217,7 +213,7 @@ class WholeBalance {
             for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
             jacobian[r * size_ + r] = jacobian[r * size_ + r] + stiffness_[r].middle();
         }
-        if (!detail::invert(jacobian, size_)) return std::nullopt;
+        if (!invert(jacobian, size_)) return std::nullopt;
         return jacobian;
     }
     TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {

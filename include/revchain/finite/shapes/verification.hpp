@@ -14,8 +14,6 @@ struct Verified {
     double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
 };
 
-namespace detail {
-
 /// Forces at the pins, lambda times, and what their derivative is made of, for offsets within intervals: the tangent
 /// stiffness of each link and a mass at each pin, never added up.
 struct Forces {
@@ -166,8 +164,7 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     std::vector<Interval<Far>> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
-        box.push_back(
-            {revchain::detail::down(offset[m] - Far(radius[m])), revchain::detail::up(offset[m] + Far(radius[m]))});
+        box.push_back({detail::down(offset[m] - Far(radius[m])), detail::up(offset[m] + Far(radius[m]))});
     }
     box.push_back(Interval<Far>(offset[n]));
     const Forces over(links, height, box, support);
@@ -191,24 +188,21 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     return radius;
 }
 
-}  // namespace detail
-
 /// Newton's method, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
 /// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a
 /// link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
 template <class End = OnAxis>
 Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
                   const End& support = {}) {
-    using detail::Inverse;
     Verified result{offset, std::numeric_limits<double>::infinity(), 0};
     if constexpr (is_held<End>)
         if (support.yields()) offset.push_back(support.radius.middle());
-    const auto found = detail::newton(links, height, std::move(offset), support);
+    const auto found = newton(links, height, std::move(offset), support);
     if (!found) return result;
     const auto& [p, q, w] = found->inverse;
     const std::size_t n = found->offset.size() - 1;
     std::copy_n(found->offset.begin(), links.size() + 1, result.offset.begin());
-    const auto radius = detail::proved_radius(links, height, *found, support);
+    const auto radius = proved_radius(links, height, *found, support);
     std::vector<double> below(n + 1, 0.0), above(n + 1, 0.0);
     for (std::size_t m = 0; m < n; ++m) below[m + 1] = below[m] + Inverse::size(p[m]) * found->at.size[m];
     for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
@@ -248,7 +242,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     } else {
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
             const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
-                               adjacent = chain.links[m].length * detail::cosine_of(chain.links[m].length, d);
+                               adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
             off = std::max(off, 1.01 * std::abs(static_cast<double>((d - right) / adjacent)));
         }
     }

@@ -66,7 +66,7 @@ inline CordProfile profile_of(const HeldCordShape& shape) {
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)
-        : shape_(shape), nodes_(nodes), rule_(revchain::detail::gauss_rule(nodes)) {
+        : shape_(shape), nodes_(nodes), rule_(detail::gauss_rule(nodes)) {
         const std::vector<double> ends = panel_ends();
         const auto panels = static_cast<Index>(ends.size()) - 1, n = panels * nodes;
         for (Vector<double>* v : {&wide_, &cosine_, &sine_}) v->resize(n);
@@ -190,8 +190,8 @@ class DisturbedCord {
         double sum = 0;
         for (const auto& [t, weight] : rule_) {
             const double arc = from + (to - from) * t, wide = weight * (to - from);
-            points_.push_back({panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc),
-                               shape_.at(arc)[1]});
+            points_.push_back(
+                {panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc), shape_.at(arc)[1]});
             sum += points_.back().mass;
         }
         const double whole = shape_.weight_below(to) - shape_.weight_below(from);
@@ -216,13 +216,13 @@ class DisturbedCord {
 template <class Shape>
 Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     if (!(std::abs(shape.length - cord.length()) <= 1e-14 * cord.length()))
-        revchain::detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
+        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
     const CordProfile profile = profile_of(shape);
     const auto found = [&](int nodes) {
         return judged(frame, DisturbedCord(profile, nodes).disturbed(), ChainUnits{});
     };
     const Stability coarse = found(8);
-    revchain::detail::look();
+    detail::look();
     Stability result = found(10);
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
@@ -240,8 +240,7 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
             const auto alike = [&](const std::complex<double>& x) {
                 return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
             };
-            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike))
-                slowest = std::min(slowest, std::abs(s));
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike)) slowest = std::min(slowest, std::abs(s));
         }
         return slowest;
     };

@@ -98,12 +98,12 @@ struct DisturbedIn {
     Matrix<S> turned;                   // what is less of the first where links turn with the plane
     Matrix<S> bending, swivelling;      // F, H
     Matrix<S> drag_in_plane, drag_coupling, drag_across;
-    Matrix<S> ends;                // how the lower end moves with q, across the axis and along it
-    Vector<S> lower_end;           // how it moves with b
-    Vector<S> stiffness;           // lambda times that of links and support, against q as against b
-    Vector<S> offset;              // the shape: out of plane, a rotation
-    std::vector<Index> massless;   // pins that move no mass, lowest first
-    double doubt = 0;              // the largest error of a stiffness over that of rounding
+    Matrix<S> ends;               // how the lower end moves with q, across the axis and along it
+    Vector<S> lower_end;          // how it moves with b
+    Vector<S> stiffness;          // lambda times that of links and support, against q as against b
+    Vector<S> offset;             // the shape: out of plane, a rotation
+    std::vector<Index> massless;  // pins that move no mass, lowest first
+    double doubt = 0;             // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
 
     DisturbedIn() = default;
@@ -185,8 +185,7 @@ struct DisturbedIn {
     /// Leaves of q the columns of Q and of b those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
         for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) *of = within(*of, Q);
-        for (Matrix<S>* of : {&coupling, &drag_coupling})
-            *of = pencil::transposed_product(Q, pencil::product(*of, Y));
+        for (Matrix<S>* of : {&coupling, &drag_coupling}) *of = pencil::transposed_product(Q, pencil::product(*of, Y));
         for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across}) *of = within(*of, Y);
     }
 

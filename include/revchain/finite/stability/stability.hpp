@@ -136,8 +136,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
         for (std::size_t k = 0; k < square.size(); ++k)  // two that cannot be told from one another have no mode each
-            if (k != j && std::abs(square[j] - square[k]) <=
-                              1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
+            if (k != j && std::abs(square[j] - square[k]) <= 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
                 for (const std::size_t i : {2 * j, 2 * j + 1})
                     list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
     }
@@ -232,13 +231,13 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
 template <class Shape>
 void require_shape_of(const Chain<double>& chain, const Shape& shape) {
     if (shape.inclination.size() != chain.size())
-        revchain::detail::throw_invalid("stability", "the shape is not of this chain; its links number",
-                                        shape.inclination.size());
+        detail::throw_invalid("stability", "the shape is not of this chain; its links number",
+                              shape.inclination.size());
     const double rounding = 1e-12 * (chain.total_length() + std::abs(shape.offset[chain.size()]));
     for (Index m = 0; m < chain.size(); ++m) {
         const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
         if (!(std::abs(length - chain.length()[m]) <= rounding))
-            revchain::detail::throw_invalid(
+            detail::throw_invalid(
                 "stability", "the shape is not of this chain; in it links[" + std::to_string(m) + "] is as long as",
                 length);
     }
@@ -259,10 +258,10 @@ inline void require_mass(const PulledLinks& links, const Disturbed& d) {
     const auto top = static_cast<Index>(links.links.size());
     for (const Index pin : d.massless)
         if (pin > 0 ? pin < top : !links.held || links.lower_yields())
-            revchain::detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
+            detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
     if (links.top_is_massless() && links.momentum.back() != 0)
-        revchain::detail::throw_invalid(
-            place, "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
+        detail::throw_invalid(place,
+                              "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
 }
 
 /// The verdict on a shape: in double and, where rounding spoils that, in twice the digits.
@@ -278,8 +277,7 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links)
     auto found = judged_in(frame, d, links.units);
     if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
         if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
-    if (!found)
-        revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
+    if (!found) detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
     return found->stability;
 }
 
@@ -369,8 +367,7 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     const finite::RiggedLinks given = finite::rigged_links(rig, height, forward ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
-    if (finite::displaces_turning_fluid(rig))
-        return finite::judged_by_energy(options.frame, finite::Disturbed(links));
+    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, finite::Disturbed(links));
     return finite::judged(options.frame, links);
 }
 

@@ -31,7 +31,7 @@ inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShap
 template <class System>
 JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector, std::size_t index, double arc,
                       StabilityFrame frame) {
-    revchain::detail::look();
+    detail::look();
     const BranchTrace& trace = trace_of(branch);
     const BranchPoint& from = trace.points[index];
     std::optional<BranchPoint> point;
@@ -47,16 +47,16 @@ template <class System>
 std::vector<StabilityWindow> windows_of(const System& system, const Branch& branch,
                                         const StabilityWindowsOptions& options) {
     constexpr std::string_view place = "stability_windows";
-    revchain::detail::require_positive(place, "tolerance", options.tolerance);
-    if (options.samples < 1) revchain::detail::throw_invalid(place, "samples must be at least 1", options.samples);
+    detail::require_positive(place, "tolerance", options.tolerance);
+    if (options.samples < 1) detail::throw_invalid(place, "samples must be at least 1", options.samples);
     constexpr bool is_rig = std::is_same_v<System, Rig>;
     const BranchTrace& trace = trace_of(branch);
     if (trace.system && (trace.system->rig.has_value() != is_rig ||
                          trace.system->links.bodies() != static_cast<std::size_t>(system.size())))
-        revchain::detail::throw_invalid(place,
-                                        is_rig ? "the branch is not of this rig; its links number"
-                                               : "the branch is not of this chain; its links number",
-                                        trace.system->links.bodies());
+        detail::throw_invalid(place,
+                              is_rig ? "the branch is not of this rig; its links number"
+                                     : "the branch is not of this chain; its links number",
+                              trace.system->links.bodies());
     std::vector<StabilityWindow> windows;
     std::size_t first = 0;
     while (trace.onset && first < branch.size() && largest_rise(trace.points[first].state) == 0) ++first;
