@@ -9,11 +9,12 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its
-/// upper pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent
-/// and sine of its inclination, Greenhill (1908) §8 (6)-(12) is
-///     R = H_below + moment y_below,   lambda pull t + length cross s = R,   y = y_below - length s,   H = R + rest y,
-/// H the sum of weights times offsets of their centroids: lambda times the sideways pull at the pin.
+/// A link of steady motion at any inclination, lowest first in a chain. For offsets y, tangent t
+/// and sine s of the inclination, Greenhill (1908) §8 (6)-(12) reads
+///     R = H_below + moment y_below,  lambda pull t + length cross s = R,
+///     y = y_below - length s,        H = R + rest y.
+/// H, the sum of weights times offsets of centroids, is lambda times the sideways pull at the upper
+/// pin. R is its moment about that pin over the height of the link, if the link hung vertically.
 template <class S>
 struct Link {
     S length;  ///< a
@@ -23,16 +24,22 @@ struct Link {
     S rest;    ///< W (a - h)/a
 };
 
-/// The sine of a link that hangs (stands) is + (-) that of its tangent t, and its balance
+/// The sine of a hanging (standing) link is + (-) t/sqrt(1 + t^2), and its balance
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
 
-/// Links each of whose numbers lies within an interval.
+/// Links with every number enclosed by an interval.
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
-/// The arithmetic of proofs that double leaves open.
+/// The arithmetic of proofs that double leaves undecided.
 using Far = DoubleDouble;
+
+/// The nearest double.
+template <class S>
+double as_double(const S& x) {
+    return static_cast<double>(x);
+}
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
@@ -41,8 +48,8 @@ struct Links {
     ChainUnits units;
 };
 
-/// Every number within 1e-28 (double) of the exact function of those the chain stores, but where W h + a S cancels.
-/// Throws InvalidArgument where weights are more than 1e123 apart.
+/// The links of a chain, for T = double each number to 1e-28 unless W h + a S cancels.
+/// Throws InvalidArgument if weights differ by a factor of more than 1e123.
 template <Real T>
 Links<Wide<T>> links_of(const Chain<T>& chain) {
     using std::ldexp;
@@ -82,8 +89,8 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
-/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is
-/// the narrower.
+/// Encloses in T a number that S holds to all but its last digits. A narrower T that holds it
+/// exactly encloses it as a point.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);
@@ -102,14 +109,14 @@ EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
 
-/// Whether the sine of the inclination of this tangent is 1 and its cosine 1/|tangent| to every digit.
+/// Whether the inclination of this tangent has sine 1 and cosine 1/|tangent| to every digit.
 template <class S>
 bool is_horizontal(const S& tangent) {
     using std::abs;
     return abs(tangent) > S(1e100);
 }
 
-/// Cosine of the inclination of a tangent, where its square overflows too.
+/// Cosine of the inclination of a tangent, even if the square of the tangent overflows.
 template <class S>
 S cosine_at(const S& tangent) {
     using std::abs;

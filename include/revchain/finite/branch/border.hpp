@@ -5,27 +5,27 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The balance of a whole chain and one condition beside it, linear in the changes d of the links' sideways reaches
-/// a sin delta and the change h of log lambda:
-///     T y + h (change of pull along log lambda) = forces left,      sum row d + row_height h = left.
-/// T is the tangent stiffness of the elements, lambda sigma sec^3 delta/a + X between pins less the masses on the
-/// diagonal. Eliminated from the free end up, element by element, forces in sums from the free end: nothing is
-/// assembled, so that the slowest modes of long chains keep their digits. The last pin and log lambda are solved
-/// together: T itself may be singular, as it is where a branch folds.
+/// Linear solver for the balance of a chain together with one condition. The unknowns are changes d
+/// of the links' reaches a sin delta, and h of log lambda:
+///     T y + h (change of pull along log lambda) = forces,      sum row d + row_height h = left.
+/// T is the tangent stiffness of the elements, lambda sigma sec^3 delta/a + X between pins, less
+/// the masses on the diagonal. Elements are eliminated from the free end up with forces summed from
+/// there; no matrix is assembled, which keeps the digits of the slowest modes of long chains. The
+/// last pin and log lambda are solved together, as T is singular where a branch folds.
 class BorderedChain {
    public:
     explicit BorderedChain(std::size_t size)
         : size_(size), below_(size), pivot_(size), force_(size), along_height_(size), weight_(size) {}
 
-    /// Factors at a shape: element stiffnesses, masses at the lower and upper pin, pull = lambda sigma tan delta, the
-    /// condition's row and its share of the height.
+    /// Factors at a shape, from element stiffnesses, masses at lower and upper pins, pull = lambda
+    /// sigma tan delta, and the condition's row and derivative by log lambda.
     template <class Stiffness, class Link, class Pull, class Row>
     void factor(const Stiffness& stiffness, const std::vector<Link>& links, const Pull& pull, const Row& row,
                 double row_height) {
         corner_ = row_height;
         double dynamic = 0, eliminated = 0, share = 0;
         for (std::size_t m = 0; m < size_; ++m) {
-            const double k = stiffness(m), u = dynamic - static_cast<double>(links[m].moment);
+            const double k = stiffness(m), u = dynamic - as_double(links[m].moment);
             const double p = guarded(u + k, k), inverse = 1 / p, ratio = u * inverse;
             const double h = pull(m) - eliminated, whole = share + row(m);
             below_[m] = u, pivot_[m] = p, along_height_[m] = h, weight_[m] = whole;
@@ -33,12 +33,12 @@ class BorderedChain {
             corner_ -= whole * inverse * h;
             share = (share * k - row(m) * u) * inverse;
             eliminated += ratio * h;
-            dynamic = k * ratio - static_cast<double>(links[m].rest);
+            dynamic = k * ratio - as_double(links[m].rest);
         }
     }
 
-    /// Changes of the reaches, into `reach`, and of log lambda, returned, for forces left at each pin, summed from the
-    /// free end, and what is left of the condition.
+    /// Solves for given forces, summed from the free end, and a given residual of the condition.
+    /// Fills `reach` with the changes of the reaches and returns the change of log lambda.
     template <class Forces>
     double solve(const Forces& summed, double left, std::vector<double>& reach) {
         const std::size_t top = size_ - 1;
@@ -76,8 +76,9 @@ class BorderedChain {
         return std::abs(pivot) < least ? least : pivot;
     }
     static double degenerate(std::vector<double>& reach) {
-        reach.assign(reach.size(), std::numeric_limits<double>::quiet_NaN());
-        return std::numeric_limits<double>::quiet_NaN();
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        reach.assign(reach.size(), unknown);
+        return unknown;
     }
 
     std::size_t size_;

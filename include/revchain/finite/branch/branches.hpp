@@ -11,14 +11,12 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
-    if (point >= size())
-        detail::throw_invalid("Branch::shape", "there are so many points: " + std::to_string(size()), point);
+    const auto reject = [&](std::string_view what) { detail::throw_invalid("Branch::shape", what, point); };
+    if (point >= size()) reject("point must be below " + std::to_string(size()) + ", the number of points");
     const finite::BranchPoint& at = trace_.points[point];
-    if (trace_.onset && finite::largest_rise(at.state) == 0)
-        detail::throw_invalid("Branch::shape", "this point is the straight chain", point);
+    if (trace_.onset && finite::largest_rise(at.state) == 0) reject("this point is the straight chain");
     const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace<Wide<double>>(at));
-    if (!found)
-        detail::throw_invalid("Branch::shape", "the shape at this point did not balance in double-double", point);
+    if (!found) reject("the shape at this point did not balance in double-double");
     return *found;
 }
 
@@ -31,7 +29,8 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 
 namespace finite {
 
-/// The branch from rest: from a tenth of the slower of the first critical speed and the speed given.
+/// Follows the branch from rest, from a tenth of the first critical speed or of the given speed if
+/// that is slower.
 inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points, double max_step) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
@@ -58,7 +57,6 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
     const BranchOnset& onset = *trace_of(result).onset;
     BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
     vertical.half_waves = onset.half_waves;
-    // the direction there: along the mode
     const double small = 1e-7 / onset.steepest;
     vertical.tangent = onset.point(root.corrector.links(), small).tangent;
     vertical.tangent.log_height = 0;
@@ -73,8 +71,8 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
         return result;
     }
     const double log_top = std::log(100 * std::max(conical_height, root.height) * unit);
-    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the
-    // vertical
+    // if modes almost coincide the first step may miss the branch and end it soon: start closer to
+    // the vertical
     const Branch only_vertical = result;
     for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
         const auto start = onset.start(root.corrector, from);
@@ -84,9 +82,9 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
         BranchWalk walk(root.corrector, *start, start->arc);
         walk.longest = max_step;
         attempt.end = follow(attempt, walk, log_end, max_points, log_top);
-        const bool kept = attempt.end != BranchEnd::stuck;
-        if (kept || attempt.size() > result.size()) result = std::move(attempt);
-        if (kept) return result;
+        const bool followed = attempt.end != BranchEnd::stuck;
+        if (followed || attempt.size() > result.size()) result = std::move(attempt);
+        if (followed) return result;
     }
     result.end = BranchEnd::stuck;
     return result;

@@ -8,18 +8,18 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Follows one branch of steady shapes by its arc, through folds.
 ///
-/// A step goes along the tangent and is corrected across it. It is kept only if Newton's method contracts at once, the
-/// direction turns by less than 26 degrees, the state half way, predicted from both ends, is on the branch too (a jump
-/// to a neighbour fails here: the curve through both ends with their tangents is then none), the half waves are the
-/// same (where l <= a for all links) and the chain has not come to the vertical. Else half the step is tried. This is a
-/// check, not a proof. Cost: 4 to 7 Newton steps of O(N) a step kept.
+/// A step goes along the tangent and is corrected across it. It is accepted if Newton's method
+/// contracts at once, the direction turns by less than 26 degrees, the state half way, predicted
+/// from both ends, is on the branch too (after a jump to a neighbour it is not), the half waves are
+/// the same (if l <= a for all links) and the chain is not vertical. Otherwise half the step is
+/// tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
 class BranchWalk {
    public:
-    /// From a point on the branch, its tangent the way to go.
+    /// Starts at a point on the branch, in the direction of its tangent.
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05)
         : corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
 
-    /// The step between two neighbouring points that were walked before.
+    /// A walk whose last step joins two neighbouring points.
     static BranchWalk between(Corrector& corrector, const BranchPoint& before, const BranchPoint& here) {
         BranchWalk walk(corrector, here);
         walk.before_ = before;
@@ -32,7 +32,7 @@ class BranchWalk {
     double longest = 0.5;    ///< along the arc
     double max_rise = 0.75;  ///< change of any link's tau in a step
 
-    /// One step on; false if none down to 1e-9 of arc passes.
+    /// Takes one step; returns false if no step above 1e-9 of arc is accepted.
     bool advance() {
         detail::look();
         for (; step_ > least; step_ /= 2) {
@@ -51,7 +51,8 @@ class BranchWalk {
         return false;
     }
 
-    /// The point of the branch at an arc beyond one of its points, in the plane across the direction there.
+    /// The point of the branch at distance `reach` of arc from another, in the plane across its
+    /// direction.
     std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
         auto next =
             corrector_->corrected(moved(from.state, reach, from.tangent), from.tangent, 0.3 * std::abs(reach) + 1e-9);
@@ -67,7 +68,7 @@ class BranchWalk {
    private:
     static constexpr double least = 1e-9;
 
-    /// The middle of the cubic through both ends and their tangents lies on the branch.
+    /// Whether the middle of the cubic through both ends and their tangents lies on the branch.
     bool on_the_way(const BranchPoint& next) const {
         const double reach = next.arc - here_.arc;
         BranchState middle = moved(here_.state, reach / 8, here_.tangent);

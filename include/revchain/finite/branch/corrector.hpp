@@ -9,11 +9,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Mean square of the tau and the square of log lambda: what arc is measured by.
+/// Inner product of the arc: mean product of the tau plus the product of log lambda.
 inline double inner(const BranchState& x, const BranchState& y) {
     double sum = 0;
     for (std::size_t m = 0; m < x.rise.size(); ++m) sum += x.rise[m] * y.rise[m];
-    return sum / static_cast<double>(x.rise.size()) + x.log_height * y.log_height;
+    return sum / as_double(x.rise.size()) + x.log_height * y.log_height;
 }
 /// x + share * direction.
 inline BranchState moved(BranchState x, double share, const BranchState& direction) {
@@ -21,7 +21,7 @@ inline BranchState moved(BranchState x, double share, const BranchState& directi
     x.log_height += share * direction.log_height;
     return x;
 }
-/// Makes a direction of length 1 along the arc; returns what its length was.
+/// Scales a direction to length 1 along the arc and returns its former length.
 inline double normalise(BranchState& direction) {
     const double length = std::sqrt(inner(direction, direction));
     for (double& rise : direction.rise) rise /= length;
@@ -34,7 +34,7 @@ inline double largest_rise(const BranchState& x) {
     return largest;
 }
 
-/// Newton's method on the whole chain and its height, held to a plane across a direction. In double.
+/// Newton's method in double on a chain and its height, within a plane across a direction.
 class Corrector {
    public:
     explicit Corrector(BranchLinks<double> links)
@@ -54,18 +54,19 @@ class Corrector {
     explicit Corrector(std::vector<Link<double>> chain) : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
-    /// Whether the number of half waves is the same all along a branch: in a chain where l <= a for all links. A pin on
-    /// the axis has then its neighbours on opposite sides, so that no sign change can come or go.
+    /// Whether the number of half waves is constant along a branch: in chains with l <= a for all
+    /// links. There a pin on the axis has its neighbours on opposite sides, so no sign change can
+    /// appear or vanish.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
         BranchState correction, tangent;
     };
-    /// One step of Newton's method at a state, and the direction of the branch, both by the same factors: the
-    /// correction at right angles to `across`, the tangent of length 1 and on the same side as it.
+    /// One step of Newton's method and the direction of the branch, from the same factors: the
+    /// correction is orthogonal to `across`; the tangent has length 1 and points to the same side.
     Change step(const BranchState& at, const BranchState& across) {
         const std::size_t n = links_.size();
-        const double height = std::exp(at.log_height), share = 1 / static_cast<double>(n);
+        const double height = std::exp(at.log_height), share = 1 / as_double(n);
         Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
         balance_at(at, height);
         for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
@@ -83,8 +84,9 @@ class Corrector {
         return change;
     }
 
-    /// The state on the branch in the plane through `start` across a direction; none if Newton's method does not
-    /// contract at once by `contraction` and to the last digits, or first moves by more than `farthest`.
+    /// The state on the branch in the plane through `start` across a direction. None if the first
+    /// step is longer than `farthest`, or a later one is not shorter than the one before times
+    /// `contraction`.
     std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
                                          double contraction = 0.3) {
         double last = 0;
@@ -97,7 +99,7 @@ class Corrector {
             if (round > 0 && !small && size > contraction * last) return std::nullopt;
             if (round > 5 && !small) return std::nullopt;
             start = moved(std::move(start), 1, change.correction);
-            // quadratic: what is left after a step of 1e-7 is rounding
+            // convergence is quadratic: after a step of 1e-7 the error is rounding
             if (small) {
                 const int waves = half_waves(start);
                 return BranchPoint{std::move(start), std::move(change.tangent), 0, waves};
@@ -107,7 +109,7 @@ class Corrector {
         return std::nullopt;
     }
 
-    /// Sign changes of the offsets, and one; 0 where rounding leaves a sign open.
+    /// One more than the sign changes of the offsets; 0 if rounding leaves a sign undecided.
     int half_waves(const BranchState& at) const {
         double y = links_.radius, last = 0, reached = std::abs(y);
         int waves = 1;
@@ -122,7 +124,7 @@ class Corrector {
     }
 
    private:
-    /// Forces left, in sums from the free end, and stiffnesses.
+    /// Residual forces, summed from the free end, and stiffnesses.
     void balance_at(const BranchState& at, double height) {
         const std::size_t n = links_.size();
         const double speed = links_.speed_at(height);
@@ -139,7 +141,7 @@ class Corrector {
             left_[m] = -pull - link.cross * sine_[m];
             const double upper = y;
             y += sine_[m];
-            // moments of the link's own weight, to be summed from the free end
+            // moments of the link's own weight; summed below from the free end
             row_[m] = link.moment * y, reach_[m] = link.rest * upper;
         }
         double sum = 0;

@@ -6,7 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A number told of every point of a branch, less what it is to be, and its slope along the arc.
+/// A number at a point of a branch, less the wanted value, and its slope along the arc.
 struct Measured {
     double value, slope;
 };
@@ -17,7 +17,7 @@ struct HeightMeasure {
     Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
 };
 
-/// tau of the lowest link: outwards, or of either sign.
+/// tau of the lowest link; with `either` its absolute value.
 struct TipInclinationMeasure {
     double wanted;
     bool either;
@@ -27,7 +27,7 @@ struct TipInclinationMeasure {
     }
 };
 
-/// The free end's offset, of either sign.
+/// The distance of the free end from the axis.
 struct TipRadiusMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -43,7 +43,7 @@ struct TipRadiusMeasure {
     }
 };
 
-/// The sideways reaction at the topmost pin, of either sign.
+/// The size of the sideways reaction at the topmost pin.
 struct TopPullMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -67,7 +67,7 @@ struct WithinStep {
     BranchPoint point;
 };
 
-/// Where f(measured) vanishes between two points of the step at which its signs differ.
+/// The zero of f(measured) between two points of the step at which its signs differ.
 template <class Measure, class F>
 std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
                                     double at_low, double at_high, double tolerance) {
@@ -88,7 +88,7 @@ std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measu
     return best;
 }
 
-/// Where in the last step the number turns, if its slopes at both ends differ in sign.
+/// The extremum of the number in the last step, if its slopes at both ends differ in sign.
 template <class Measure>
 std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& measure) {
     const Measured a = measure(walk.before()), b = measure(walk.here());
@@ -97,7 +97,8 @@ std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& meas
         walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
 }
 
-/// Points of the last step at which the number is as wanted, in order: at most one on either side of where it turns.
+/// Points of the last step with the wanted number, in order: at most one on each side of an
+/// extremum.
 template <class Measure>
 std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& measure) {
     std::vector<WithinStep> found;
@@ -109,7 +110,7 @@ std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& meas
             1e-10 * std::max(std::abs(at_low), std::abs(at_high)));
         if (point) found.push_back(std::move(*point));
     };
-    // it may turn between and come back; if it turns far from the number wanted that does not matter
+    // an extremum matters only if the number may reach the wanted value and return
     const double reach = walk.here().arc - walk.before().arc;
     const bool may_return = a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
                                                          reach * std::max(std::abs(a.slope), std::abs(b.slope));

@@ -12,8 +12,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
-/// it comes back or down to `log_end`.
+/// The branch through a state, followed on the side of `across`, which must not be orthogonal to
+/// it, until it closes or comes down to `log_end`.
 inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
                           int half_waves, double log_end, double log_top, std::size_t max_points, double max_step) {
     Branch result;
@@ -32,7 +32,7 @@ inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const Bran
     return result;
 }
 
-/// Lists, modes and conditions of a proof that a diagram needs, of a chain.
+/// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
@@ -56,12 +56,12 @@ class ChainQuestions {
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
             const double each = detail::one_mode(chain_, mode, false).conical_height;
-            if (each > height) found.push_back(each);  // at the very height of a mode, as rounded, it has no branch yet
+            if (each > height) found.push_back(each);  // exactly at the height of a mode it has no branch
         }
         return found;
     }
     bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
-    /// Above the first mode there is no shape: see steady_shapes.
+    /// The first mode; above it there is no shape (see steady_shapes).
     std::optional<double> settled_above() const { return detail::one_mode(chain_, 1, false).conical_height; }
     std::string not_provable(double lowest) const {
         const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
@@ -73,7 +73,7 @@ class ChainQuestions {
     const DiagramOptions& options_;
 };
 
-/// The same of a rig.
+/// What a diagram needs of a rig.
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const RigDiagramOptions& options)
@@ -105,10 +105,11 @@ class RigQuestions {
             if (mode.conical_height > height) found.push_back(mode.conical_height);
         return found;
     }
-    /// The first mode, if it is proved that slower there is one shape, or where the support is in the axis none: all
-    /// links hang in tension. In the sines s of the inclinations the energy in the turning frame, times lambda, has the
-    /// second derivative  lambda diag(pull a sec^3) - M  (and the spring's), not less than that of the straight chain.
-    /// That matrix is positive definite at rest, and it is not singular below the first critical speed.
+    /// The first mode, if it is proved that at slower speeds there is one shape, or none with the
+    /// support on the axis: all links hang in tension. In the sines s of the inclinations the
+    /// energy in the turning frame, times lambda, has the second derivative lambda diag(pull a
+    /// sec^3) - M (plus the spring's), which is at least that of the straight chain. That matrix is
+    /// positive definite at rest and regular below the first critical speed.
     std::optional<double> settled_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;
@@ -126,7 +127,7 @@ class RigQuestions {
     }
 
    private:
-    /// From rest up to the speed at a height; the pulls are linear in the speed.
+    /// Checks the speeds from rest to that of a height; the pulls are linear in the speed.
     bool hangs_in_tension(double height) const {
         const Wide<double> fastest = system->links.speed_at(Wide<double>(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
@@ -144,7 +145,7 @@ class RigQuestions {
     std::vector<detail::ModesOfOneSense::Mode> found_;
 };
 
-/// Branches and proved lists of shapes brought together.
+/// Combines branches with proved lists of shapes.
 template <class Questions, class Options>
 class Diagram {
    public:
@@ -173,7 +174,7 @@ class Diagram {
         }
         const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
         for (Index mode = 1; mode <= roots; ++mode) follow_from(mode);
-        // from the end upwards: an isolated branch is met first where most of it is to be seen
+        // from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
         for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
@@ -188,7 +189,7 @@ class Diagram {
     double of_length() const {
         double reach = 0;
         for (std::size_t m = 0; m < ask_.system->links.bodies(); ++m)
-            reach += static_cast<double>(ask_.system->links.links[m].length);
+            reach += as_double(ask_.system->links.links[m].length);
         return reach / unit_;
     }
     static double highest(const Branch& branch) {
@@ -215,11 +216,12 @@ class Diagram {
         }
         if (links.spring)
             at.rise.push_back(links.tau_of_reach(
-                at.rise.size(), shape.offset[shape.offset.size() - 1] * unit_ - static_cast<double>(links.radius)));
+                at.rise.size(), shape.offset[shape.offset.size() - 1] * unit_ - as_double(links.radius)));
         at.log_height = std::log(height * unit_);
         return at;
     }
-    /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
+    /// Checks that every shape at one height is on one branch. Follows the branch of a shape that
+    /// is on none.
     void look(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
@@ -251,7 +253,7 @@ class Diagram {
                              std::all_of(met.begin(), met.end(), [](int each) { return each == 1; });
     }
 
-    /// Proves that no loop is missing between the heights looked at; loops met on the way are added.
+    /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
     void prove(const std::optional<double>& settled) {
         result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
         const double lowest = result_.conical_height * unit_;
@@ -278,7 +280,7 @@ class Diagram {
             result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) + " and " +
                               detail::in_digits(proof.open_high / unit_);
     }
-    /// Off the axis for both signs of the lowest link's tangent.
+    /// Proves both signs of the lowest link's tangent if the support is off the axis.
     DiagramProof proved_between(double lowest, double first) {
         DiagramProof whole;
         for (const int side : {1, -1}) {
@@ -308,10 +310,10 @@ class Diagram {
         const BranchState state = diagram.state_at(at);
         BranchState across;
         across.rise.assign(state.rise.size(), 0.0);
-        across.rise[0] = std::sqrt(static_cast<double>(state.rise.size()));
+        across.rise[0] = std::sqrt(as_double(state.rise.size()));
         Branch found = from_here(state, across, 1);
-        // one that comes to the vertical is that of a mode; one that comes to the lowest height is in the list there,
-        // and one that comes to slow speeds is the one from rest
+        // a branch to the vertical is that of a mode, one to the lowest height is in the list
+        // there, one to slow speeds is the one from rest
         if (found.end == BranchEnd::vertical || found.end == BranchEnd::height || found.end == BranchEnd::slow)
             return true;
         if (found.end != BranchEnd::closed && found.end != BranchEnd::loose) {
@@ -321,7 +323,7 @@ class Diagram {
         const double top = highest(found),
                      bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
         result_.branches.push_back(std::move(found));
-        look(std::sqrt(top * bottom));  // must agree
+        look(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;
     }
 
@@ -329,7 +331,7 @@ class Diagram {
     Questions ask_;
     double unit_, log_end_, log_top_ = std::numeric_limits<double>::infinity();
     Corrector corrector_;
-    int stuck_ = 0;  ///< traces that came to nothing
+    int stuck_ = 0;  ///< branches that could not be followed
     Branches result_;
 };
 

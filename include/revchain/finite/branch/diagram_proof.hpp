@@ -10,7 +10,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A cell of such points.
+/// A cell of the diagram.
 struct Rectangle {
     double low, high, height_low, height_high;
 
@@ -18,7 +18,7 @@ struct Rectangle {
     Interval<double> height() const { return {height_low, height_high}; }
 };
 
-/// x of a point of a branch, lambda sinh tau of the lowest link, seen from a side; its size where `side` is 0.
+/// x of a point of a branch, lambda sinh tau of the lowest link, times `side`; |x| if `side` is 0.
 struct XMeasure {
     double wanted;
     int side = 0;
@@ -29,26 +29,17 @@ struct XMeasure {
     }
 };
 
-/// How far it is proved that every branch is known.
+/// The heights at which every branch is proved to be known.
 struct DiagramProof {
     bool complete = true;
-    double open_low = 0, open_high = 0;  ///< heights between which a loop may be missing
-    long rectangles = 0;                 ///< looked at
+    double open_low = 0, open_high = 0;  ///< a loop may be missing between these heights
+    long rectangles = 0;                 ///< examined
 };
 
-/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support,
-/// with x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a
-/// list there. A rig: y is the function of EnclosedDiagram, and off the axis each sign of x is shown by itself.
-///
-/// Any other piece goes to the vertical (off the axis: up to rest) or has a highest point, and there y = y_x = 0.
-/// Above the highest height there is no shape, or off the axis the one from rest alone. Rectangles of (x, lambda)
-/// are split until in each
-///   y or y_x keeps its sign, so that no such point is in it; or
-///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
-///   width: all zeros in it lie on one graph lambda(x) over its whole width; if there are any, one is at its middle.
-///   That one is on a branch that is known, or a branch that was not is found.
-/// Next to x = 0, y = x f(x, lambda), and by the mean value theorem f, f_x and f_lambda are within y_x, y_xx times
-/// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.
+/// Proves that every connected piece of the diagram is known: of the zeros of y(x, lambda), the
+/// offset of the support, with x = lambda tan(inclination of the lowest link) > 0. Pieces that
+/// reach the lowest height are left to a list there. For a rig, y is the function of
+/// EnclosedDiagram, and off the axis each sign of x has its own proof.
 class DiagramProver {
    public:
     DiagramProver(EnclosedDiagram diagram, long budget)
@@ -56,8 +47,9 @@ class DiagramProver {
     DiagramProver(EnclosedLinks<double> chain, long budget)
         : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
-    /// From the highest height down to the lowest, x from 0 to `last`. `known(point, rectangle)`: whether a branch that
-    /// is known goes through the rectangle, or, if not, one is found through that point, where there is a shape.
+    /// Covers heights from the highest to the lowest and x from 0 to `last`. `known(point,
+    /// rectangle)` returns whether a known branch goes through the rectangle, or one is found
+    /// through the point.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
@@ -89,7 +81,7 @@ class DiagramProver {
         proof.complete = false;
     }
 
-    /// Whether nothing is left to show there.
+    /// Whether nothing remains to be proved in a part.
     template <class Known>
     bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
@@ -106,8 +98,9 @@ class DiagramProver {
         }
         return false;
     }
-    /// Over several rectangles, side by side in registers; those of the compiler's flags, as `over` is not inlined: in
-    /// a portable build code for AVX-512 or AVX2 at run time took 4 times as long.
+    /// The function over several rectangles, in lanes of the registers that the compiler flags
+    /// allow: `over` is not inlined, and code for AVX2 or AVX-512 chosen at run time took 4 times
+    /// as long.
     std::array<Taylor<double, 2>, batch> offsets_over(const std::vector<Rectangle>& parts) const {
         const std::size_t count = parts.size();
         if (diagram_.spins()) {
@@ -146,7 +139,8 @@ class DiagramProver {
     Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}).front(); }
     bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
-    /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
+    /// The part extended up and down, if all its zeros lie on one graph lambda(x) within the
+    /// extension.
     std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
         const bool from_zero = goes_to_vertical(part);
         const auto rise = [&](const Taylor<double, 2>& f) {
@@ -166,7 +160,7 @@ class DiagramProver {
         return beyond;
     }
 
-    /// Where on the line through x the offset vanishes, to rounding.
+    /// The zero of the offset on the line through x, to rounding.
     DiagramPoint zero_at(double x, const Rectangle& within, const Interval<double>& at_low,
                          const Interval<double>& at_high) const {
         const auto value = [&](double height) {
@@ -178,7 +172,7 @@ class DiagramProver {
         return {x, zero_between(ends, value)};
     }
 
-    /// Across the direction in which y_x varies the more; false where that would show no more.
+    /// Splits across the direction in which y_x varies more; false if a split would show no more.
     template <class Wait>
     bool split(const Rectangle& part, const Taylor<double, 2>& y, const Wait& wait) {
         const bool from_zero = goes_to_vertical(part), at_zero = part.low == 0;
@@ -206,22 +200,23 @@ class DiagramProver {
     Cutting<double> cutting_;
 };
 
-/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
-/// point of it is in the rectangle, or it crosses there the x of `at`. `side`: see EnclosedDiagram.
+/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x) through
+/// `at`: a point of it is in the rectangle, or it crosses the x of `at` there. `side`: see
+/// EnclosedDiagram.
 template <class Branch>
 bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within,
                   int side = 0) {
     const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
-    const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
+    const auto inside = [&](const BranchState& state) {  // by more than the error of points
         const double height = std::exp(state.log_height), x = height * std::sinh(turned(state.rise[0]));
         constexpr double off = 1e-10;
-        return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
-               height < within.height_high * (1 - off);
+        const double low = within.height_low * (1 + off), high = within.height_high * (1 - off);
+        return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height && height < high;
     };
     const auto& points = trace_of(branch).points;
     if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return inside(p.state); })) return true;
     const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
-                 links = static_cast<double>(corrector.size());
+                 links = as_double(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
         const BranchPoint &before = points[i], &here = points[i + 1];
         const double reach = 2 * (here.arc - before.arc);

@@ -13,9 +13,10 @@ struct DiagramPoint {
     double x, height;
 };
 
-/// The function whose zeros are the diagram: of x and lambda, how far the topmost pin is from where it is held. Where a
-/// spring of stiffness E with a carriage W holds it, that times lambda E,  lambda E (y - b) - H - W y,  which is finite
-/// at any height. Off the axis x has both signs: `side` -1 is the mirror image, seen at positive x.
+/// The function of x and lambda whose zeros are the diagram: the distance of the topmost pin from
+/// its support. With a spring of stiffness E and a carriage W it is lambda E (y - b) - H - W y,
+/// finite at any height. Off the axis x has both signs: `side` -1 is the mirror image, at positive
+/// x.
 class EnclosedDiagram {
    public:
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
@@ -36,15 +37,15 @@ class EnclosedDiagram {
     bool is_symmetric() const { return side_ == 0; }
     int side() const { return side_; }
 
-    /// The height at which the spring's stiffness times it is all the weight that moves: pins may be at any distance.
-    /// 0 of a firm support.
+    /// The height at which the spring's stiffness times the height is all the moving weight, so
+    /// that pins may be at any distance; 0 for a firm support.
     double loosest_height() const {
         if (firm_) return 0;
         Interval<double> moving = carriage_;
         for (const auto& link : links_) moving = moving + link.moment + link.rest;
         return (moving / stiffness_).high;
     }
-    /// An upper end for x at a height and above, which must be above the one at which the spring is loose.
+    /// An upper bound of x at a height, which must exceed `loosest_height`, and above.
     double last(double height) const {
         const Interval<double> lambda(height);
         EnclosedLinks<double> slackest = links_at(lambda);
@@ -72,13 +73,14 @@ class EnclosedDiagram {
         state.log_height = std::log(at.height);
         return state;
     }
-    /// The function and its derivatives over a cell. T: a number or a pack of them.
+    /// The function and its derivatives over a cell. T: a number or a pack.
     template <class T>
     [[gnu::always_inline]] Taylor<T, 2> over(const Cell<T, 2>& cell) const {
         return ended(swept_cell<T>(links_, cell), cell);
     }
     bool spins() const { return !kept_.spin.empty(); }
-    /// The same with flywheels. One cell at a time: only the function without flywheels is compiled for packs.
+    /// `over` for rigs with flywheels, one cell at a time: only the function without them is
+    /// compiled for packs.
     Taylor<double, 2> spinning_over(const Cell<double, 2>& cell) const {
         return ended(swept_cell<double, true>(links_, cell, &kept_), cell);
     }

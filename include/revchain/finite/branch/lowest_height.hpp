@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The conical height down to which to follow branches, given as it is or as a speed.
+/// The conical height at which branches end, given directly or as a speed.
 template <class Options>
 double lowest_height(std::string_view place, const Options& options) {
     if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())

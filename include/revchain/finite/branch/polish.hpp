@@ -7,15 +7,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// One condition on the shape and the height, in double-double, that is solved together with the balance of forces. It
-/// knows its derivatives along the links' reaches a sin delta and along log lambda.
+/// A condition on shape and height, in double-double, solved together with the balance of forces.
 template <class S>
 struct Condition {
     virtual ~Condition() = default;
-    /// What is left of it, given minus there, at offsets of the pins; fills `row`, returns its share of log lambda too.
+    /// Given minus actual value at offsets of the pins, and its derivative by log lambda. Fills
+    /// `row` with the derivatives by the reaches a sin delta.
     virtual std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& offset, const S& height,
                                       std::vector<double>& row) const = 0;
-    /// What a relative change 1 of the number given leaves of it; 0 where none is given.
+    /// The change of the condition for a relative change 1 of the given number; 0 without one.
     virtual double size(const S& height) const = 0;
     virtual bool gives_height() const { return false; }
 };
@@ -28,14 +28,14 @@ struct GivenHeight : Condition<S> {
     std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>&, const S& height,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        return {(wanted - height) / wanted, static_cast<double>(height / wanted)};
+        return {(wanted - height) / wanted, as_double(height / wanted)};
     }
     double size(const S&) const override { return 1; }
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere. The sign is that of
-/// the link there.
+/// sin(inclination of the lowest link - wanted) = 0, as accurate near the horizontal as elsewhere.
+/// The sign is that of the link.
 template <class S>
 struct GivenTipInclination : Condition<S> {
     S sine, cosine;
@@ -45,21 +45,21 @@ struct GivenTipInclination : Condition<S> {
           cosine(words(std::cos(static_cast<long double>(wanted)))),
           angle(wanted) {}
     static S words(long double x) {
-        const double high = static_cast<double>(x);
-        return S(high) + S(static_cast<double>(x - static_cast<long double>(high)));
+        const double high = as_double(x);
+        return S(high) + S(as_double(x - static_cast<long double>(high)));
     }
     std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S&,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
         const S signed_sine = d < S(0) ? -sine : sine;
-        row[0] = static_cast<double>((cosine + s * signed_sine / c) / a);
+        row[0] = as_double((cosine + s * signed_sine / c) / a);
         return {signed_sine * c - s * cosine, 0.0};
     }
     double size(const S&) const override { return angle; }
 };
 
-/// The free end's distance from the axis, on the side where it is.
+/// The free end's distance from the axis, on its current side.
 template <class S>
 struct GivenTipRadius : Condition<S> {
     S wanted;
@@ -69,15 +69,15 @@ struct GivenTipRadius : Condition<S> {
         std::fill(row.begin(), row.end(), 1.0);
         return {(y[0] < S(0) ? -wanted : wanted) - y[0], 0.0};
     }
-    double size(const S&) const override { return static_cast<double>(wanted); }
+    double size(const S&) const override { return as_double(wanted); }
 };
 
-/// The size of the reaction at the topmost pin: sum of weights times centroids' offsets = lambda sqrt(T^2 - W^2), of
-/// either sign.
+/// The size of the reaction at the topmost pin: |sum of weights times centroids' offsets| = lambda
+/// sqrt(T^2 - W^2).
 template <class S>
 struct GivenTopTension : Condition<S> {
-    S across;      ///< the sideways part, positive
-    double share;  ///< its relative change for one of the whole
+    S across;      ///< the sideways part of T, positive
+    double share;  ///< its relative change for one of T
     GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
     std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
                               std::vector<double>& row) const override {
@@ -86,17 +86,17 @@ struct GivenTopTension : Condition<S> {
         for (std::size_t m = 0; m < links.bodies(); ++m) {
             const Link<S>& link = links.links[m];
             sum = sum + link.moment * y[m] + link.rest * y[m + 1];
-            row[m] = weights + static_cast<double>(link.moment);
-            weights = row[m] + static_cast<double>(link.rest);
+            row[m] = weights + as_double(link.moment);
+            weights = row[m] + as_double(link.rest);
         }
         if (links.spring) row.back() = weights;
         const S pull = sum < S(0) ? -(height * across) : height * across;
-        return {pull - sum, -static_cast<double>(pull)};
+        return {pull - sum, -as_double(pull)};
     }
-    double size(const S& height) const override { return share * std::abs(static_cast<double>(height * across)); }
+    double size(const S& height) const override { return share * std::abs(as_double(height * across)); }
 };
 
-/// A plane across the branch at a point of it: for points that are to stay where they are along the arc, folds too.
+/// The plane across the branch at one of its points: fixes the point along the arc, even at folds.
 template <class S>
 struct GivenPlace : Condition<S> {
     const BranchPoint* point;
@@ -104,15 +104,15 @@ struct GivenPlace : Condition<S> {
     std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
                               std::vector<double>& row) const override {
         double sum = 0;
-        const double share = 1 / static_cast<double>(links.size());
+        const double share = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
             const S &a = links.links[m].length, d = y[m] - y[m + 1], c = links.is_spring(m) ? S(1) : cosine_of(a, d);
-            const double tangent = static_cast<double>(d / (a * c)), length = static_cast<double>(a),
-                         slope = links.is_spring(m) ? std::hypot(1, tangent) : static_cast<double>(c * c);
+            const double tangent = as_double(d / (a * c)), length = as_double(a),
+                         slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c);
             row[m] = share * point->tangent.rise[m] / (length * slope);
             sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
         }
-        const double log_off = point->state.log_height - std::log(static_cast<double>(height));
+        const double log_off = point->state.log_height - std::log(as_double(height));
         return {S(sum + point->tangent.log_height * log_off), point->tangent.log_height};
     }
     double size(const S&) const override { return 0; }
@@ -123,15 +123,16 @@ template <class S>
 struct Polished {
     Balanced<S> shape;
     S height;
-    double residual = 0;  ///< largest force left over at a pin, over the sum of sizes of its terms
-    /// Largest change of an inclination, rad, where each force changes by its own size, times it, in a few patterns of
-    /// signs; or where the number given does. The height being free, the inverse has a third vector beside the two of
-    /// `verified`, and the worst pattern would cost O(N^2).
+    double residual = 0;  ///< largest residual force at a pin over the sum of sizes of its terms
+    /// Largest change of an inclination (rad) for relative changes 1 of all forces, in a few
+    /// patterns of signs, or of the given number. The exact maximum, with a free height, would cost
+    /// O(N^2).
     double condition = 0;
 };
 
-/// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a
-/// relative change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
+/// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
+/// condition's change for a relative change 1 of the given number, `growth` 1/(a cos^2) of the
+/// links.
 template <class S>
 double condition_of(const BranchLinks<S>& links, BorderedChain& border, const std::vector<double>& size,
                     const std::vector<double>& growth, double given) {
@@ -148,19 +149,17 @@ double condition_of(const BranchLinks<S>& links, BorderedChain& border, const st
         }
         border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : given, reach);
         for (std::size_t m = 0; m < links.bodies(); ++m)
-            worst =
-                std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links.links[m].length)));
+            worst = std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / as_double(links.links[m].length)));
     }
     return worst;
 }
 
-/// Offsets of the pins of a state, the firm end of the support last.
+/// Offsets of the pins of a state; the firm end of the support is last.
 template <class S>
 std::vector<S> offsets_of(const BranchLinks<S>& links, const BranchState& state) {
     std::vector<S> y(links.size() + 1);
     y.back() = links.radius;
-    for (std::size_t m = links.size();
-         m-- > 0;) {  // a - a sin, not a sin, told in double: it may be all but horizontal
+    for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
         const double tau = state.rise[m];
         const S &a = links.links[m].length, d = a * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
         const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
@@ -169,8 +168,8 @@ std::vector<S> offsets_of(const BranchLinks<S>& links, const BranchState& state)
     return y;
 }
 
-/// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`,
-/// beside which the height is free and one condition given. Cost O(N) a step.
+/// Newton's method on all pins and the height at once: as `balance`, with the height free and one
+/// condition given. Cost O(N) a step.
 template <class S>
 Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, const Condition<S>& condition) {
     using std::abs;
@@ -195,15 +194,15 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
                     pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             const S whole = sum + at_lower - pulled - turn;
-            const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
-            left[m] = static_cast<double>(whole), pull[m] = along[m] = static_cast<double>(pulled);
-            if (!links.spin.empty()) along[m] = static_cast<double>(height * links.growing_pull(m, speed) * tangent);
+            const double c = as_double(cosine), a = as_double(link.length);
+            left[m] = as_double(whole), pull[m] = along[m] = as_double(pulled);
+            if (!links.spin.empty()) along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
             growth[m] = 1 / (a * c * c);
-            stiffness[m] = static_cast<double>(factor) / (a * c * c * c) + static_cast<double>(link.cross);
-            const double parts = std::abs(pull[m]) + static_cast<double>(abs(turn));
-            size[m] = below_size + parts + static_cast<double>(abs(at_lower));
-            below_size = parts + static_cast<double>(abs(at_upper));
-            const double force = std::abs(static_cast<double>(whole - before));
+            stiffness[m] = as_double(factor) / (a * c * c * c) + as_double(link.cross);
+            const double parts = std::abs(pull[m]) + as_double(abs(turn));
+            size[m] = below_size + parts + as_double(abs(at_lower));
+            below_size = parts + as_double(abs(at_upper));
+            const double force = std::abs(as_double(whole - before));
             if (size[m] > 0) result.residual = std::max(result.residual, force / size[m]);
             before = whole;
             sum = sum + at_lower + at_upper;
@@ -211,17 +210,16 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
         const auto [open, row_height] = condition.left(links, y, height, row);
         border.factor([&](std::size_t m) { return stiffness[m]; }, links.links, [&](std::size_t m) { return along[m]; },
                       [&](std::size_t m) { return row[m]; }, row_height);
-        if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
-        const double log_change =
-            border.solve([&](std::size_t m) { return left[m]; }, static_cast<double>(open), reach);
-        // Largest change of a link over its own inclination, and over the steepest one's. The start comes from numbers
-        // that were summed in double: of links all but vertical next to others it has rounding alone, 1e-18 for 1e-40,
-        // say. That goes by a factor of 1e-16 a step, and does no harm to the rest.
+        if (result.shape.converged) break;  // the factors are now those of the result
+        const double log_change = border.solve([&](std::size_t m) { return left[m]; }, as_double(open), reach);
+        // Changes are relative to a link's own inclination and to the steepest one. The start was
+        // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
+        // That decreases by 1e-16 a step and does no harm.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of a link that is vertical by accident only what double-double offsets of its pins can tell
-            const double lower = std::abs(static_cast<double>(y[m])), upper = std::abs(static_cast<double>(y[m + 1])),
-                         there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
+            // of an accidentally vertical link, only what double-double offsets resolve
+            const double lower = std::abs(as_double(y[m])), upper = std::abs(as_double(y[m + 1])),
+                         there = std::abs(as_double(y[m] - y[m + 1])) * growth[m],
                          told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
                          change = std::abs(reach[m]) * growth[m];
             largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
@@ -231,7 +229,7 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
         }
         if (!(std::abs(log_change) < 1) || !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0))) return result;
         height = height + height * S(log_change);
-        // what the next step would be, as this one was to the last
+        // the size of the next step if convergence continues at this rate
         const double next = largest * std::min(1.0, largest / std::min(1.0, last));
         result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
         last = largest;

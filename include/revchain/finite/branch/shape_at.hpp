@@ -7,7 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A shape that Newton's method found at a height, with what `verified` proves of it at heights within `within`.
+/// A shape found by Newton's method at a height, with what `verified` proves at heights in
+/// `within`.
 inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>& height, const Interval<Far>& within,
                                   Balanced<Wide<double>> found, bool height_is_given) {
     if (!system.rig)
@@ -19,9 +20,9 @@ inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>
     return verified_shape(rig, folded_links(rig), height, within, std::move(found), height_is_given);
 }
 
-/// The shape next to a point of a branch at which one condition holds: at a given height with what `verified` proves.
-/// Where the height is found from something else that is proved of the shape at that height, and the bound adds what
-/// Newton's method left of the balance, times the condition; where nothing is proved, as at a fold, it is that alone.
+/// The shape near a point of a branch that satisfies a condition. At a given height its bound is
+/// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
+/// the condition number; where nothing is proved, as at a fold, it is that alone.
 inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
                                            const Condition<Wide<double>>& condition) {
     auto found = polished(system.links, near, condition);

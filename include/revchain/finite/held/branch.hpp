@@ -67,7 +67,7 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        if (state.forces.height < HeldCurve<System>::at_rest * static_cast<double>(held.length())) return true;
+        if (state.forces.height < HeldCurve<System>::at_rest * as_double(held.length())) return true;
         branch.end = HeldBranchEnd::rest;
         return false;
     });

@@ -66,9 +66,7 @@ class HeldChain {
     const std::vector<Direction<double>>& kept() const { return kept_; }
     void keep(std::vector<Direction<double>> directions) { kept_ = std::move(directions); }
 
-    HeldCurve<HeldChain> curve() {
-        return {*this, static_cast<double>(length_), static_cast<double>(weight_), mirrored()};
-    }
+    HeldCurve<HeldChain> curve() { return {*this, as_double(length_), as_double(weight_), mirrored()}; }
 
     /// The state with `half_waves` half waves, see `HeldCurve::from_straight`; if there are no mirror images, from the
     /// chain whose lowest link leads outwards, or from the other.
@@ -78,21 +76,20 @@ class HeldChain {
         const detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
         const auto taut = detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
         if (half_waves > taut.available.count) return {};
-        const auto guess = static_cast<double>(weight_ * length_);
+        const auto guess = as_double(weight_ * length_);
         const auto bracket = taut.roots.brackets(half_waves - 1, 1, guess, {}).front();
         const double along = pencil::between(bracket.lower, bracket.upper);
         std::vector<double> y{0.0};
-        for (const S& offset : taut.roots.vector(S(along))) y.push_back(static_cast<double>(offset));
+        for (const S& offset : taut.roots.vector(S(along))) y.push_back(as_double(offset));
         double short_of = 0;  // by how much the shape y is shorter than the chain
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
         const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);  // across, of the shape y
         straighten();
         const double across = outwards ? -1 : 1, part = supports_.plain() ? 1 : 0;
-        return curve().from_straight(
-            static_cast<double>(length_ - span), static_cast<double>(span), height, [&](double slack) {
-                return HeldForces<double>{across * pull * std::sqrt(slack / short_of), along, 0, part};
-            });
+        return curve().from_straight(as_double(length_ - span), as_double(span), height, [&](double slack) {
+            return HeldForces<double>{across * pull * std::sqrt(slack / short_of), along, 0, part};
+        });
     }
 
     /// Newton's method in double-double at span and height, from a state in double; the shape there.
@@ -125,7 +122,7 @@ class HeldChain {
 
     /// Lambda times the tension at the upper end.
     double top_pull(const HeldForces<double>& forces) {
-        return std::hypot((*this)(forces, false).across, forces.along + forces.height * static_cast<double>(weight_));
+        return std::hypot((*this)(forces, false).across, forces.along + forces.height * as_double(weight_));
     }
 
     /// Links as forces at the lower end draw them, each where it is pulled.
@@ -146,7 +143,7 @@ class HeldChain {
     std::optional<HeldState> under(HeldForces<double> forces, double wanted) {
         const auto sweep = [&](const HeldForces<double>& at) {
             HeldEnd<double> end = (*this)(at, true);
-            const double along = at.along + at.height * static_cast<double>(weight_);
+            const double along = at.along + at.height * as_double(weight_);
             end.rise = std::hypot(end.across, along);  // the tension in place of the rise
             end.rise_change[0] = end.across_change[0] * end.across / end.rise;
             end.rise_change[1] = (end.across_change[1] * end.across + along) / end.rise;
@@ -263,7 +260,7 @@ inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& su
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         for (const bool outwards : {true, false}) {
             if (!outwards && held.mirrored()) break;
-            if (const auto state = held.at_height(k, Wide<double>(apart), static_cast<double>(lambda), outwards))
+            if (const auto state = held.at_height(k, Wide<double>(apart), as_double(lambda), outwards))
                 add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
         }
     });

@@ -7,7 +7,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 using Span = Interval<Far>;
 
-inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
+inline double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
 /// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
 /// inclination, which is not positive where the link may be slack or settle elsewhere.
@@ -55,7 +55,7 @@ inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interva
     constexpr double unproved = std::numeric_limits<double>::infinity();
     const auto centre = held_box(links, ends, height, forces, {0, 0}, found).first;
     if (!centre.known) return unproved;
-    const auto slope = [](const Span& x) { return static_cast<double>(x.middle()); };
+    const auto slope = [](const Span& x) { return as_double(x.middle()); };
     const double a = slope(centre.offset_change[0]), b = slope(centre.offset_change[1]),
                  c = slope(centre.rise_change[0]), d = slope(centre.rise_change[1]), determinant = a * d - b * c;
     if (!(std::abs(determinant) > 0)) return unproved;

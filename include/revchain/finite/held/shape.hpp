@@ -63,7 +63,7 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
                            std::vector<Direction<Wide<double>>>& direction) {
     using S = Wide<double>;
     const auto size = static_cast<Index>(chain.links.size());
-    const auto narrow = [](const S& x) { return static_cast<double>(x); };
+    const auto narrow = [](const S& x) { return as_double(x); };
     const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
     const auto moment = [&](double x) {
         return std::ldexp(x, chain.units.length_exponent + chain.units.weight_exponent);
@@ -99,8 +99,8 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
             const S left = V * s + link.length * link.cross * s * c - R * c;
             shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
             shape.inclination[i] =
-                static_cast<double>(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
-                                               static_cast<long double>(c.high) + static_cast<long double>(c.low)));
+                as_double(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
+                                     static_cast<long double>(c.high) + static_cast<long double>(c.low)));
             inertia = inertia + link.moment * y * y + link.rest * head * head -
                       link.cross * link.length * link.length * s * s;
             energy = energy + link.moment * rise + link.rest * top;

@@ -83,14 +83,14 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
         if (!(growth > S(0))) return S(0);
         // half of Newton's step is the tangent of half an angle
         S half = -(along * s + turn * s * c - across * c) / (S(2) * growth);
-        const double size = std::abs(static_cast<double>(half));
+        const double size = std::abs(as_double(half));
         if (size > 0.3) half = half * S(0.3 / size);
         const S square = half * half, whole = S(1) + square, cosine = (S(1) - square) / whole,
                 sine = S(2) * half / whole;
         const S turned = s * cosine + c * sine;
         c = c * cosine - s * sine;
         s = turned;
-        if (size < static_cast<double>(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last)) return growth;
+        if (size < as_double(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last)) return growth;
         last = size;
     }
     return S(0);
@@ -202,7 +202,7 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends
 /// is one below `rounding` that has not shrunk to a quarter of the one before.
 template <class S, class Sweep>
 bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, double rounding, const Sweep& sweep) {
-    const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
+    const auto size_of = [](const S& x) { return std::abs(as_double(x)); };
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 30; ++round) {
         const HeldEnd<S> end = sweep(forces);

@@ -33,7 +33,7 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
     using S = Wide<double>;
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
-    const auto length = [&](const S& x) { return std::ldexp(static_cast<double>(x), chain.units.length_exponent); };
+    const auto length = [&](const S& x) { return std::ldexp(as_double(x), chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
     Shape shape;
     shape.inclination.resize(size), shape.tension.resize(size), shape.reaction_inclination.resize(size);
@@ -48,20 +48,20 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
         if (m == n) break;
         const Link<S>& link = chain.links[m];
         const S &lower = found.offset[m], &upper = found.offset[m + 1];
-        if (const double y = static_cast<double>(lower); y != 0) {
+        if (const double y = as_double(lower); y != 0) {
             if (y * last_sign < 0) ++shape.half_waves;
             last_sign = y > 0 ? 1 : -1;
         }
         const S d = lower - upper, cosine = cosine_in(found, chain.links, m),
                 tangent = tangent_in(found, chain.links, m);
-        const double inclination = std::atan(static_cast<double>(tangent));
+        const double inclination = std::atan(as_double(tangent));
         shape.inclination[i] = found.stands(m) ? beyond(inclination, d < S(0)) : inclination;
         // the moment about the upper pin of all that hangs there, over the length, times lambda
         const S left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
-        worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
-        reach += static_cast<double>(link.length);
+        worst_moment = std::max(worst_moment, std::abs(as_double(left * link.length * cosine / height)));
+        reach += as_double(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;
-        const double across = static_cast<double>(sideways / height);
+        const double across = as_double(sideways / height);
         shape.tension[i] = weight(std::hypot(hung[m], across));
         shape.reaction_inclination[i] = std::atan2(across, hung[m]);
         // of the element, (lower, upper) [A X; X B] (lower, upper), where A + X = moment and X + B = rest
@@ -70,7 +70,7 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
     }
     shape.residual = worst_moment / (total_weight * reach);
     shape.conical_height = length(height);
-    shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
+    shape.moment_of_inertia = weight(std::ldexp(as_double(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));
     return shape;
 }
@@ -78,8 +78,7 @@ template <class Shape = SteadyShape>
 Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     std::vector<double> hung;
     double total = 0;
-    for (const Link<Wide<double>>& link : chain.links)
-        hung.push_back(total += static_cast<double>(link.moment + link.rest));
+    for (const Link<Wide<double>>& link : chain.links) hung.push_back(total += as_double(link.moment + link.rest));
     return described<Shape>(chain, height, found, hung, total);
 }
 

@@ -54,7 +54,7 @@ template <Real T>
 class Cutting {
    public:
     /// Nearly a half, at random, since a cut in the middle can meet a shape for ever.
-    T share() { return T(0.45 + 0.1 * static_cast<double>(random_()) / static_cast<double>(random_.max())); }
+    T share() { return T(0.45 + 0.1 * as_double(random_()) / as_double(random_.max())); }
     /// At the geometric mean where the ends differ by more than a factor of 2, and next to 0 by sixteenths.
     T between(const T& low, const T& high) {
         using std::sqrt;

@@ -48,7 +48,7 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
     std::vector<double> tangents;
-    const double steepest = std::atan(last), third = static_cast<double>(points / 3);
+    const double steepest = std::atan(last), third = as_double(points / 3);
     for (double i = 0.5; i < third; ++i) {
         tangents.push_back(std::tan(steepest * i / third));
         tangents.push_back(last * i / third);
@@ -58,7 +58,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     std::vector<Bracket<T>> found;
     auto next = tangents.begin();
     for (const Bracket<T>& range : ranges) {
-        next = std::upper_bound(next, tangents.end(), static_cast<double>(range.low));
+        next = std::upper_bound(next, tangents.end(), as_double(range.low));
         T seen_at{};
         int seen = 0;
         const auto note = [&](const T& t) {
@@ -100,7 +100,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
     if (found.undecided.empty()) return found;
     found.undecided = joined(found.undecided);
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = sign_at(narrow, lambda, static_cast<double>(t), support);
+        const int sign = sign_at(narrow, lambda, as_double(t), support);
         return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
@@ -156,9 +156,8 @@ double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& he
         for (std::size_t m = 0; m < tangents.size(); ++m) {
             const Far t(tangent_in(found, middle, m));
             const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
-            const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
-            const double change =
-                static_cast<double>(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
+            const double near = both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
+            const double change = as_double(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
             worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
         }
         return worst * 1.01;
@@ -206,7 +205,7 @@ void add(const AnyLinks& links, const Wide<double>& height, const Settled& settl
 
 template <class Result>
 void leave_open(const Bracket<Far>& part, Result& result) {
-    const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
+    const auto inclination = [](const Far& t) { return std::atan(as_double(t)); };
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
@@ -214,7 +213,7 @@ void leave_open(const Bracket<Far>& part, Result& result) {
 /// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
 inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
-        if (std::abs(static_cast<double>(tangent_in(found, links, m))) > 1e8) return true;
+        if (std::abs(as_double(tangent_in(found, links, m))) > 1e8) return true;
     return false;
 }
 
@@ -300,7 +299,7 @@ Result listed(const AnyLinks& links, const Wide<double>& scaled, const Options& 
     // A little beyond: a link all but horizontal is at the end itself, to rounding.
     const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
                                                 !options.hanging_only, enclosed<double>(support_of(links)));
-    if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
+    if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }

@@ -60,7 +60,7 @@ class Response {
     void find_joint() {
         using std::cbrt;
         using std::sqrt;
-        const double ratio = static_cast<double>(-turning_.low) / static_cast<double>(stiffness_.low);
+        const double ratio = as_double(-turning_.low) / as_double(stiffness_.low);
         const double root = cbrt(ratio);
         T near(sqrt(std::max(0.0, root * root - 1)));
         for (int round = 0; round < 3 && near > T(0); ++round) {  // to the digits of T

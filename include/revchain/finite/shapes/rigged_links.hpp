@@ -87,21 +87,21 @@ template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
     std::vector<double> hung;
-    for (const detail::RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    for (const detail::RigLink& link : rig.given) hung.push_back(as_double(link.hung));
     Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
     const S top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))
         if (y != 0) last = y;
-    if (static_cast<double>(top) * last < 0) ++shape.half_waves;
+    if (as_double(top) * last < 0) ++shape.half_waves;
     const Held<S>& support = rig.support;
     const S drawn = top - support.radius,
             inertia = rig.axial_moment + (support.firm ? S(0) : support.carriage * top * top);
     S energy = -inertia / (S(2) * height);
     if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (S(2) * height);
     const int weight = rig.units.weight_exponent, length = rig.units.length_exponent;
-    shape.moment_of_inertia += std::ldexp(static_cast<double>(inertia), weight + 2 * length);
-    shape.effective_energy += std::ldexp(static_cast<double>(energy), weight + length);
+    shape.moment_of_inertia += std::ldexp(as_double(inertia), weight + 2 * length);
+    shape.effective_energy += std::ldexp(as_double(energy), weight + length);
     return shape;
 }
 

@@ -56,14 +56,13 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
 inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
                    const TangentBox<Far>& box, const std::vector<Wide<double>>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
-        const double off = static_cast<double>(abs(found.offset[m] - offset[m]));
-        if (!(off <= 1e-18 * static_cast<double>(abs(offset[m]) + links[std::min(m, box.size() - 1)].length)))
-            return false;
+        const double off = as_double(abs(found.offset[m] - offset[m]));
+        if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length))) return false;
     }
     for (std::size_t m = 0; m < box.size(); ++m) {
         const Far t(tangent_in(found, links, m));
-        const double size = std::abs(static_cast<double>(t));
-        const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
+        const double size = std::abs(as_double(t));
+        const double off = as_double(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
         if (!(off <= 1e-18 * std::min(1.0, size))) return false;
     }
     return true;
@@ -105,7 +104,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
     if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
-        const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
+        const double middle = as_double((*box)[m].middle()), width = as_double((*box)[m].width());
         const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
         result.error = std::max(result.error, width * 1.01 / (1 + middle * middle) + rounded);
     }
@@ -137,7 +136,7 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
         result.cells +=
             second.search({part.choice, Far(part.low), Far(part.high)}, Far(last), Far(1e-26), budget - result.cells);
     const auto leave_open = [&](const Far& low, const Far& high) {
-        result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});
+        result.open.push_back({posture[0], as_double(low), as_double(high)});
     };
     for (const auto& part : second.open()) leave_open(part.low, part.high);
     for (const auto& zero : second.zeros()) {

@@ -53,7 +53,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
                                   const RigShapesOptions& options) {
     if (rig == Rig(rig.chain(), {}))
         return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
-    const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
+    const double scaled = std::ldexp(as_double(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
         const double end = options.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;

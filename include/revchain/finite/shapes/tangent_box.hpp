@@ -143,8 +143,8 @@ class WholeBalance {
         double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
             const T step = left[m].middle();
-            const double tangent = static_cast<double>(t[m]);
-            largest = std::max(largest, std::abs(static_cast<double>(step)) / (1 + tangent * tangent));
+            const double tangent = as_double(t[m]);
+            largest = std::max(largest, std::abs(as_double(step)) / (1 + tangent * tangent));
             t[m] = t[m] - step;
         }
         return largest;
@@ -157,15 +157,14 @@ class WholeBalance {
         std::vector<double> terms(size_);
         double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
-            terms[m] = std::abs(static_cast<double>(stiffness_[m].middle() * t[m]));
+            terms[m] = std::abs(as_double(stiffness_[m].middle() * t[m]));
             for (std::size_t r = 0; r < size_; ++r)
-                terms[m] += std::abs(static_cast<double>(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
+                terms[m] += std::abs(as_double(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r)
-                change += std::abs(static_cast<double>((*inverse)[m * size_ + r])) * terms[r];
-            const double tangent = static_cast<double>(t[m]);
+            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)[m * size_ + r])) * terms[r];
+            const double tangent = as_double(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
         return largest;

@@ -27,7 +27,7 @@ struct Forces {
         const std::size_t n = links.size();
         Interval<Far> from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
-        const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()); };
+        const auto largest = [](const Interval<Far>& x) { return as_double(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
             const Link<Interval<Far>>& link = links[m];
             const Interval<Far> d = y[m] - y[m + 1];
@@ -42,7 +42,7 @@ struct Forces {
             stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
             mass.push_back(mass_below + link.moment);
             size.push_back(size_below + largest(pull) + largest(turn) + largest(at_lower));
-            cosine.push_back(static_cast<double>((adjacent / link.length).low));
+            cosine.push_back(as_double((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
             from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
@@ -112,8 +112,8 @@ struct Inverse {
         return result;
     }
     double share() const { return 1.0000001 / size(w); }
-    static double size(const Far& x) { return std::abs(static_cast<double>(x)); }
-    static double size(const Interval<Far>& x) { return static_cast<double>(x.size()) * 1.0000001; }
+    static double size(const Far& x) { return std::abs(as_double(x)); }
+    static double size(const Interval<Far>& x) { return as_double(x.size()) * 1.0000001; }
 };
 
 /// Offsets that Newton's method leaves no better, the forces there and the inverse of their derivative.
@@ -208,7 +208,7 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
     for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
     double worst = 0;
     for (std::size_t m = 0; m < links.size(); ++m) {
-        const double opposite = static_cast<double>(links[m].length.low) * found->at.cosine[m];
+        const double opposite = as_double(links[m].length.low) * found->at.cosine[m];
         if (radius) worst = std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
         const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
         const double change =
@@ -243,7 +243,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
             const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
                                adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
-            off = std::max(off, 1.01 * std::abs(static_cast<double>((d - right) / adjacent)));
+            off = std::max(off, 1.01 * std::abs(as_double((d - right) / adjacent)));
         }
     }
     turn_outwards(found, support);

@@ -145,7 +145,7 @@ struct DisturbedIn {
             x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
             const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
             const S lever = is_link ? S(link(m).length) : S(1);
-            doubt = std::max(doubt, static_cast<double>(lever * S(off) * unit[m] * unit[m]));
+            doubt = std::max(doubt, as_double(lever * S(off) * unit[m] * unit[m]));
             if (!is_link) continue;
             turned(m, m) = S(at(shape.axial, m)) * s * s * unit[m] * unit[m];
             turning[m] = S(at(shape.momentum, m)) * unit[m] * unit[m] / S(2);

@@ -15,8 +15,7 @@ inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<dou
     const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
     const double stiffness =
         std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
-    const double rounding = 1e-14 * static_cast<double>(links) * stiffness,
-                 least = std::min(inside.least, outside.least);
+    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
     return {inside.negative + outside.negative, least > rounding, least < -rounding};
 }
 
@@ -30,11 +29,11 @@ std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A,
 }
 template <class S>
 double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
-    return std::abs(static_cast<double>(q.real.col(j).dot(A * q.real.col(j)) + q.imag.col(j).dot(A * q.imag.col(j))));
+    return std::abs(as_double(q.real.col(j).dot(A * q.real.col(j)) + q.imag.col(j).dot(A * q.imag.col(j))));
 }
 template <class S>
 std::complex<double> rounded(const std::complex<S>& x) {
-    return {static_cast<double>(x.real()), static_cast<double>(x.imag())};
+    return {as_double(x.real()), as_double(x.imag())};
 }
 
 /// The error of s where that of s^2 is known.

@@ -81,7 +81,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         Y.real.col(j) -= (twice * b.dot(q.real.col(j))) * d.offset;
         Y.imag.col(j) -= (twice * b.dot(q.imag.col(j))) * d.offset;
     }
-    const auto size = [](const Matrix<S>& A) { return static_cast<double>(A.norm()); };
+    const auto size = [](const Matrix<S>& A) { return as_double(A.norm()); };
     const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M), in_K = size(forms.K),
                  in_C = size(forms.C);
     std::vector<std::complex<double>> square;
@@ -112,10 +112,9 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
                                      two * two * bilinear(q, forms.B, others_of_y, j) -
                                      bilinear(others_of_y, forms.M, others_of_y, j) -
                                      bilinear(others_of_y, forms.C, others_of_y, j) / of;
-        const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
-        const double x = static_cast<double>(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
-        const double y =
-            static_cast<double>(others_of_y.real.col(j).squaredNorm() + others_of_y.imag.col(j).squaredNorm());
+        const auto rounding = as_double(std::numeric_limits<S>::epsilon());
+        const double x = as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
+        const double y = as_double(others_of_y.real.col(j).squaredNorm() + others_of_y.imag.col(j).squaredNorm());
         const double to_square = 2 * far / std::abs(norm);
         const double alpha = hermitian(q, forms.A, j), mu = hermitian(others_of_y, forms.M, j),
                      kappa = d.doubt * x + alpha, gamma = d.doubt * y + mu;
@@ -140,7 +139,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
                 for (const std::size_t i : {2 * j, 2 * j + 1})
                     list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
     }
-    const double lost = 5e-11 * std::max(1.0, static_cast<double>(square.size()) / 16);
+    const double lost = 5e-11 * std::max(1.0, as_double(square.size()) / 16);
     for (std::size_t j = 0; j < square.size(); ++j) {
         const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
@@ -297,8 +296,8 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
     PulledLinks result(given.units);
     result.turns_freely = given.support.symmetric;
     if (!given.support.firm) {
-        result.stiffness = static_cast<double>(given.support.stiffness);
-        result.carriage = static_cast<double>(given.support.carriage);
+        result.stiffness = as_double(given.support.stiffness);
+        result.carriage = as_double(given.support.carriage);
     }
     const std::vector<Link<double>> links = rounded<double>(given.links);
     const auto [pull, doubt] = pulls(links, shape, given.units);
@@ -309,7 +308,7 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         Link<Wide<double>> link = given.links[i];
         // as a body: what turns with it lessened what it resists turning with
         link.cross = given.given[i].cross - Wide<double>(about) / (link.length * given.given[i].length);
-        const double kept = height * static_cast<double>(given.speed * given.given[i].spin), a = links[i].length;
+        const double kept = height * as_double(given.speed * given.given[i].spin), a = links[i].length;
         result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
     }
     result.upper_offset = in_lengths(shape.offset[rig.size()]);
