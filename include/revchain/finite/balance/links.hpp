@@ -32,6 +32,8 @@ using revchain::Posture;
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
+/// The arithmetic of shapes: two doubles.
+using Fine = Wide<double>;
 /// The arithmetic of proofs that double leaves undecided.
 using Far = DoubleDouble;
 

@@ -57,13 +57,13 @@ inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 /// What the sweep needs of a chain: its support, the posture in which all links hang, its links,
 /// and whether all links may stand (never: nothing would bear the load). `RiggedLinks` has the same
 /// functions.
-inline OnAxis support_of(const Links<Wide<double>>&) { return {}; }
-inline std::vector<Posture> posture_of(const Links<Wide<double>>& chain) {
+inline OnAxis support_of(const Links<Fine>&) { return {}; }
+inline std::vector<Posture> posture_of(const Links<Fine>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);
 }
-inline bool may_all_stand(const Links<Wide<double>>&) { return false; }
+inline bool may_all_stand(const Links<Fine>&) { return false; }
 template <class T>
-EnclosedLinks<T> swept_links(const Links<Wide<double>>& chain) {
+EnclosedLinks<T> swept_links(const Links<Fine>& chain) {
     return enclosed<T>(chain.links);
 }
 

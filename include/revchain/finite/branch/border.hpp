@@ -19,19 +19,19 @@ class BorderedChain {
 
     /// Factors at a shape, from element stiffnesses, masses at lower and upper pins, pull = lambda
     /// sigma tan delta, and the condition's row and derivative by log lambda.
-    template <class Stiffness, class Link, class Pull, class Row>
-    void factor(const Stiffness& stiffness, const std::vector<Link>& links, const Pull& pull, const Row& row,
-                double row_height) {
+    template <class Link>
+    void factor(const std::vector<double>& stiffness, const std::vector<Link>& links, const std::vector<double>& pull,
+                const std::vector<double>& row, double row_height) {
         corner_ = row_height;
         double dynamic = 0, eliminated = 0, share = 0;
         for (std::size_t m = 0; m < size_; ++m) {
-            const double k = stiffness(m), u = dynamic - as_double(links[m].moment);
+            const double k = stiffness[m], u = dynamic - as_double(links[m].moment);
             const double p = guarded(u + k, k), inverse = 1 / p, ratio = u * inverse;
-            const double h = pull(m) - eliminated, whole = share + row(m);
+            const double h = pull[m] - eliminated, whole = share + row[m];
             below_[m] = u, pivot_[m] = p, along_height_[m] = h, weight_[m] = whole;
             if (m + 1 == size_) break;
             corner_ -= whole * inverse * h;
-            share = (share * k - row(m) * u) * inverse;
+            share = (share * k - row[m] * u) * inverse;
             eliminated += ratio * h;
             dynamic = k * ratio - as_double(links[m].rest);
         }
@@ -39,12 +39,11 @@ class BorderedChain {
 
     /// Solves for given forces, summed from the free end, and a given residual of the condition.
     /// Fills `reach` with the changes of the reaches and returns the change of log lambda.
-    template <class Forces>
-    double solve(const Forces& summed, double left, std::vector<double>& reach) {
+    double solve(const std::vector<double>& summed, double left, std::vector<double>& reach) {
         const std::size_t top = size_ - 1;
         double eliminated = 0;
         for (std::size_t m = 0; m < size_; ++m) {
-            const double g = summed(m) - eliminated;
+            const double g = summed[m] - eliminated;
             force_[m] = g;
             if (m == top) break;
             const double share = g / pivot_[m];

@@ -59,9 +59,9 @@ struct BranchLinks {
     }
 };
 
-inline BranchLinks<double> rounded(const BranchLinks<Wide<double>>& from) {
+inline BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
     BranchLinks<double> to(rounded<double>(from.links));
-    for (const Wide<double>& x : from.spin) to.spin.push_back(as_double(x));
+    for (const Fine& x : from.spin) to.spin.push_back(as_double(x));
     to.speed = as_double(from.speed), to.radius = as_double(from.radius);
     to.spring = from.spring, to.plain = from.plain;
     return to;
@@ -69,7 +69,7 @@ inline BranchLinks<double> rounded(const BranchLinks<Wide<double>>& from) {
 
 /// A chain or a rig, with its numbers that do not depend on the speed.
 struct BranchSystem {
-    using S = Wide<double>;
+    using S = Fine;
     Links<S> chain;          ///< of a chain
     std::optional<Rig> rig;  ///< else
     BranchLinks<S> links;

@@ -15,7 +15,7 @@ REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size()) reject("point must be below " + std::to_string(size()) + ", the number of points");
     const finite::BranchPoint& at = trace_.points[point];
     if (trace_.onset && finite::largest_rise(at.state) == 0) reject("this point is the straight chain");
-    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace<Wide<double>>(at));
+    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace(at));
     if (!found) reject("the shape at this point did not balance in double-double");
     return *found;
 }
@@ -31,7 +31,8 @@ namespace finite {
 
 /// Follows the branch from rest, from a tenth of the first critical speed or of the given speed if
 /// that is slower.
-inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points, double max_step) {
+template <class Options>
+Branch from_rest(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
     trace_of(result).system = root.system;
@@ -39,33 +40,31 @@ inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_
     const auto start = root.at_rest(std::log(100 * std::max(conical_height, root.height) * unit));
     if (!start) return result;
     append(result, *start);
-    BranchWalk walk(root.corrector, *start, max_step);
-    walk.longest = max_step;
-    result.end = follow(result, walk, std::log(conical_height * unit), max_points, start->state.log_height + 1);
+    BranchWalk walk(root.corrector, *start, options.max_step, options.max_step);
+    const double log_end = std::log(conical_height * unit), log_top = start->state.log_height + 1;
+    result.end = follow(result, walk, log_end, options.max_points, log_top);
     return result;
 }
 
 /// The branch of a mode.
-inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, std::size_t max_points,
-                            double max_step) {
+template <class Options>
+Branch from_vertical(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
-    result.mode = mode;
+    result.mode = options.mode;
     trace_of(result).system = root.system;
-    const double unit = std::ldexp(1.0, -trace_of(result).system->units.length_exponent);
+    const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
     const double log_end = std::log(conical_height * unit);
     trace_of(result).onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
     const BranchOnset& onset = *trace_of(result).onset;
-    BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
-    vertical.half_waves = onset.half_waves;
-    const double small = 1e-7 / onset.steepest;
-    vertical.tangent = onset.point(root.corrector.links(), small).tangent;
-    vertical.tangent.log_height = 0;
+    BranchPoint vertical = onset.point(root.corrector.links(), 1e-7 / onset.steepest);
+    vertical.state = {std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)};
+    vertical.tangent.log_height = 0, vertical.arc = 0;
     append(result, vertical);
     result.conical_height.front() = root.height;  // no logarithm's rounding
-    if (result.size() >= max_points) return result;
+    if (result.size() >= options.max_points) return result;
     const double steepness = onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
     if (steepness < 1e-3) {
-        const auto only = near_vertical(*trace_of(result).system, onset, Wide<double>(conical_height * unit));
+        const auto only = near_vertical(*trace_of(result).system, onset, Fine(conical_height * unit));
         result.end = only ? BranchEnd::height : BranchEnd::stuck;
         if (only) append(result, *only), result.conical_height.back() = conical_height;
         return result;
@@ -79,9 +78,8 @@ inline Branch from_vertical(BranchRoot root, Index mode, double conical_height, 
         if (!start) break;
         Branch attempt = only_vertical;
         append(attempt, *start);
-        BranchWalk walk(root.corrector, *start, start->arc);
-        walk.longest = max_step;
-        attempt.end = follow(attempt, walk, log_end, max_points, log_top);
+        BranchWalk walk(root.corrector, *start, start->arc, options.max_step);
+        attempt.end = follow(attempt, walk, log_end, options.max_points, log_top);
         const bool followed = attempt.end != BranchEnd::stuck;
         if (followed || attempt.size() > result.size()) result = std::move(attempt);
         if (followed) return result;
@@ -94,13 +92,13 @@ template <class System, class Options>
 Branch followed(const System& system, const Options& options) {
     const double conical_height = lowest_height("branch", options);
     BranchRoot root = BranchRoot::of("branch", system, options);
-    if (!root.onset) return from_rest(std::move(root), conical_height, options.max_points, options.max_step);
+    if (!root.onset) return from_rest(std::move(root), conical_height, options);
     if (!root.onset->rises() && !(conical_height < root.height))
         detail::throw_invalid("branch",
                               "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
                                   detail::in_digits(root.height) + ": the height to follow it to must be less",
                               conical_height);
-    return from_vertical(std::move(root), options.mode, conical_height, options.max_points, options.max_step);
+    return from_vertical(std::move(root), conical_height, options);
 }
 
 }  // namespace finite

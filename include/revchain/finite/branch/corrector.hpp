@@ -33,23 +33,16 @@ inline double largest_rise(const BranchState& x) {
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
     return largest;
 }
+/// The size of a correction: its length along the arc, or 1/4 of its largest tau.
+inline double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4); }
 
 /// Newton's method in double on a chain and its height, within a plane across a direction.
 class Corrector {
    public:
     explicit Corrector(BranchLinks<double> links)
-        : links_(std::move(links)),
-          border_(links_.size()),
-          sine_(links_.size()),
-          growth_(links_.size()),
-          pull_(links_.size()),
-          along_(links_.size()),
-          stiffness_(links_.size()),
-          left_(links_.size()),
-          row_(links_.size()),
-          reach_(links_.size()) {
-        half_waves_are_kept_ = links_.plain && std::none_of(links_.links.begin(), links_.links.end(),
-                                                            [](const Link<double>& link) { return link.cross < 0; });
+        : links_(std::move(links)), border_(links_.size()), half_waves_are_kept_(links_.plain) {
+        for (auto* each : {&growth_, &along_, &stiffness_, &left_, &row_, &reach_}) each->resize(size());
+        for (const auto& link : links_.links) half_waves_are_kept_ &= !(link.cross < 0);
     }
     explicit Corrector(std::vector<Link<double>> chain) : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
@@ -70,15 +63,14 @@ class Corrector {
         Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
         balance_at(at, height);
         for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
-        border_.factor([&](std::size_t m) { return stiffness_[m]; }, links_.links,
-                       [&](std::size_t m) { return along_[m]; }, [&](std::size_t m) { return row_[m]; },
-                       across.log_height);
+        border_.factor(stiffness_, links_.links, along_, row_, across.log_height);
         const auto in_rise = [&](BranchState& direction) {
             for (std::size_t m = 0; m < n; ++m) direction.rise[m] = reach_[m] * growth_[m];
         };
-        change.correction.log_height = border_.solve([&](std::size_t m) { return left_[m]; }, 0, reach_);
+        change.correction.log_height = border_.solve(left_, 0, reach_);
         in_rise(change.correction);
-        change.tangent.log_height = border_.solve([](std::size_t) { return 0.0; }, 1, reach_);
+        left_.assign(n, 0.0);
+        change.tangent.log_height = border_.solve(left_, 1, reach_);
         in_rise(change.tangent);
         normalise(change.tangent);
         return change;
@@ -92,8 +84,7 @@ class Corrector {
         double last = 0;
         for (int round = 0; round < 12; ++round) {
             Change change = step(start, across);
-            const double size =
-                std::max(std::sqrt(inner(change.correction, change.correction)), largest_rise(change.correction) / 4);
+            const double size = size_of(change.correction);
             if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2)) return std::nullopt;
             const bool small = size < 1e-7;
             if (round > 0 && !small && size > contraction * last) return std::nullopt;
@@ -133,14 +124,13 @@ class Corrector {
             const Link<double>& link = links_.links[m];
             const Inclined here = links_.inclined(m, at.rise[m]);
             const double factor = height * links_.pull(m, speed), pull = factor * here.tangent;
-            sine_[m] = link.length * here.sine;
+            const double d = link.length * here.sine, upper = y;
             growth_[m] = 1 / (link.length * here.slope);
-            pull_[m] = pull;
-            along_[m] = links_.spin.empty() ? pull : height * links_.growing_pull(m, speed) * here.tangent;
+            along_[m] = pull;
+            if (!links_.spin.empty()) along_[m] = height * links_.growing_pull(m, speed) * here.tangent;
             stiffness_[m] = factor / link.length * here.steepening + link.cross;
-            left_[m] = -pull - link.cross * sine_[m];
-            const double upper = y;
-            y += sine_[m];
+            left_[m] = -pull - link.cross * d;
+            y += d;
             // moments of the link's own weight; summed below from the free end
             row_[m] = link.moment * y, reach_[m] = link.rest * upper;
         }
@@ -153,8 +143,8 @@ class Corrector {
 
     BranchLinks<double> links_;
     BorderedChain border_;
-    std::vector<double> sine_, growth_, pull_, along_, stiffness_, left_, row_, reach_;
-    bool half_waves_are_kept_ = true;
+    bool half_waves_are_kept_;
+    std::vector<double> growth_, along_, stiffness_, left_, row_, reach_;
 };
 
 }  // namespace revchain::finite

@@ -12,26 +12,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The branch through a state, followed on the side of `across`, which must not be orthogonal to
-/// it, until it closes or comes down to `log_end`.
-inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
-                          int half_waves, double log_end, double log_top, std::size_t max_points, double max_step) {
-    Branch result;
-    trace_of(result).system = std::move(system), result.birth = BranchBirth::fold;
-    Corrector corrector(rounded(trace_of(result).system->links));
-    auto start = corrector.corrected(at, across, 0.1);
-    if (!start) {
-        result.end = BranchEnd::stuck;
-        return result;
-    }
-    if (start->half_waves == 0) start->half_waves = half_waves;
-    append(result, *start);
-    BranchWalk walk(corrector, *start, 0.02);
-    walk.longest = max_step;
-    result.end = follow(result, walk, log_end, max_points, log_top);
-    return result;
-}
-
 /// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
 class ChainQuestions {
    public:
@@ -121,7 +101,7 @@ class RigQuestions {
     std::string not_provable(double lowest) const {
         if (!settled_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
-        if (!single_valued(swept_links<double>(system->rigged_at(Wide<double>(lowest))), Interval<double>(lowest)))
+        if (!single_valued(swept_links<double>(system->rigged_at(Fine(lowest))), Interval<double>(lowest)))
             return "links hang at several inclinations";
         return "";
     }
@@ -129,12 +109,12 @@ class RigQuestions {
    private:
     /// Checks the speeds from rest to that of a height; the pulls are linear in the speed.
     bool hangs_in_tension(double height) const {
-        const Wide<double> fastest = system->links.speed_at(Wide<double>(height));
+        const Fine fastest = system->links.speed_at(Fine(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
             if (rig_.stands(static_cast<Index>(m)) || !enclosed<Far>(system->links.links[m].moment).positive())
                 return false;
-            for (const Wide<double>& n : {Wide<double>(0.0), fastest})
-                if (!(system->links.pull(m, n) > system->bearing * Wide<double>(1e-20))) return false;
+            for (const Fine& n : {Fine(0.0), fastest})
+                if (!(system->links.pull(m, n) > system->bearing * Fine(1e-20))) return false;
         }
         return true;
     }
@@ -164,7 +144,8 @@ class Diagram {
         const double lowest = result_.conical_height;
         const bool from_rest = !ask_.system->links.is_symmetric();
         const auto settled = ask_.settled_above();
-        const std::vector<double> heights = from_rest ? std::vector<double>{} : ask_.modes_above(lowest);
+        std::vector<double> heights;
+        if (!from_rest) heights = ask_.modes_above(lowest);
         const double top = settled.value_or(of_length());
         log_top_ = std::log(100 * std::max(lowest, top) * unit_);
         if (!from_rest && settled && heights.empty()) {
@@ -192,20 +173,30 @@ class Diagram {
             reach += as_double(ask_.system->links.links[m].length);
         return reach / unit_;
     }
-    static double highest(const Branch& branch) {
-        return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
-    }
+    static double highest(const Branch& branch) { return std::ranges::max(branch.conical_height); }
     void follow_from(Index mode) {
         result_.branches.push_back(ask_.followed(mode, result_.conical_height));
         settle(result_.branches.back().end);
     }
     void settle(BranchEnd end) {
-        result_.consistent = result_.consistent && (end == BranchEnd::height || end == BranchEnd::closed ||
-                                                    end == BranchEnd::slow || end == BranchEnd::loose);
+        using enum BranchEnd;
+        result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
-    Branch from_here(const BranchState& at, const BranchState& across, int half_waves) const {
-        return branch_from(ask_.system, at, across, half_waves, log_end_, log_top_, options_.max_points,
-                           options_.max_step);
+    /// The branch through a state, followed on the side of `across`, which must not be orthogonal
+    /// to it.
+    Branch from_here(const BranchState& at, const BranchState& across, int half_waves) {
+        Branch result;
+        trace_of(result).system = ask_.system, result.birth = BranchBirth::fold;
+        auto start = corrector_.corrected(at, across, 0.1);
+        if (!start) {
+            result.end = BranchEnd::stuck;
+            return result;
+        }
+        if (start->half_waves == 0) start->half_waves = half_waves;
+        append(result, *start);
+        BranchWalk walk(corrector_, *start, 0.02, options_.max_step);
+        result.end = follow(result, walk, log_end_, options_.max_points, log_top_);
+        return result;
     }
     BranchState state_of(const SteadyShape& shape, double height) const {
         const auto& links = ask_.system->links;
@@ -214,9 +205,10 @@ class Diagram {
             const double tangent = std::tan(shape.inclination[m]);
             at.rise.push_back(std::asinh(ask_.system->stands(at.rise.size()) ? -tangent : tangent));
         }
-        if (links.spring)
-            at.rise.push_back(links.tau_of_reach(
-                at.rise.size(), shape.offset[shape.offset.size() - 1] * unit_ - as_double(links.radius)));
+        if (links.spring) {
+            const double end = shape.offset[shape.offset.size() - 1] * unit_;
+            at.rise.push_back(links.tau_of_reach(at.rise.size(), end - as_double(links.radius)));
+        }
         at.log_height = std::log(height * unit_);
         return at;
     }
@@ -225,7 +217,7 @@ class Diagram {
     void look(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
-        result_.consistent = result_.consistent && list.complete;
+        result_.consistent &= list.complete;
         std::vector<int> met(list.shapes.size(), 0);
         std::size_t crossings = 0;
         const auto meet = [&](const Branch& branch) {
@@ -249,8 +241,7 @@ class Diagram {
             meet(loop);
             result_.branches.push_back(std::move(loop));
         }
-        result_.consistent = result_.consistent && crossings == list.shapes.size() &&
-                             std::all_of(met.begin(), met.end(), [](int each) { return each == 1; });
+        result_.consistent &= crossings == list.shapes.size() && std::ranges::count(met, 1) == std::ssize(met);
     }
 
     /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
@@ -294,18 +285,16 @@ class Diagram {
             if (tight > lowest) note(lowest, std::min(tight, first));
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
-            const auto proof =
-                prover.run(tight, first, diagram.last(tight) * (1 + 1e-12),
-                           [&](const DiagramPoint& at, const Rectangle& within) { return known(diagram, at, within); });
+            const auto is_known = [&](const auto& at, const auto& within) { return known(diagram, at, within); };
+            const auto proof = prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
             if (!proof.complete) note(proof.open_low, proof.open_high);
             if (diagram.is_symmetric()) break;
         }
         return whole;
     }
     bool known(const EnclosedDiagram& diagram, const DiagramPoint& at, const Rectangle& within) {
-        if (std::any_of(result_.branches.begin(), result_.branches.end(),
-                        [&](const Branch& each) { return goes_through(each, corrector_, at, within, diagram.side()); }))
-            return true;
+        for (const Branch& each : result_.branches)
+            if (goes_through(each, corrector_, at, within, diagram.side())) return true;
         if (stuck_ >= 20) return false;
         const BranchState state = diagram.state_at(at);
         BranchState across;
@@ -320,8 +309,7 @@ class Diagram {
             ++stuck_;
             return false;
         }
-        const double top = highest(found),
-                     bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
+        const double top = highest(found), bottom = std::ranges::min(found.conical_height);
         result_.branches.push_back(std::move(found));
         look(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;

@@ -23,9 +23,9 @@ struct XMeasure {
     double wanted;
     int side = 0;
     Measured operator()(const BranchPoint& p) const {
-        const double height = std::exp(p.state.log_height), rise = p.state.rise[0],
-                     turned = side != 0 ? side : std::copysign(1.0, rise), x = turned * height * std::sinh(rise);
-        return {x - wanted, x * p.tangent.log_height + turned * height * std::cosh(rise) * p.tangent.rise[0]};
+        const double rise = p.state.rise[0], turned = side != 0 ? side : std::copysign(1.0, rise);
+        const double height = turned * std::exp(p.state.log_height), x = height * std::sinh(rise);
+        return {x - wanted, x * p.tangent.log_height + height * std::cosh(rise) * p.tangent.rise[0]};
     }
 };
 
@@ -40,6 +40,16 @@ struct DiagramProof {
 /// offset of the support, with x = lambda tan(inclination of the lowest link) > 0. Pieces that
 /// reach the lowest height are left to a list there. For a rig, y is the function of
 /// EnclosedDiagram, and off the axis each sign of x has its own proof.
+///
+/// Any other piece reaches the vertical (off the axis: rest) or has a highest point, where y = y_x
+/// = 0. Above the highest height there is no shape, or off the axis only the one from rest.
+/// Rectangles of (x, lambda) are split until in each
+///   y or y_x does not change sign, so that no such point is in it; or
+///   y_lambda does not change sign in it and beyond it as far as the slope |y_x/y_lambda| can lead
+///   within its width: all zeros in it lie on one graph lambda(x) over its width. If there are any, one
+///   is at the middle; it is on a known branch, or its branch is followed.
+/// Next to x = 0, y = x f(x, lambda), and f, f_x and f_lambda lie within y_x, y_xx times 0 ... 1,
+/// and y_x lambda over 0 ... x (mean value theorem): the graph continues to the vertical.
 class DiagramProver {
    public:
     DiagramProver(EnclosedDiagram diagram, long budget)
@@ -64,8 +74,8 @@ class DiagramProver {
         };
         const int slabs = std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
         for (int i = 0; i < slabs; ++i) {
-            const double share = 1.0 / slabs, high = highest * std::pow(lowest / highest, i * share),
-                         low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
+            const auto cut = [&](int k) { return highest * std::pow(lowest / highest, k * (1.0 / slabs)); };
+            const double high = cut(i), low = i + 1 == slabs ? lowest : cut(i + 1);
             const Rectangle slab{0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)};
             each_cell<batch>(std::deque{slab}, spent, visit, open);
         }
@@ -113,15 +123,13 @@ class DiagramProver {
             using V = Pack<double, Registers::doubles>;
             std::array<Taylor<double, 2>, batch> result;
             for (std::size_t first = 0; first < count; first += V::size) {
-                const auto lanes = [&](const auto& number) REVCHAIN_INLINED {
+                const auto lanes = [&](double Rectangle::*number) REVCHAIN_INLINED {
                     V x;
-                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, number(parts[std::min(first + i, count - 1)]));
+                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, parts[std::min(first + i, count - 1)].*number);
                     return x;
                 };
-                const Interval<V> x(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.low; }),
-                                    lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.high; })),
-                    height(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_low; }),
-                           lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_high; }));
+                const Interval<V> x(lanes(&Rectangle::low), lanes(&Rectangle::high)),
+                    height(lanes(&Rectangle::height_low), lanes(&Rectangle::height_high));
                 const auto y = diagram_.over(Cell<V, 2>(x, height));
                 for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
                     const auto lane = [&](const Interval<V>& of)
@@ -214,7 +222,7 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
         return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height && height < high;
     };
     const auto& points = trace_of(branch).points;
-    if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return inside(p.state); })) return true;
+    if (std::ranges::any_of(points, inside, &BranchPoint::state)) return true;
     const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
                  links = as_double(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
@@ -224,11 +232,10 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
             std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))
             continue;
         const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});
-        if (std::any_of(crossings.begin(), crossings.end(), [&](const WithinStep& each) {
-                const double height = std::exp(each.point.state.log_height);
-                return within.height_low < height && height < within.height_high;
-            }))
-            return true;
+        for (const WithinStep& each : crossings) {
+            const double height = std::exp(each.point.state.log_height);
+            if (within.height_low < height && height < within.height_high) return true;
+        }
     }
     return false;
 }

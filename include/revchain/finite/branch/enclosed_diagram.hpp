@@ -22,9 +22,9 @@ class EnclosedDiagram {
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
     EnclosedDiagram(const BranchSystem& system, int side) : side_(system.links.is_symmetric() ? 0 : side) {
         const auto& from = system.links;
-        links_ = enclosed<double>(std::vector<Link<Wide<double>>>(
+        links_ = enclosed<double>(std::vector<Link<Fine>>(
             from.links.begin(), from.links.begin() + static_cast<std::ptrdiff_t>(from.bodies())));
-        for (const Wide<double>& spin : from.spin) kept_.spin.push_back(enclosed<double>(spin));
+        for (const Fine& spin : from.spin) kept_.spin.push_back(enclosed<double>(spin));
         kept_.speed = enclosed<double>(from.speed);
         radius_ = enclosed<double>(side < 0 ? -from.radius : from.radius);
         if (!from.spring) return;

@@ -25,12 +25,13 @@ struct BranchOnset {
 
     /// `mode`: offsets of the N + 1 pins, free end first.
     template <class Offsets>
-    BranchOnset(const BranchLinks<double>& links, const Offsets& mode, double height_of_mode) : height(height_of_mode) {
+    BranchOnset(const BranchLinks<double>& links, const Offsets& mode, double at) : height(at) {
         const double speed = links.speed_at(height);
         double second = 0, fourth = 0, last = 0;
         for (std::size_t m = 0; m < links.size(); ++m) {
             const auto i = static_cast<Index>(m);
-            const double d = links.is_spring(m) ? mode[i] : mode[i] - mode[i + 1], s = d / links.links[m].length;
+            const double d = links.is_spring(m) ? mode[i] : mode[i] - mode[i + 1];
+            const double s = d / links.links[m].length;
             reach.push_back(d);
             second += links.growing_pull(m, speed) * d * s;
             if (!links.is_spring(m)) fourth += links.pull(m, speed) * d * s * s * s;
@@ -83,16 +84,15 @@ struct BranchOnset {
 /// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
 /// mode's height, that height is computed in double-double (1e-24 relative) from a balanced state
 /// inclined by 1e-6.
-inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Wide<double>& height) {
-    using S = Wide<double>;
+inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double narrow = as_double(height);
     if (std::abs(onset.height - narrow) > 1e-6 * onset.height)
         return (narrow > onset.height) == onset.rises() ? onset.amplitude_at(narrow) : 0.0;
     const double small = 1e-6 / onset.steepest;
     const BranchPoint at = onset.point(rounded(system.links), small);
-    const auto found = polished(system.links, at.state, GivenPlace<S>(at));
-    S critical(onset.height);
-    if (found.shape.converged) critical = found.height + found.height * S(small * small * onset.curvature);
+    const auto found = polished(system.links, at.state, GivenPlace(at));
+    Fine critical(onset.height);
+    if (found.shape.converged) critical = found.height + found.height * Fine(small * small * onset.curvature);
     const double gap = as_double((critical - height) / height);
     return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
@@ -100,16 +100,15 @@ inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset,
 /// The state at a height so close to the mode's that double hardly resolves it: from the law of the
 /// onset, balanced in double-double. None if that fails.
 inline std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
-                                                const Wide<double>& height) {
-    using S = Wide<double>;
+                                                const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
     BranchState state = onset.state(rounded(system.links), amplitude);
-    const auto found = polished(system.links, state, GivenHeight<S>(height));
+    const auto found = polished(system.links, state, GivenHeight(height));
     if (!found.shape.converged) return std::nullopt;
     double along = 0, whole = 0;
     for (std::size_t m = 0; m < system.links.size(); ++m) {
-        const S d = found.shape.offset[m] - found.shape.offset[m + 1];
+        const Fine d = found.shape.offset[m] - found.shape.offset[m + 1];
         const double rise = system.links.tau_of_reach(m, as_double(d));
         along += rise * state.rise[m], whole += state.rise[m] * state.rise[m];
         state.rise[m] = rise;

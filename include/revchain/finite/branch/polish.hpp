@@ -8,121 +8,111 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A condition on shape and height, in double-double, solved together with the balance of forces.
-template <class S>
 struct Condition {
     virtual ~Condition() = default;
     /// Given minus actual value at offsets of the pins, and its derivative by log lambda. Fills
     /// `row` with the derivatives by the reaches a sin delta.
-    virtual std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& offset, const S& height,
-                                      std::vector<double>& row) const = 0;
+    virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& offset,
+                                         const Fine& height, std::vector<double>& row) const = 0;
     /// The change of the condition for a relative change 1 of the given number; 0 without one.
-    virtual double size(const S& height) const = 0;
+    virtual double size(const Fine& height) const = 0;
     virtual bool gives_height() const { return false; }
 };
 
 /// The conical height.
-template <class S>
-struct GivenHeight : Condition<S> {
-    S wanted;
-    explicit GivenHeight(S height) : wanted(std::move(height)) {}
-    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>&, const S& height,
-                              std::vector<double>& row) const override {
+struct GivenHeight : Condition {
+    Fine wanted;
+    explicit GivenHeight(Fine height) : wanted(std::move(height)) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>&, const Fine& height,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         return {(wanted - height) / wanted, as_double(height / wanted)};
     }
-    double size(const S&) const override { return 1; }
+    double size(const Fine&) const override { return 1; }
     bool gives_height() const override { return true; }
 };
 
 /// sin(inclination of the lowest link - wanted) = 0, as accurate near the horizontal as elsewhere.
 /// The sign is that of the link.
-template <class S>
-struct GivenTipInclination : Condition<S> {
-    S sine, cosine;
+struct GivenTipInclination : Condition {
+    Fine sine, cosine;
     double angle;
     explicit GivenTipInclination(double wanted)
-        : sine(words(std::sin(static_cast<long double>(wanted)))),
-          cosine(words(std::cos(static_cast<long double>(wanted)))),
+        : sine(DoubleDouble(std::sin(static_cast<long double>(wanted))).word()),
+          cosine(DoubleDouble(std::cos(static_cast<long double>(wanted))).word()),
           angle(wanted) {}
-    static S words(long double x) {
-        const double high = as_double(x);
-        return S(high) + S(as_double(x - static_cast<long double>(high)));
-    }
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S&,
-                              std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine&,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
-        const S signed_sine = d < S(0) ? -sine : sine;
+        const Fine &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
+        const Fine signed_sine = d < Fine(0) ? -sine : sine;
         row[0] = as_double((cosine + s * signed_sine / c) / a);
         return {signed_sine * c - s * cosine, 0.0};
     }
-    double size(const S&) const override { return angle; }
+    double size(const Fine&) const override { return angle; }
 };
 
 /// The free end's distance from the axis, on its current side.
-template <class S>
-struct GivenTipRadius : Condition<S> {
-    S wanted;
-    explicit GivenTipRadius(S radius) : wanted(std::move(radius)) {}
-    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>& y, const S&,
-                              std::vector<double>& row) const override {
+struct GivenTipRadius : Condition {
+    Fine wanted;
+    explicit GivenTipRadius(Fine radius) : wanted(std::move(radius)) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>& y, const Fine&,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 1.0);
-        return {(y[0] < S(0) ? -wanted : wanted) - y[0], 0.0};
+        return {(y[0] < Fine(0) ? -wanted : wanted) - y[0], 0.0};
     }
-    double size(const S&) const override { return as_double(wanted); }
+    double size(const Fine&) const override { return as_double(wanted); }
 };
 
 /// The size of the reaction at the topmost pin: |sum of weights times centroids' offsets| = lambda
 /// sqrt(T^2 - W^2).
-template <class S>
-struct GivenTopTension : Condition<S> {
-    S across;      ///< the sideways part of T, positive
+struct GivenTopTension : Condition {
+    Fine across;   ///< the sideways part of T, positive
     double share;  ///< its relative change for one of T
-    GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
-                              std::vector<double>& row) const override {
-        S sum(0);
+    GivenTopTension(Fine sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
+                                 std::vector<double>& row) const override {
+        Fine sum(0);
         double weights = 0;
         for (std::size_t m = 0; m < links.bodies(); ++m) {
-            const Link<S>& link = links.links[m];
+            const Link<Fine>& link = links.links[m];
             sum = sum + link.moment * y[m] + link.rest * y[m + 1];
             row[m] = weights + as_double(link.moment);
             weights = row[m] + as_double(link.rest);
         }
         if (links.spring) row.back() = weights;
-        const S pull = sum < S(0) ? -(height * across) : height * across;
+        const Fine pull = sum < Fine(0) ? -(height * across) : height * across;
         return {pull - sum, -as_double(pull)};
     }
-    double size(const S& height) const override { return share * std::abs(as_double(height * across)); }
+    double size(const Fine& height) const override { return share * std::abs(as_double(height * across)); }
 };
 
 /// The plane across the branch at one of its points: fixes the point along the arc, even at folds.
-template <class S>
-struct GivenPlace : Condition<S> {
+struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
-                              std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
+                                 std::vector<double>& row) const override {
         double sum = 0;
         const double share = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
-            const S &a = links.links[m].length, d = y[m] - y[m + 1], c = links.is_spring(m) ? S(1) : cosine_of(a, d);
+            const Fine &a = links.links[m].length, d = y[m] - y[m + 1],
+                       c = links.is_spring(m) ? Fine(1) : cosine_of(a, d);
             const double tangent = as_double(d / (a * c)), length = as_double(a),
                          slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c);
             row[m] = share * point->tangent.rise[m] / (length * slope);
             sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
         }
         const double log_off = point->state.log_height - std::log(as_double(height));
-        return {S(sum + point->tangent.log_height * log_off), point->tangent.log_height};
+        return {Fine(sum + point->tangent.log_height * log_off), point->tangent.log_height};
     }
-    double size(const S&) const override { return 0; }
+    double size(const Fine&) const override { return 0; }
 };
 
 /// A shape and its height.
-template <class S>
 struct Polished {
-    Balanced<S> shape;
-    S height;
+    Balanced<Fine> shape;
+    Fine height;
     double residual = 0;  ///< largest residual force at a pin over the sum of sizes of its terms
     /// Largest change of an inclination (rad) for relative changes 1 of all forces, in a few
     /// patterns of signs, or of the given number. The exact maximum, with a free height, would cost
@@ -133,9 +123,8 @@ struct Polished {
 /// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
 /// condition's change for a relative change 1 of the given number, `growth` 1/(a cos^2) of the
 /// links.
-template <class S>
-double condition_of(const BranchLinks<S>& links, BorderedChain& border, const std::vector<double>& size,
-                    const std::vector<double>& growth, double given) {
+inline double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
+                           const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
     double worst = 0;
@@ -147,53 +136,54 @@ double condition_of(const BranchLinks<S>& links, BorderedChain& border, const st
             total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
             left[m] = pattern < 4 ? total : 0.0;
         }
-        border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : given, reach);
-        for (std::size_t m = 0; m < links.bodies(); ++m)
-            worst = std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / as_double(links.links[m].length)));
+        border.solve(left, pattern < 4 ? 0.0 : given, reach);
+        for (std::size_t m = 0; m < links.bodies(); ++m) {
+            const double turn = reach[m] * std::sqrt(growth[m] / as_double(links.links[m].length));
+            worst = std::max(worst, std::abs(turn));
+        }
     }
     return worst;
 }
 
 /// Offsets of the pins of a state; the firm end of the support is last.
-template <class S>
-std::vector<S> offsets_of(const BranchLinks<S>& links, const BranchState& state) {
-    std::vector<S> y(links.size() + 1);
+inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
+    std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
     for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
         const double tau = state.rise[m];
-        const S &a = links.links[m].length, d = a * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
+        const Fine &a = links.links[m].length,
+                   d = a * (Fine(1) - Fine(2) / (Fine(1) + Fine(std::exp(2 * std::abs(tau)))));
         const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
-        y[m] = y[m + 1] + (small ? a * S(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
+        y[m] = y[m + 1] + (small ? a * Fine(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
     }
     return y;
 }
 
 /// Newton's method on all pins and the height at once: as `balance`, with the height free and one
 /// condition given. Cost O(N) a step.
-template <class S>
-Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, const Condition<S>& condition) {
+inline Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
-    Polished<S> result{{offsets_of(links, start), {}}, S(std::exp(start.log_height))};
-    std::vector<S>& y = result.shape.offset;
-    S& height = result.height;
+    Polished result{{offsets_of(links, start), {}}, Fine(std::exp(start.log_height))};
+    std::vector<Fine>& y = result.shape.offset;
+    Fine& height = result.height;
     BorderedChain border(n);
     std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n), growth(n);
     double last = 1;
     for (int round = 0; round < 40; ++round) {
-        S sum(0), before(0);
-        const S speed = links.speed_at(height);
+        Fine sum(0), before(0);
+        const Fine speed = links.speed_at(height);
         double below_size = 0;
         result.residual = 0;
         for (std::size_t m = 0; m < n; ++m) {
-            const Link<S>& link = links.links[m];
-            const S d = y[m] - y[m + 1];
+            const Link<Fine>& link = links.links[m];
+            const Fine d = y[m] - y[m + 1];
             if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
-            const S cosine = links.is_spring(m) ? S(1) : cosine_of(link.length, d),
-                    factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
-                    pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
-                    at_upper = link.rest * y[m + 1];
-            const S whole = sum + at_lower - pulled - turn;
+            const Fine cosine = links.is_spring(m) ? Fine(1) : cosine_of(link.length, d),
+                       factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
+                       pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
+                       at_upper = link.rest * y[m + 1];
+            const Fine whole = sum + at_lower - pulled - turn;
             const double c = as_double(cosine), a = as_double(link.length);
             left[m] = as_double(whole), pull[m] = along[m] = as_double(pulled);
             if (!links.spin.empty()) along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
@@ -208,10 +198,9 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
             sum = sum + at_lower + at_upper;
         }
         const auto [open, row_height] = condition.left(links, y, height, row);
-        border.factor([&](std::size_t m) { return stiffness[m]; }, links.links, [&](std::size_t m) { return along[m]; },
-                      [&](std::size_t m) { return row[m]; }, row_height);
+        border.factor(stiffness, links.links, along, row, row_height);
         if (result.shape.converged) break;  // the factors are now those of the result
-        const double log_change = border.solve([&](std::size_t m) { return left[m]; }, as_double(open), reach);
+        const double log_change = border.solve(left, as_double(open), reach);
         // Changes are relative to a link's own inclination and to the steepest one. The start was
         // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
         // That decreases by 1e-16 a step and does no harm.
@@ -225,10 +214,10 @@ Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, cons
             largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
             steepest = std::max(steepest, there), farthest = std::max(farthest, change);
             x += reach[m];
-            y[m] = y[m] + S(x);
+            y[m] = y[m] + Fine(x);
         }
         if (!(std::abs(log_change) < 1) || !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0))) return result;
-        height = height + height * S(log_change);
+        height = height + height * Fine(log_change);
         // the size of the next step if convergence continues at this rate
         const double next = largest * std::min(1.0, largest / std::min(1.0, last));
         result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);

@@ -9,8 +9,8 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A shape found by Newton's method at a height, with what `verified` proves at heights in
 /// `within`.
-inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>& height, const Interval<Far>& within,
-                                  Balanced<Wide<double>> found, bool height_is_given) {
+inline SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Interval<Far>& within,
+                                  Balanced<Fine> found, bool height_is_given) {
     if (!system.rig)
         return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
                               height_is_given);
@@ -24,7 +24,7 @@ inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>
 /// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
 /// the condition number; where nothing is proved, as at a fold, it is that alone.
 inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
-                                           const Condition<Wide<double>>& condition) {
+                                           const Condition& condition) {
     auto found = polished(system.links, near, condition);
     if (!found.shape.converged) return std::nullopt;
     const bool given = condition.gives_height();

@@ -15,8 +15,8 @@ template <class Found, class Measure>
 class BranchSearch {
    public:
     using End = decltype(Found::end);
-    using S = Wide<double>;
-    BranchSearch(BranchRoot& root, const Measure& measure, const Condition<S>& condition, double amplitude)
+    using S = Fine;
+    BranchSearch(BranchRoot& root, const Measure& measure, const Condition& condition, double amplitude)
         : root_(root), measure_(measure), condition_(condition), amplitude_(amplitude) {}
 
     /// Searches down to a log of conical height, for at most `max_shapes` states.
@@ -119,7 +119,7 @@ class BranchSearch {
 
     BranchRoot& root_;
     const Measure& measure_;
-    const Condition<S>& condition_;
+    const Condition& condition_;
     double amplitude_;
 };
 
@@ -141,15 +141,15 @@ inline double reach_of(const Rig& rig) {
 
 /// The conical height, given directly or as a speed.
 template <class Options>
-Wide<double> height_given(std::string_view place, const Options& given) {
+Fine height_given(std::string_view place, const Options& given) {
     using detail::require_positive;
     if (given.conical_height) {
         require_positive(place, "conical height", *given.conical_height);
-        return Wide<double>(*given.conical_height);
+        return Fine(*given.conical_height);
     }
     require_positive(place, "angular speed", *given.angular_speed);
     require_positive(place, "gravity", given.gravity);
-    const Wide<double> height = height_at_speed(*given.angular_speed, given.gravity);
+    const Fine height = height_at_speed(*given.angular_speed, given.gravity);
     require_positive(place, "gravity / angular speed^2", as_double(height));
     return height;
 }
@@ -159,7 +159,6 @@ template <class Search, class System, class Options>
 auto search_by_number(std::string_view place, const System& system, const BranchRoot& root, const Options& given,
                       const Search& search) {
     using detail::require_positive, detail::throw_invalid;
-    using S = Wide<double>;
     const ChainUnits& units = root.system->units;
     const double unit = std::ldexp(1.0, -units.length_exponent);
     const auto* links = &root.corrector.links();
@@ -173,7 +172,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                           *given.tip_inclination);
         const double rise = std::asinh(std::tan(angle));
         const TipInclinationMeasure measure{rise, links->is_symmetric()};
-        return search(measure, GivenTipInclination<S>(angle), amplitude_of(root, measure, rise));
+        return search(measure, GivenTipInclination(angle), amplitude_of(root, measure, rise));
     }
     if (given.tip_radius) {
         require_positive(place, "tip radius", *given.tip_radius);
@@ -183,23 +182,23 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                                            : "tip radius must be less than the length of the chain",
                           *given.tip_radius);
         const TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return search(measure, GivenTipRadius<S>(S(*given.tip_radius * unit)),
+        return search(measure, GivenTipRadius(Fine(*given.tip_radius * unit)),
                       amplitude_of(root, measure, measure.wanted));
     }
     using std::sqrt;
     const double tension = *given.top_tension;
-    const S size = ldexp(S(tension), -units.weight_exponent), bearing = root.system->bearing;
+    const Fine size = ldexp(Fine(tension), -units.weight_exponent), bearing = root.system->bearing;
     if (!(size > bearing && size > -bearing) || !std::isfinite(tension))
         throw_invalid(place,
                       root.system->rig
                           ? "top tension must be finite and more than the weight that the topmost pin bears"
                           : "top tension must be finite and more than the weight of the chain",
                       tension);
-    const S pull = sqrt((size - bearing) * (size + bearing));
+    const Fine pull = sqrt((size - bearing) * (size + bearing));
     const double narrow = as_double(pull);
     const TopPullMeasure measure{links, narrow};
     const double share = std::pow(as_double(size) / narrow, 2);
-    return search(measure, GivenTopTension<S>(pull, share), amplitude_of(root, measure, narrow));
+    return search(measure, GivenTopTension(pull, share), amplitude_of(root, measure, narrow));
 }
 
 /// The states on a branch with the given number.
@@ -207,7 +206,6 @@ template <class Found, class System, class Options>
 Found search_branch(const System& system, const Options& given, std::size_t max_shapes) {
     using detail::in_digits, detail::require_positive, detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
-    using S = Wide<double>;
     const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                       given.tip_inclination.has_value() + given.tip_radius.has_value() + given.top_tension.has_value();
     if (count != 1)
@@ -233,12 +231,12 @@ Found search_branch(const System& system, const Options& given, std::size_t max_
                                     const double lowest = given.min_conical_height.value_or(1e-6 * root.height);
                                     return run(measure, condition, amplitude, std::log(lowest * unit), -1e300);
                                 });
-    const S height = height_given(place, given);
+    const Fine height = height_given(place, given);
     const double near = as_double(height);
     if (falls && !(near < root.height)) detail::throw_too_slow(place, given.mode, root.height, near, given);
     const double wanted = std::log(near * unit);
-    return run(HeightMeasure{wanted}, GivenHeight<S>(height * S(unit)),
-               root.onset ? amplitude_at(*root.system, *root.onset, height * S(unit)) : 0.0,
+    return run(HeightMeasure{wanted}, GivenHeight(height * Fine(unit)),
+               root.onset ? amplitude_at(*root.system, *root.onset, height * Fine(unit)) : 0.0,
                std::min(wanted, std::log(given.min_conical_height.value_or(near / 2) * unit)), wanted);
 }
 

@@ -16,7 +16,7 @@ void append(Branch& branch, const BranchPoint& point) {
     const auto length = [&](double x) { return std::ldexp(x, system.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, system.units.weight_exponent); };
     const double height = std::exp(point.state.log_height);
-    const Wide<double> speed = links.speed_at(Wide<double>(height));
+    const Fine speed = links.speed_at(Fine(height));
     double y = as_double(links.radius), sideways = 0, inertia = system.axial, energy = 0;
     for (std::size_t m = links.size(); m-- > 0;) {
         const auto& link = links.links[m];
@@ -119,9 +119,9 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, d
     if (branch.size() == 0) return found;
     const auto& trace = trace_of(branch);
     const BranchSystem& system = *trace.system;
-    const Wide<double> height = ldexp(Wide<double>(conical_height), -system.units.length_exponent);
+    const Fine height = ldexp(Fine(conical_height), -system.units.length_exponent);
     const HeightMeasure measure{std::log(as_double(height))};
-    const GivenHeight<Wide<double>> condition(height);
+    const GivenHeight condition(height);
     const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
     const auto take = [&](const BranchState& near) {
         if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));

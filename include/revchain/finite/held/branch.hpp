@@ -100,22 +100,21 @@ struct HeldStart {
 /// The branch of a mode at a span, for heights from `least` on; nothing where there is none.
 inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
                                              double least, int mode, double max_step) {
-    using S = Wide<double>;
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
-    held.springs_at(S(height));
-    const auto first = held.at_height(start.half_waves, S(apart), height, start.outwards);
+    held.springs_at(Fine(height));
+    const auto first = held.at_height(start.half_waves, Fine(apart), height, start.outwards);
     held.springs_at({});
     if (!first) return {};
     HeldBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
         if (!is_fold)
-            if (auto shape = held.finished(state, S(apart), S(state.forces.height), false)) return *shape;
-        const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
-        std::vector<Direction<S>> ways_there;
-        for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
-        return described(held.links(), held.ends(forces.height), forces, S(apart), ways_there);
+            if (auto shape = held.finished(state, Fine(apart), Fine(state.forces.height), false)) return *shape;
+        const HeldForces<Fine> forces{Fine(state.forces.across), Fine(state.forces.along), Fine(state.forces.height)};
+        std::vector<Direction<Fine>> ways_there;
+        for (const Direction<double>& d : held.kept()) ways_there.push_back({Fine(d.sine), Fine(d.cosine)});
+        return described(held.links(), held.ends(forces.height), forces, Fine(apart), ways_there);
     });
     branch.mode = mode;
     branch.half_waves = branch.shapes.empty() ? start.half_waves : branch.shapes.front().half_waves;
@@ -125,17 +124,16 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const H
 /// The fastest shape on the branch of a mode at a span, between firm ends, whose tension at the upper end is `tension`.
 inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
                                                       double span, double tension, int mode) {
-    using S = Wide<double>;
     HeldChain held(chain, supports);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;
     const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
-    const auto first = held.at_height(start.half_waves, S(apart), 0, start.outwards);
+    const auto first = held.at_height(start.half_waves, Fine(apart), 0, start.outwards);
     if (!first) return {};
     const auto found = held.curve().first_where(
         *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });
     if (!found) return {};
-    return held.finished(*found, S(apart), S(found->forces.height), true);
+    return held.finished(*found, Fine(apart), Fine(found->forces.height), true);
 }
 
 }  // namespace finite

@@ -24,7 +24,7 @@ namespace finite {
 /// Shapes of one chain held at both ends, one after the other.
 class HeldChain {
    public:
-    using S = Wide<double>;
+    using S = Fine;
 
     explicit HeldChain(const Chain<double>& chain, const HeldSupports& supports = {})
         : chain_(chain), wide_(links_of(chain)), links_(rounded<double>(wide_.links)), supports_(supports) {
@@ -219,9 +219,8 @@ inline void keep_different(HeldShapes& list, int max_half_waves) {
 }
 
 /// Adds to the shapes found by their branches all others in the plane of the ends, and says where there may be more.
-inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& height, const HeldGoal& goal,
+inline void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
                      const HeldListOptions& options) {
-    using S = Wide<double>;
     const EnclosedLinks<double> links = enclosed<double>(held.links().links);
     const HeldCells cells(links, enclosed<double>(held.ends(height)), enclosed<double>(height), goal,
                           options.max_half_waves);
@@ -232,10 +231,10 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
         std::optional<HeldShape> shape;
         if (goal.is_span) {
             const double span = goal.value.middle();
-            shape = held.finished({forces, span}, S(span), height, options.prove);
+            shape = held.finished({forces, span}, Fine(span), height, options.prove);
         } else if (const auto state = held.under(forces, goal.value.middle())) {
             if (state->span < 0) continue;  // the upper end is the lower one
-            shape = held.finished(*state, S(state->span), height, options.prove);
+            shape = held.finished(*state, Fine(state->span), height, options.prove);
         }
         if (!shape)
             found.undecided.push_back(root.cell);
@@ -251,17 +250,17 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
 }
 
 /// Shapes of up to `max_half_waves` half waves at a span and a height; height 0: without gravity.
-inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span,
-                              const Wide<double>& height, const HeldListOptions& options) {
+inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span, const Fine& height,
+                              const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent);
-    const Wide<double> lambda = ldexp(height, -exponent);
+    const Fine lambda = ldexp(height, -exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         for (const bool outwards : {true, false}) {
             if (!outwards && held.mirrored()) break;
-            if (const auto state = held.at_height(k, Wide<double>(apart), as_double(lambda), outwards))
-                add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
+            if (const auto state = held.at_height(k, Fine(apart), as_double(lambda), outwards))
+                add(held.finished(*state, Fine(apart), lambda, options.prove));
         }
     });
     if (!supports.plain()) keep_different(list, options.max_half_waves);
@@ -272,16 +271,15 @@ inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& su
 /// Shapes of up to `max_half_waves` half waves whose tension at the upper end, times the height, is
 /// `height_times_tension`.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
-                                            const Wide<double>& height_times_tension,
-                                            const Wide<double>& conical_height, const HeldListOptions& options) {
-    using S = Wide<double>;
+                                            const Fine& height_times_tension, const Fine& conical_height,
+                                            const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const ChainUnits units = held.links().units;
-    const S wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
-            lambda = ldexp(conical_height, -units.length_exponent);
+    const Fine wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
+               lambda = ldexp(conical_height, -units.length_exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         each_under(held, k, lambda.high, wanted.high,
-                   [&](const HeldState& found) { add(held.finished(found, S(found.span), lambda, options.prove)); });
+                   [&](const HeldState& found) { add(held.finished(found, Fine(found.span), lambda, options.prove)); });
     });
     if (options.prove) complete(list, held, lambda, {enclosed<double>(wanted), false}, options);
     return list;

@@ -58,12 +58,10 @@ struct Sides {
 };
 
 /// Everything about a shape from the forces at its lower end and the directions found there.
-inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide<double>>& ends,
-                           const HeldForces<Wide<double>>& forces, const Wide<double>& span,
-                           std::vector<Direction<Wide<double>>>& direction) {
-    using S = Wide<double>;
+inline HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends, const HeldForces<Fine>& forces,
+                           const Fine& span, std::vector<Direction<Fine>>& direction) {
     const auto size = static_cast<Index>(chain.links.size());
-    const auto narrow = [](const S& x) { return as_double(x); };
+    const auto narrow = [](const Fine& x) { return as_double(x); };
     const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
     const auto moment = [&](double x) {
         return std::ldexp(x, chain.units.length_exponent + chain.units.weight_exponent);
@@ -72,57 +70,58 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
     for (Vector<double>* v : {&shape.offset, &shape.height, &shape.height_times_tension, &shape.force_inclination})
         v->setZero(size + 1);
     shape.inclination.resize(size);
-    S rise(0), hung(0), inertia(0), energy(0), spring(0);
+    Fine rise(0), hung(0), inertia(0), energy(0), spring(0);
     double reach = 0;
     const auto through = [&](Index pin, double across, double along) {
         shape.height_times_tension[pin] = moment(std::hypot(across, along));
         shape.force_inclination[pin] = std::atan2(across, along);
     };
-    Sides<S> sides{ends, span};
-    const Held<S>&lower = ends.lower, &upper = ends.upper;
-    const S foot = lower.firm ? lower.radius : lower.radius - lower.compliance * forces.across;
-    const S push = lower.firm ? forces.across : forces.across + lower.carriage * foot;
+    Sides<Fine> sides{ends, span};
+    const Held<Fine>&lower = ends.lower, &upper = ends.upper;
+    const Fine foot = lower.firm ? lower.radius : lower.radius - lower.compliance * forces.across;
+    const Fine push = lower.firm ? forces.across : forces.across + lower.carriage * foot;
     through(0, narrow(push), narrow(forces.along));
     shape.offset[0] = length(narrow(foot));
-    if (!lower.firm) sides(foot, S(0));
-    S head(0);
+    if (!lower.firm) sides(foot, Fine(0));
+    Fine head(0);
     std::vector<HeldChange<double>> turned;
-    const HeldEnd<S> end = held_sweep(
-        chain.links, ends, forces, direction,
-        [&](std::size_t m, const S& y, const S& R, const S& H, const S& growth, const HeldChange<S>& change) {
-            const Link<S>& link = chain.links[m];
-            const auto i = static_cast<Index>(m);
-            const auto& [s, c] = direction[m];
-            head = y - link.length * s;
-            const S top = rise + link.length * c;
-            const S V = forces.height * link.pull + forces.along;
-            const S left = V * s + link.length * link.cross * s * c - R * c;
-            shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
-            shape.inclination[i] =
-                as_double(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
-                                     static_cast<long double>(c.high) + static_cast<long double>(c.low)));
-            inertia = inertia + link.moment * y * y + link.rest * head * head -
-                      link.cross * link.length * link.length * s * s;
-            energy = energy + link.moment * rise + link.rest * top;
-            hung = hung + link.moment + link.rest;
-            through(i + 1, narrow(H), narrow(forces.height * hung + forces.along));
-            if (i + 1 < size || !upper.firm) sides(head, top);
-            shape.offset[i + 1] = length(narrow(i + 1 == size && upper.firm ? upper.radius : head));
-            shape.height[i + 1] = length(narrow(top));
-            rise = top, reach += narrow(link.length);
-            turned.push_back({narrow(change[0]), narrow(change[1]), narrow(change[2])});
-        });
+    const HeldEnd<Fine> end =
+        held_sweep(chain.links, ends, forces, direction,
+                   [&](std::size_t m, const Fine& y, const Fine& R, const Fine& H, const Fine& growth,
+                       const HeldChange<Fine>& change) {
+                       const Link<Fine>& link = chain.links[m];
+                       const auto i = static_cast<Index>(m);
+                       const auto& [s, c] = direction[m];
+                       head = y - link.length * s;
+                       const Fine top = rise + link.length * c;
+                       const Fine V = forces.height * link.pull + forces.along;
+                       const Fine left = V * s + link.length * link.cross * s * c - R * c;
+                       shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
+                       shape.inclination[i] =
+                           as_double(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
+                                                static_cast<long double>(c.high) + static_cast<long double>(c.low)));
+                       inertia = inertia + link.moment * y * y + link.rest * head * head -
+                                 link.cross * link.length * link.length * s * s;
+                       energy = energy + link.moment * rise + link.rest * top;
+                       hung = hung + link.moment + link.rest;
+                       through(i + 1, narrow(H), narrow(forces.height * hung + forces.along));
+                       if (i + 1 < size || !upper.firm) sides(head, top);
+                       shape.offset[i + 1] = length(narrow(i + 1 == size && upper.firm ? upper.radius : head));
+                       shape.height[i + 1] = length(narrow(top));
+                       rise = top, reach += narrow(link.length);
+                       turned.push_back({narrow(change[0]), narrow(change[1]), narrow(change[2])});
+                   });
     shape.span = shape.height[size] = length(narrow(span));
     shape.conical_height = length(narrow(forces.height));
     const double gap = std::max(std::abs(narrow(end.offset)), std::abs(narrow(end.rise - span)));
     shape.residual = std::max(shape.residual, gap / reach);
     shape.half_waves = sides.half_waves;
     for (const bool above : {false, true}) {
-        const Held<S>& held = above ? upper : lower;
+        const Held<Fine>& held = above ? upper : lower;
         Support& support = shape.ends[above];
         support.radius = length(narrow(held.radius));
         if (held.firm) continue;
-        const S y = above ? head : foot, drawn = y - held.radius;
+        const Fine y = above ? head : foot, drawn = y - held.radius;
         inertia = inertia + held.carriage * y * y, spring = spring + held.stiffness * drawn * drawn;
         support.stiffness = std::ldexp(narrow(held.stiffness), chain.units.weight_exponent);
         support.carriage_weight = std::ldexp(narrow(held.carriage), chain.units.weight_exponent);
@@ -130,17 +129,17 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
     shape.lower_pull = {moment(-narrow(push)), moment(narrow(forces.along))};
     shape.upper_pull = {moment(narrow(end.across)), moment(-narrow(forces.along + forces.height * hung))};
     shape.moment_of_inertia = length(moment(narrow(inertia)));
-    shape.height_times_energy = length(moment(narrow(forces.height * energy + (spring - inertia) / S(2))));
+    shape.height_times_energy = length(moment(narrow(forces.height * energy + (spring - inertia) / Fine(2))));
 
     // What a change of the span, or of the height, asks of the two forces, and both of the links.
-    const auto condition = [&](const S& y, const S& z, double direct) {
+    const auto condition = [&](const Fine& y, const Fine& z, double direct) {
         const auto [across, along] = end.forces_to_move(y, z);
         const double a = narrow(across), b = narrow(along);
         for (const HeldChange<double>& t : turned)
             shape.condition = std::max(shape.condition, std::abs(t[0] * a + t[1] * b + t[2] * direct));
     };
-    const S& lambda = forces.height;
-    condition(S(0), span, 0);
+    const Fine& lambda = forces.height;
+    condition(Fine(0), span, 0);
     condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, narrow(lambda));
     // An estimate until something is proved: rounding in double of the data.
     shape.error_bound = epsilon<double>() * (2 + shape.condition);

@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// What holds the two ends, and the height at which springs are taken: that of the shape if none is given.
 struct HeldSupports {
     Support lower{}, upper{};
-    std::optional<Wide<double>> height{};
+    std::optional<Fine> height{};
 
     bool plain() const { return lower == Support{} && upper == Support{}; }
 };

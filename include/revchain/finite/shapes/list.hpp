@@ -37,7 +37,7 @@ bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
                        [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
 
-inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
+inline bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
     return single_valued(enclosed<double>(links.links), height);
 }
 
@@ -77,7 +77,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
 
 /// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
 template <class AnyLinks>
-Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, double last, long links_to_look_at) {
+Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
@@ -109,23 +109,21 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
 
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
 template <class AnyLinks>
-std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide<double>& height,
-                                               const Bracket<Far>& bracket) {
-    using S = Wide<double>;
-    const std::vector<Link<S>>& links = chain.links;
+std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket) {
+    const std::vector<Link<Fine>>& links = chain.links;
     const auto support = support_of(chain);
-    S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return support_offset(links, height, t, support) < S(0); };
+    Fine low = bracket.low.word(), high = bracket.high.word();
+    const auto falls_short = [&](const Fine& t) { return support_offset(links, height, t, support) < Fine(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
-        const S middle = low + (high - low) * S(0.5);
+        const Fine middle = low + (high - low) * Fine(0.5);
         (falls_short(middle) == rises ? low : high) = middle;
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
         auto found = balance(links, height, swept(links, height, halve()), {}, support);
         if (found.converged) {
-            const S tangent = tangent_in(found, links, 0);
+            const Fine tangent = tangent_in(found, links, 0);
             if (bracket.low.word() < tangent && tangent < bracket.high.word()) return found;
         }
         for (int i = 0; i < 6; ++i) halve();
@@ -137,9 +135,8 @@ std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide
 /// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
 /// may do.
 template <class End>
-double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& height, const Bracket<Far>& bracket,
-                         const Balanced<Wide<double>>& found, const std::vector<Link<Wide<double>>>& middle,
-                         const End& support) {
+double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, const Bracket<Far>& bracket,
+                         const Balanced<Fine>& found, const std::vector<Link<Fine>>& middle, const End& support) {
     const Interval<Far> lambda = enclosed<Far>(height);
     const Far tangent(tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
@@ -181,8 +178,8 @@ Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lamb
 /// A shape whose links are too near the horizontal for `finished`: found from the tangents of all links in a `part` of
 /// the bracket. Nothing if it cannot be proved.
 template <class AnyLinks>
-std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
-                                            const Bracket<Far>& bracket, const Bracket<Far>& part) {
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket,
+                                            const Bracket<Far>& part) {
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
@@ -197,7 +194,7 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<do
 }
 
 template <class AnyLinks, class Result>
-void add(const AnyLinks& links, const Wide<double>& height, const Settled& settled, Result& result) {
+void add(const AnyLinks& links, const Fine& height, const Settled& settled, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
     result.shapes.push_back(described<Shape>(links, height, settled.shape));
     result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
@@ -211,7 +208,7 @@ void leave_open(const Bracket<Far>& part, Result& result) {
 
 /// Whether a link lies so near the horizontal that a support on a spring may be found at a wrong offset: from offsets
 /// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
-inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found) {
+inline bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
         if (std::abs(as_double(tangent_in(found, links, m))) > 1e8) return true;
     return false;
@@ -219,7 +216,7 @@ inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const
 
 /// Adds the one shape in the bracket to `result`, which has none yet; or leaves the bracket open.
 template <class AnyLinks, class Result>
-void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Wide<double>& height,
+void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
     const auto support = enclosed<Far>(support_of(links));
@@ -249,7 +246,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
 
 /// Adds all shapes where each link hangs at one inclination for what hangs below it.
 template <class AnyLinks, class Result>
-void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
+void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget, Result& result) {
     const auto narrow = swept_links<Far>(links);
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
@@ -269,7 +266,7 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
 
 /// Adds all shapes where a link may have several inclinations.
 template <class AnyLinks, class Options, class Result>
-void add_several_valued(const AnyLinks& links, const Wide<double>& height, double last, const Options& options,
+void add_several_valued(const AnyLinks& links, const Fine& height, double last, const Options& options,
                         Result& result) {
     const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
@@ -294,7 +291,7 @@ void sort(Result& found) {
 
 /// All shapes at a height in the units of the links.
 template <class Result, class AnyLinks, class Options>
-Result listed(const AnyLinks& links, const Wide<double>& scaled, const Options& options) {
+Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
     // A little beyond: a link all but horizontal is at the end itself, to rounding.
     const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),

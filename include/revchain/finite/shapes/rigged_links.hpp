@@ -11,15 +11,15 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 ///
 /// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
 /// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
-struct RiggedLinks : Links<Wide<double>> {
+struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
-    Wide<double> speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
-    Held<Wide<double>> support{};
-    Wide<double> axial_moment{0.0};  ///< of all that turns with the links about their own axes
-    double total_weight = 0;         ///< of the chain
+    Fine speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
+    Held<Fine> support{};
+    Fine axial_moment{0.0};   ///< of all that turns with the links about their own axes
+    double total_weight = 0;  ///< of the chain
 
-    bool turned(std::size_t m) const { return links[m].pull < Wide<double>(0); }
+    bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
     /// From swept links to given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
@@ -30,13 +30,13 @@ struct RiggedLinks : Links<Wide<double>> {
 
 /// sigma + n H/a, which may cancel: enclosed in double-double first.
 template <class T>
-Interval<T> effective_tension(const detail::RigLink& link, const Wide<double>& speed) {
-    if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
+Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
+    if (link.spin == Fine(0)) return enclosed<T>(link.tension);
     const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
     return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
 
-inline const Held<Wide<double>>& support_of(const RiggedLinks& rig) { return rig.support; }
+inline const Held<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
 inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
 inline bool may_all_stand(const RiggedLinks&) { return true; }
 
@@ -84,21 +84,20 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
 /// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
 /// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
 template <class Shape = SteadyShape>
-Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
-    using S = Wide<double>;
+Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>& found) {
     std::vector<double> hung;
     for (const detail::RigLink& link : rig.given) hung.push_back(as_double(link.hung));
     Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
-    const S top = found.offset.back();
+    const Fine top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))
         if (y != 0) last = y;
     if (as_double(top) * last < 0) ++shape.half_waves;
-    const Held<S>& support = rig.support;
-    const S drawn = top - support.radius,
-            inertia = rig.axial_moment + (support.firm ? S(0) : support.carriage * top * top);
-    S energy = -inertia / (S(2) * height);
-    if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (S(2) * height);
+    const Held<Fine>& support = rig.support;
+    const Fine drawn = top - support.radius,
+               inertia = rig.axial_moment + (support.firm ? Fine(0) : support.carriage * top * top);
+    Fine energy = -inertia / (Fine(2) * height);
+    if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (Fine(2) * height);
     const int weight = rig.units.weight_exponent, length = rig.units.length_exponent;
     shape.moment_of_inertia += std::ldexp(as_double(inertia), weight + 2 * length);
     shape.effective_energy += std::ldexp(as_double(energy), weight + length);
@@ -107,8 +106,7 @@ Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanc
 
 /// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of
 /// what moves of the lowest link, cannot be told from 0.
-inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, const Wide<double>& speed) {
-    using S = Wide<double>;
+inline RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;
     result.units = rig.chain().units();
     result.given = detail::rig_links(rig);
@@ -116,7 +114,7 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
     if (rig.has_momentum()) result.speed = speed;
     for (Index m = 0; m < rig.size(); ++m) {
         const detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
-        const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
+        const Fine pull = link.spin == Fine(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
             detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what), pull.high);
         };
@@ -131,14 +129,14 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
             ldexp(rig.flywheel(m).axial_moment, -result.units.weight_exponent - 2 * result.units.length_exponent);
     }
     const Support& held = rig.support();
-    const auto length = [&](double x) { return S(std::ldexp(x, -result.units.length_exponent)); };
-    const S none(0.0), radius = length(held.radius);
+    const auto length = [&](double x) { return Fine(std::ldexp(x, -result.units.length_exponent)); };
+    const Fine none(0.0), radius = length(held.radius);
     result.support = {radius, none, none, none, held.radius == 0, held.is_firm()};
     if (!held.is_firm()) {
-        const S stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        const Fine stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
         result.support.stiffness = ldexp(height, -result.units.length_exponent) * stiffness;
-        result.support.compliance = S(1.0) / result.support.stiffness;
-        result.support.carriage = S(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
+        result.support.compliance = Fine(1.0) / result.support.stiffness;
+        result.support.carriage = Fine(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
     }
     return result;
 }

@@ -8,7 +8,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A shape and how far it may be from the true one.
 struct Settled {
-    Balanced<Wide<double>> shape;
+    Balanced<Fine> shape;
     double error = 0;      ///< of every inclination, rad
     double condition = 0;  ///< see WholeBalance::condition
 };
@@ -53,8 +53,8 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
 
 /// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not tell the offset of a
 /// support on a spring.
-inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
-                   const TangentBox<Far>& box, const std::vector<Wide<double>>& offset) {
+inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
+                   const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
         const double off = as_double(abs(found.offset[m] - offset[m]));
         if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length))) return false;
@@ -71,25 +71,24 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
 /// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link
 /// that is inclined) is at a positive offset.
 template <class AnyLinks, class End>
-std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height, const WholeBalance<Far, End>& balance,
+std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const WholeBalance<Far, End>& balance,
                                const TangentBox<Far>& near) {
-    using S = Wide<double>;
-    const std::vector<Link<S>>& links = chain.links;
+    const std::vector<Link<Fine>>& links = chain.links;
     auto box = sharpened(balance, near);
     if (!box) return std::nullopt;
     const auto condition = balance.condition(middle_of(*box));
     if (!condition) return std::nullopt;
     const std::size_t n = links.size();
-    std::vector<S> offset(n + 1, S(0));
+    std::vector<Fine> offset(n + 1, Fine(0));
     if constexpr (is_held<End>) {
         std::vector<Interval<Far>> sines;
         for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
         offset[n] = balance.top(sines).middle().word();
         chain.turn(*box);
     }
-    S lowest_inclined(0);
+    Fine lowest_inclined(0);
     for (std::size_t m = n; m-- > 0;) {
-        const S sine = balance.sine(m, Interval<Far>((*box)[m].middle())).middle().word();
+        const Fine sine = balance.sine(m, Interval<Far>((*box)[m].middle())).middle().word();
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(Far(0))) lowest_inclined = sine;
     }
@@ -100,8 +99,8 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
     }
-    const S tip = result.shape.offset[0];
-    const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
+    const Fine tip = result.shape.offset[0];
+    const bool inwards = abs(tip) > Fine(1e-25) * links[0].length ? tip < Fine(0) : lowest_inclined < Fine(0);
     if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = as_double((*box)[m].middle()), width = as_double((*box)[m].width());
@@ -113,7 +112,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
 
 /// All shapes with links in one posture, found in double and, where that leaves parts open, in double-double.
 template <class AnyLinks>
-void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
+void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture, double last,
                     long budget, SeveralInclinations& result) {
     const std::size_t n = posture.size();
     const auto cube = static_cast<long>(n * n * n);
@@ -150,8 +149,8 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
 
 /// Shapes with all links hanging (a rig's: in its own posture) or, if asked, with any of them standing.
 template <class AnyLinks>
-SeveralInclinations several_inclinations(const AnyLinks& chain, const Wide<double>& height, double last,
-                                         bool hanging_only, long budget) {
+SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last, bool hanging_only,
+                                         long budget) {
     const std::size_t n = chain.links.size();
     SeveralInclinations result;
     std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);

@@ -16,8 +16,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
-                                  const SteadyShapesOptions& options) {
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options) {
     const auto links = links_of(chain);
     return listed<SteadyShapes>(links, ldexp(height, -links.units.length_exponent), options);
 }
@@ -49,7 +48,7 @@ inline bool same(const SteadyShape& x, const SteadyShape& y) {
 }
 
 /// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
-inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
+inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                                   const RigShapesOptions& options) {
     if (rig == Rig(rig.chain(), {}))
         return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
@@ -61,7 +60,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
         return result;
     }
     RiggedLinks links = rigged_links(rig, height, speed);
-    const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
+    const Fine lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !options.hanging_only,
                                          enclosed<double>(links.support));
     result = listed<SteadyShapes>(links, lambda, options);

@@ -221,8 +221,8 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
 
 /// Where there are mirror images, chooses the one with its free end at a positive offset.
 template <class End>
-void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
-    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric()) shape.mirror();
+void turn_outwards(Balanced<Fine>& shape, const End& support) {
+    if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();
 }
 
 /// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
@@ -230,9 +230,9 @@ void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
 /// proved. Else, where the height is given, the digits are those of `verified`; where it was found too they stay, as
 /// next to the vertical the height's own rounding moves the shape, and the bound holds what they are off.
 template <class Shape = SteadyShape, class AnyLinks>
-Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Wide<double>& height,
-                     const Interval<Far>& within, Balanced<Wide<double>> found, bool height_is_given) {
-    std::vector<Wide<double>>& y = found.offset;
+Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Fine& height,
+                     const Interval<Far>& within, Balanced<Fine> found, bool height_is_given) {
+    std::vector<Fine>& y = found.offset;
     const auto support = enclosed<Far>(support_of(chain));
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
@@ -241,8 +241,8 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
                        [](const Far& digits) { return digits.word(); });
     } else {
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
-            const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
-                               adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
+            const Fine d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
+                       adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
             off = std::max(off, 1.01 * std::abs(as_double((d - right) / adjacent)));
         }
     }

@@ -37,7 +37,7 @@ Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
 /// A shape as its links, their inclinations, lambda times the pull along each, the offset of the upper end; and what
 /// links turn with about their own axes.
 struct PulledLinks {
-    std::vector<Link<Wide<double>>> links;
+    std::vector<Link<Fine>> links;
     std::vector<double> inclination, pull;
     std::vector<double> doubt;  // the error of a pull over that of rounding
     double upper_offset = 0;
@@ -60,10 +60,9 @@ struct PulledLinks {
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
     /// Adds a link; one that meets the last in a pin without mass or load stays in line with it, and is one with it.
-    void add(const Link<Wide<double>>& link, double delta, double pulled, double off, double turning = 0,
-             double about = 0) {
+    void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0, double about = 0) {
         if (!links.empty()) {
-            Link<Wide<double>>& below = links.back();
+            Link<Fine>& below = links.back();
             const bool massless =
                 is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
             const bool plain = turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
@@ -111,23 +110,21 @@ struct DisturbedIn {
         using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        const auto link = [&](Index m) -> const Link<Wide<double>>& {
-            return shape.links[static_cast<std::size_t>(m)];
-        };
+        const auto link = [&](Index m) -> const Link<Fine>& { return shape.links[static_cast<std::size_t>(m)]; };
         const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
         Matrix<S> G(pins, pins), length(pins, pins);
-        Wide<double> below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
+        Fine below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
         for (Index m = 0; m < pins; ++m) {  // symmetric sums of masses, and of a third and a sixth of lengths
             const bool is_link = m < n;
-            const Wide<double> zero(0.0), a = is_link ? link(m).length : zero;
-            const Wide<double> own = is_link ? link(m).moment - link(m).cross : Wide<double>(shape.carriage);
-            const auto fill = [m](Matrix<S>& of, const Wide<double>& self, const Wide<double>& others) {
+            const Fine zero(0.0), a = is_link ? link(m).length : zero;
+            const Fine own = is_link ? link(m).moment - link(m).cross : Fine(shape.carriage);
+            const auto fill = [m](Matrix<S>& of, const Fine& self, const Fine& others) {
                 of(m, m) = S(self);
                 of.row(m).tail(of.cols() - m - 1).setConstant(S(others));
                 of.col(m).tail(of.cols() - m - 1).setConstant(S(others));
             };
             fill(G, below + own, is_link ? below + link(m).moment : zero);
-            fill(length, long_below + a / Wide<double>(3.0), long_below + a / Wide<double>(2.0));
+            fill(length, long_below + a / Fine(3.0), long_below + a / Fine(2.0));
             if (is_link) below = below + link(m).moment + link(m).rest, long_below = long_below + a;
         }
         Vector<S> x(pins), y(pins), z(pins), turning = Vector<S>::Zero(pins), unit(pins);

@@ -199,7 +199,7 @@ Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const Ch
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
+inline PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& shape) {
     PulledLinks result(chain.units);
     const std::vector<Link<double>> links = rounded<double>(chain.links);
     const auto [pull, doubt] = pulls(links, shape, chain.units);
@@ -208,7 +208,7 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadySh
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShape& shape) {
+inline PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape) {
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
@@ -305,9 +305,9 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         const auto i = static_cast<std::size_t>(m);
         const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
         const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
-        Link<Wide<double>> link = given.links[i];
+        Link<Fine> link = given.links[i];
         // as a body: what turns with it lessened what it resists turning with
-        link.cross = given.given[i].cross - Wide<double>(about) / (link.length * given.given[i].length);
+        link.cross = given.given[i].cross - Fine(about) / (link.length * given.given[i].length);
         const double kept = height * as_double(given.speed * given.given[i].spin), a = links[i].length;
         result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
     }

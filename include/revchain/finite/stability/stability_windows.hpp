@@ -37,7 +37,7 @@ JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& cor
     std::optional<BranchPoint> point;
     if (arc > from.arc) point = corrector.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
     const BranchPoint& here = point ? *point : from;
-    if (const auto shape = shape_at(*trace.system, here.state, GivenPlace<Wide<double>>(here)))
+    if (const auto shape = shape_at(*trace.system, here.state, GivenPlace(here)))
         return {arc, shape->conical_height, verdict_on(system, branch, *shape, frame)};
     const double height = std::ldexp(std::exp(here.state.log_height), trace.system->units.length_exponent);
     return {arc, height, Verdict::undecided};
