@@ -9,8 +9,8 @@ using Span = Interval<Far>;
 
 inline double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
-/// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
-/// inclination, which is not positive where the link may be slack or settle elsewhere.
+/// Encloses the direction of a link near one found. Returns the derivative of its moment by the
+/// inclination, not positive if the link may be slack or have another inclination.
 inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
     if (is_zero(link.cross)) {
@@ -23,8 +23,8 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
     return settle_near(link, R, V, found, way);
 }
 
-/// Encloses the upper end for forces at the lower end up to `radius` from those of a state, `found` the directions
-/// there; and the sine of the largest turn of a link away from them.
+/// Encloses the upper end for forces at the lower end within `radius` of those of a state with
+/// directions `found`, and the sine of the largest turn of a link from them.
 inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
                                                     const Span& height, const std::array<Far, 2>& forces,
                                                     const std::array<double, 2>& radius,
@@ -45,13 +45,11 @@ inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& li
     return {end, turned};
 }
 
-/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its ends held as
-/// given, `span` apart, there being one and one alone so near: Krawczyk's test on the two forces at
-/// the lower end (doi:10.1007/BF02234767). Infinite where it decides nothing: intervals grow along
-/// the chain by e^pi, about, for each half wave.
-inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interval<Far>>& ends,
-                         const Interval<Far>& height, const Interval<Far>& span, const std::array<Far, 2>& forces,
-                         const std::vector<Direction<Far>>& found) {
+/// Bounds the angle (rad) between found directions and those of the one steady shape near them at a
+/// span, by Krawczyk's test on the two forces at the lower end (doi:10.1007/BF02234767). Infinite
+/// if the test decides nothing: intervals grow by about e^pi for each half wave.
+inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height,
+                         const Span& span, const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     constexpr double unproved = std::numeric_limits<double>::infinity();
     const auto centre = held_box(links, ends, height, forces, {0, 0}, found).first;
     if (!centre.known) return unproved;

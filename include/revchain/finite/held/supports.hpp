@@ -9,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What holds the two ends, and the height at which springs are taken: that of the shape if none is given.
+/// The supports of both ends, and the height at which springs are taken; without it that of the
+/// shape.
 struct HeldSupports {
     Support lower{}, upper{};
     std::optional<Fine> height{};
@@ -17,8 +18,8 @@ struct HeldSupports {
     bool plain() const { return lower == Support{} && upper == Support{}; }
 };
 
-/// How ends are held at a height, in units of a chain, or that part of it: radii and compliances times `part`. The
-/// third number is the height, or the part.
+/// The supports at a height, in units of a chain, with radii and compliances times `part`. The
+/// third number is the height, or with `by_part` the part.
 template <class T>
 HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, const T& height, double part = 1,
                       bool by_part = false) {
