@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Branches of a cord and scanned lists of its shapes brought together.
+/// Combines branches of a cord with scanned lists of its shapes.
 template <class Options>
 class CordDiagram {
    public:
@@ -48,7 +48,7 @@ class CordDiagram {
     }
 
    private:
-    static constexpr double alike = 1e-6;  // of the free end's offset: two shapes are one
+    static constexpr double alike = 1e-6;  // relative difference of the free end's offset of one shape
 
     void compare(double height) {
         result_.looked_at.push_back(height);
@@ -63,7 +63,7 @@ class CordDiagram {
             if (met[i] != 1) result_.consistent = false;
         }
     }
-    /// Shapes of a branch that the list lacks are found by the branch: the scan has missed them.
+    /// Shapes of a branch that the scan missed do not count.
     void count_met(const CordShapes& list, const CordBranch& branch, double height, std::vector<int>& met) const {
         for (const CordShape& shape : branch.shapes_at(height))
             for (std::size_t i = 0; i < met.size(); ++i)
@@ -72,8 +72,8 @@ class CordDiagram {
                     ++met[i];
     }
 
-    /// The isolated branch through a shape: to where it comes down to the height, and from there to the other end; or
-    /// round.
+    /// The isolated branch through a shape: down to the lowest height, and from there to its other
+    /// end; or closed.
     CordBranch through(const CordShape& shape) const {
         CordBranch result;
         auto line = std::make_shared<const BranchLine>(cord_, shape.half_waves);

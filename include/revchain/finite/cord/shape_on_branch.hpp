@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Shapes of one branch of a cord at which a number is as given, in the order of the arc.
+/// Shapes of a branch of a cord with a given number, in the order of the arc.
 struct CordShapesOnBranch {
     std::vector<CordShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 points
@@ -14,7 +14,7 @@ struct CordShapesOnBranch {
 
 namespace finite {
 
-/// The number wanted on a branch, less that of a point: 0 where it is met.
+/// The difference of a number at a point of a branch from the wanted one.
 class WantedOnLine {
    public:
     enum class Kind { height, tip_inclination, tip_radius, top_tension };
@@ -76,7 +76,7 @@ class WantedOnLine {
     double wanted_ = 0, height_ = 0;
 };
 
-/// All shapes on the branch of a mode at which a number is as given; `critical` is the height of the mode.
+/// All shapes with a given number on the branch of a mode of height `critical`.
 inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
                                         std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";

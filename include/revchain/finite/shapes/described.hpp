@@ -12,21 +12,21 @@ struct SteadyShape;  // revchain/steady_shapes.hpp
 
 namespace finite {
 
-/// g/n^2 in double-double, infinite or 0 where it is out of range.
+/// g/n^2 in double-double; infinite or 0 if out of range.
 inline Fine height_at_speed(double angular_speed, double gravity) {
     int of_speed = 0, of_gravity = 0;
     const Fine n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
     return ldexp(g / n / n, of_gravity - 2 * of_speed);
 }
 
-/// An angle and pi, or less pi, rounded once.
+/// angle + pi, or angle - pi, rounded once.
 inline double beyond(double angle, bool backwards) {
     const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }
 
-/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition. `hung`: the
-/// weights that bear on the upper pins.
+/// A shape from the offsets of its pins, without error bound and condition. `hung`: the weights on
+/// the upper pins.
 template <class Shape = SteadyShape>
 Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found,
                 const std::vector<double>& hung, double total_weight) {
@@ -55,7 +55,7 @@ Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fin
                    tangent = tangent_in(found, chain.links, m);
         const double inclination = std::atan(as_double(tangent));
         shape.inclination[i] = found.stands(m) ? beyond(inclination, d < Fine(0)) : inclination;
-        // the moment about the upper pin of all that hangs there, over the length, times lambda
+        // lambda times the moment about the upper pin over the length
         const Fine left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
         worst_moment = std::max(worst_moment, std::abs(as_double(left * link.length * cosine / height)));
         reach += as_double(link.length);
@@ -63,7 +63,7 @@ Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fin
         const double across = as_double(sideways / height);
         shape.tension[i] = weight(std::hypot(hung[m], across));
         shape.reaction_inclination[i] = std::atan2(across, hung[m]);
-        // of the element, (lower, upper) [A X; X B] (lower, upper), where A + X = moment and X + B = rest
+        // (lower, upper) [A X; X B] (lower, upper), with A + X = moment and X + B = rest
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }

@@ -16,11 +16,12 @@
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/parallel.hpp"
 
-/// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
+/// The list of all steady shapes at a height. `Result` and `Options` are those of
+/// revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
-/// chain reaches.  y0 = lambda t + (a X/moment) s.
+/// An upper bound for the tangent of the lowest link, from y0 = lambda t + (a X/moment) s and the
+/// reach of the chain.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
@@ -30,7 +31,7 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
     return ((reach + Interval<T>(beyond.high)) / height).high;
 }
 
-/// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
+/// Whether each link but the lowest has one inclination under its load; always if l <= a.
 template <class T>
 bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(),
@@ -41,10 +42,10 @@ inline bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<do
     return single_valued(enclosed<double>(links.links), height);
 }
 
-/// Where a proof of completeness did not reach, shapes that are there all the same: one at least between tangents of
-/// the lowest link at which the offset of the support, `sign(tangent)`, has opposite signs for certain. Looks at the
-/// ends of the `ranges`, ascending, and at those of `points` tangents up to `last` that lie within them: a third each
-/// even in the inclination, in the tangent, and in its logarithm down to 1e-12 of the last.
+/// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
+/// the offset of the support, `sign(tangent)`, has certain opposite signs there is at least one.
+/// Samples the ends of the ascending `ranges` and those of `points` tangents up to `last` in them:
+/// a third each even in inclination, in tangent, and in its logarithm down to 1e-12 of the last.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
     std::vector<double> tangents;
@@ -75,7 +76,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     return found;
 }
 
-/// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
+/// Isolates shapes in double, undecided cells in double-double, and scans what remains open.
 template <class AnyLinks>
 Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
@@ -107,7 +108,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, 
     return found;
 }
 
-/// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
+/// The shape whose lowest tangent is in the bracket, if Newton's method finds it.
 template <class AnyLinks>
 std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket) {
     const std::vector<Link<Fine>>& links = chain.links;
@@ -131,9 +132,9 @@ std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height
     return std::nullopt;
 }
 
-/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of
-/// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
-/// may do.
+/// Bounds the error (rad) of inclinations found by Newton's method, from signs of the support's
+/// offset on both sides of the lowest tangent, as close as double-double resolves, and the ranges
+/// of all links between.
 template <class End>
 double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, const Bracket<Far>& bracket,
                          const Balanced<Fine>& found, const std::vector<Link<Fine>>& middle, const End& support) {
@@ -161,7 +162,7 @@ double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, co
     }
 }
 
-/// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
+/// Halves a bracket of a shape by proved signs until rounding leaves one undecided.
 template <class End>
 Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
                       Bracket<Far> bracket) {
@@ -175,8 +176,8 @@ Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lamb
     return bracket;
 }
 
-/// A shape whose links are too near the horizontal for `finished`: found from the tangents of all links in a `part` of
-/// the bracket. Nothing if it cannot be proved.
+/// A shape with links too near the horizontal for `finished`, from the tangents of all links in a
+/// `part` of the bracket; none if it cannot be proved.
 template <class AnyLinks>
 std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket,
                                             const Bracket<Far>& part) {
@@ -206,15 +207,15 @@ void leave_open(const Bracket<Far>& part, Result& result) {
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
-/// Whether a link lies so near the horizontal that a support on a spring may be found at a wrong offset: from offsets
-/// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
+/// Whether a link is so near the horizontal that the offset of a support on a spring may be wrong:
+/// offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
 inline bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
         if (std::abs(as_double(tangent_in(found, links, m))) > 1e8) return true;
     return false;
 }
 
-/// Adds the one shape in the bracket to `result`, which has none yet; or leaves the bracket open.
+/// Adds the shape in the bracket to an empty `result`, or leaves the bracket open.
 template <class AnyLinks, class Result>
 void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
@@ -224,7 +225,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         Shape& shape = result.shapes.emplace_back(
             verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
         if (shape.error_bound <= 0x1.8p-52) return;
-        // all but horizontal, or all but critical: the sweep may say more
+        // almost horizontal or critical: the sweep may give a better bound
         const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
         if (error < shape.error_bound) {
             const double condition = shape.condition;
@@ -234,7 +235,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         }
         if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
     }
-    // or the tangents
+    // the tangents may do so too
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
     if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
         result.shapes.clear();
@@ -244,7 +245,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
     }
 }
 
-/// Adds all shapes where each link hangs at one inclination for what hangs below it.
+/// Adds all shapes if each link has one inclination under its load.
 template <class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget, Result& result) {
     const auto narrow = swept_links<Far>(links);
@@ -264,7 +265,7 @@ void add_single_valued(const AnyLinks& links, const Fine& height, double last, l
     }
 }
 
-/// Adds all shapes where a link may have several inclinations.
+/// Adds all shapes if links may have several inclinations.
 template <class AnyLinks, class Options, class Result>
 void add_several_valued(const AnyLinks& links, const Fine& height, double last, const Options& options,
                         Result& result) {
@@ -293,7 +294,7 @@ void sort(Result& found) {
 template <class Result, class AnyLinks, class Options>
 Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
-    // A little beyond: a link all but horizontal is at the end itself, to rounding.
+    // slightly beyond: an almost horizontal link is at the bound, to rounding
     const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
                                                 !options.hanging_only, enclosed<double>(support_of(links)));
     if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {

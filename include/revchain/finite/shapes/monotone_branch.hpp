@@ -5,26 +5,27 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A stretch of tangents along which R grows or falls throughout. Where stiffness +- turning > 0 there is but one, the
-/// whole; else R falls in the middle and grows to its right and left, and meets at the joints
-/// t = +-sqrt((|turning|/stiffness)^(2/3) - 1).
+/// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one, the whole;
+/// else R falls in the middle and grows on its right and left, beyond the joints t =
+/// +-sqrt((|turning|/stiffness)^(2/3) - 1).
 enum class MonotoneBranch { whole, right, middle, left };
 
-/// Whether R grows with t, and nowhere at less than a hundredth of `stiffness`. Where it is flatter about t = 0 than
-/// that, it is taken by branches, the middle one of them without width.
+/// Whether R grows with t everywhere by at least a hundredth of `stiffness`. A flatter one is
+/// divided into branches, the middle one without width.
 template <Real T>
 bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
 }
 
-/// Tangents of a branch under a load R; `smooth` where all of R is met away from the joints, so that derivatives exist.
+/// Tangents of a branch under a load R; `smooth` if all are away from joints, so that derivatives
+/// exist.
 template <Real T>
 struct LoadedTangents {
     Interval<T> tangent;
     bool possible = true, smooth = true;
 };
 
-/// One link in one posture: which tangents carry which R.
+/// The tangents of one link in one posture by their load R.
 template <Real T>
 class Response {
    public:
@@ -63,7 +64,7 @@ class Response {
         const double ratio = as_double(-turning_.low) / as_double(stiffness_.low);
         const double root = cbrt(ratio);
         T near(sqrt(std::max(0.0, root * root - 1)));
-        for (int round = 0; round < 3 && near > T(0); ++round) {  // to the digits of T
+        for (int round = 0; round < 3 && near > T(0); ++round) {  // to the accuracy of T
             const T secant_squared = T(1) + near * near, secant = sqrt(secant_squared);
             const T slope = stiffness_.low + turning_.low / (secant * secant_squared);
             near = near + slope * secant * secant_squared * secant_squared / (T(3) * turning_.low * near);
@@ -78,7 +79,8 @@ class Response {
         least_ = load(joint_);
     }
 
-    /// Where R(t) = wanted, from a side from which Newton's method does not overshoot: R bends upwards for t > 0.
+    /// Solves R(t) = wanted from a side from which Newton's method does not overshoot: R is convex
+    /// for t > 0.
     T near(const T& start, const T& wanted) const {
         return tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
     }
@@ -96,7 +98,7 @@ class Response {
         const T high = met.smooth || R.high > least_.high ? std::max(joint_.high, from_right(R.high)) : joint_.high;
         met.tangent.high =
             first_passing(high, rounding_step(high), 2 * tries, [&](const T& t) { return at(t).low >= R.high; });
-        if (!(met.tangent.high == met.tangent.high)) return {met.tangent.high, true, false};  // nothing is known
+        if (!(met.tangent.high == met.tangent.high)) return {met.tangent.high, true, false};
         met.tangent.low = joint_.low;
         if (!met.smooth) return met;
         const T low = from_right(R.low);
@@ -107,7 +109,7 @@ class Response {
         return met;
     }
 
-    /// The largest tangent between the joints under a load of at least R; false where that is the joint.
+    /// The largest tangent between the joints with a load of at least R; false if it is the joint.
     std::pair<T, bool> last_between(const T& R) const {
         if (R <= least_.high) return {joint_.high, false};
         T t = R > T(0) ? (R < -least_.high ? T(-near(T(0), T(-R))) : T(-joint_.low)) : near(T(0), R);
@@ -125,7 +127,7 @@ class Response {
 
     Interval<T> stiffness_, turning_;
     bool single_;
-    Interval<T> joint_, least_;  // the right joint, and R there
+    Interval<T> joint_, least_;  // the right joint, and its load
 };
 
 }  // namespace revchain::finite

@@ -6,21 +6,21 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a,
-/// H what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.
+/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a, H
+/// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
 ///
-/// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
-/// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
+/// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
+/// the opposite inclination obeys the same equations: `swept_links` returns that.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
-    Fine speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
+    Fine speed{0.0};  ///< n, signed; 0 without momentum
     Held<Fine> support{};
-    Fine axial_moment{0.0};   ///< of all that turns with the links about their own axes
+    Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
     double total_weight = 0;  ///< of the chain
 
     bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
-    /// From swept links to given ones, or back.
+    /// Converts tangents of swept links to those of given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
         for (std::size_t m = 0; m < tangents.size(); ++m)
@@ -50,7 +50,7 @@ EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
     return result;
 }
 
-/// 1 - W/(lambda E), W all the weight that moves: what a spring at the support has left to hold its pin with.
+/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
 template <class T>
 Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interval<T>>& support) {
     Interval<T> moving = support.carriage;
@@ -58,10 +58,10 @@ Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interva
     return Interval<T>(T(1)) - support.compliance * moving;
 }
 
-/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther
-/// from the axis than (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the
-/// links reach; and the lowest link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding,
-/// there is no such end: then as if the two were a millionth apart.
+/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
+/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
+/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
+/// there is no bound: then as if they were 1e-6 apart.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool, const Held<Interval<T>>& support) {
     Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
@@ -81,8 +81,8 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
     return far.high;
 }
 
-/// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
-/// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
+/// A shape of a rig from the offsets of its pins. Half waves count the support; the energy includes
+/// the spring's and - n H cos of inclinations, the moment of inertia the carriage's.
 template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>& found) {
     std::vector<double> hung;
@@ -104,8 +104,8 @@ Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>
     return shape;
 }
 
-/// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of
-/// what moves of the lowest link, cannot be told from 0.
+/// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,
+/// or the moment of the moving weight of the lowest link, cannot be told from 0.
 inline RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;
     result.units = rig.chain().units();

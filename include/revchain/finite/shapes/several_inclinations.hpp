@@ -6,25 +6,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A shape and how far it may be from the true one.
+/// A shape and its error bound.
 struct Settled {
     Balanced<Fine> shape;
     double error = 0;      ///< of every inclination, rad
     double condition = 0;  ///< see WholeBalance::condition
 };
 
-/// Steady shapes with links that have several inclinations under one load, or stand.
+/// Steady shapes with links that stand or have several inclinations under one load.
 struct SeveralInclinations {
     std::vector<Settled> shapes;
     struct Open {
         Posture lowest;
-        double low, high;  ///< tangents of the lowest link, at which it hangs or stands
+        double low, high;  ///< tangents of the lowest link in that posture
     };
     std::vector<Open> open;
     long cells = 0;
 };
 
-/// A box that holds one zero for certain, as small as double-double allows, about one known to double precision.
+/// A box with exactly one zero, as small as double-double allows, about one known in double.
 template <class End>
 std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, const TangentBox<Far>& near) {
     std::vector<Far> t = middle_of(near);
@@ -51,8 +51,8 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not tell the offset of a
-/// support on a spring.
+/// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not
+/// determine a support on a spring.
 inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
                    const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
@@ -68,8 +68,8 @@ inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& f
     return true;
 }
 
-/// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link
-/// that is inclined) is at a positive offset.
+/// A shape from the tangents of its links, mirrored if it may be: the free end (or, if that is on
+/// the axis, the lowest inclined link) is at a positive offset.
 template <class AnyLinks, class End>
 std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const WholeBalance<Far, End>& balance,
                                const TangentBox<Far>& near) {
@@ -104,13 +104,13 @@ std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const 
     if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = as_double((*box)[m].middle()), width = as_double((*box)[m].width());
-        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
+        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;
         result.error = std::max(result.error, width * 1.01 / (1 + middle * middle) + rounded);
     }
     return result;
 }
 
-/// All shapes with links in one posture, found in double and, where that leaves parts open, in double-double.
+/// All shapes with links in one posture, found in double and, for open parts, in double-double.
 template <class AnyLinks>
 void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture, double last,
                     long budget, SeveralInclinations& result) {
@@ -147,14 +147,14 @@ void search_posture(const AnyLinks& chain, const Fine& height, const std::vector
     }
 }
 
-/// Shapes with all links hanging (a rig's: in its own posture) or, if asked, with any of them standing.
+/// Shapes with all links hanging (a rig: in its own posture) or also with any of them standing.
 template <class AnyLinks>
 SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last, bool hanging_only,
                                          long budget) {
     const std::size_t n = chain.links.size();
     SeveralInclinations result;
     std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
-    const auto next = [&] {  // all but the last, in which all stand: there no load would be borne
+    const auto next = [&] {
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;

@@ -36,18 +36,18 @@ inline SteadyShape mirrored(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes, each alone within its error bound, are one.
+/// Whether two shapes, each unique within its error bound, are the same.
 inline bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
     if (!(off < 1e-12)) return false;
     for (Index m = 0; m < x.inclination.size(); ++m) {
         const double apart = x.inclination[m] - y.inclination[m];
-        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;  // at pi from both sides
+        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;
     }
     return true;
 }
 
-/// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
+/// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
 inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                                   const RigShapesOptions& options) {
     if (rig == Rig(rig.chain(), {}))
@@ -82,8 +82,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirrored(std::move(shape));
-        // A shape is met from both sides with the lowest link in the axis, and where it is near there (or a link that
-        // stands near its own): boxes that hold one shape each reach beyond tangent 0.
+        // shapes with a link near the axis are found from both sides: boxes reach beyond tangent 0
         const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
         if (std::none_of(result.shapes.begin(), end, [&](const SteadyShape& known) { return same(known, shape); }))
             result.shapes.push_back(std::move(shape));
@@ -94,7 +93,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine
     return result;
 }
 
-/// Whether the speed is given as a conical height, and not as an angular speed.
+/// Whether the speed is given as a conical height.
 template <class Options>
 bool height_is_given(const Options& options) {
     detail::require_one_speed("steady_shapes", options);

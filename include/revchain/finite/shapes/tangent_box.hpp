@@ -41,13 +41,13 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     return result;
 }
 
-/// Replaces a matrix, given by its rows, by its inverse (Gauss and Jordan); returns whether it has one in sight.
+/// Replaces a matrix, given by rows, by its inverse (Gauss-Jordan); false if it is singular.
 template <Real T>
 bool invert(std::vector<T>& a, std::size_t size) {
     using std::abs;
     const auto n = static_cast<Index>(size);
     Eigen::Map<Table<T>> matrix(a.data(), n, n);
-    Table<T> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
+    Table<T> rows(n, 2 * n);  // the matrix and its inverse
     rows << matrix, Table<T>::Identity(n, n);
     for (Index j = 0; j < n; ++j) {
         Index pivot = j;
@@ -64,13 +64,13 @@ bool invert(std::vector<T>& a, std::size_t size) {
     return matrix.allFinite();
 }
 
-/// The balance of the whole chain in the tangents of all its links, each in its posture, s the sines:
-///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
-/// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
-/// is singular at a joint of two branches.
-/// In a rig, sigma in B belongs to the weights that move, the highest pin is at
+/// The balance of a whole chain in the tangents of its links in one posture, s the sines:
+///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal.
+/// It is linear but for the sines, so its derivative over a box is as sharp as theirs, and regular
+/// at joints of branches. In a rig, sigma in B is of the moving weights; with W their sum the
+/// highest pin is at
 ///     y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/(lambda E)),
-/// where W is all the weight that moves, and F_m is less by sigma_m y.
+/// and F_m is less by sigma_m y.
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
@@ -106,10 +106,8 @@ class WholeBalance {
 
     Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, Sine<T>(t).value); }
 
-    /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the
-    /// box holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3. The
-    /// tests of two forces (finite/held) and of all pins (verification.hpp) stay apart, each with
-    /// its own inverse: one template for all four took 59 lines more than it saved.
+    /// Encloses all zeros of F in the box (Krawczyk); if the result is strictly within the box,
+    /// there is exactly one. None if the derivative has no inverse. Cost N^3.
     std::optional<TangentBox<T>> narrowed(const TangentBox<T>& box) const {
         const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);
@@ -135,7 +133,8 @@ class WholeBalance {
         return result;
     }
 
-    /// One step of Newton's method in T; the largest change of an inclination, if any.
+    /// One step of Newton's method in T. Returns the largest change of an inclination, if there is
+    /// an inverse.
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -150,7 +149,7 @@ class WholeBalance {
         return largest;
     }
 
-    /// Largest change of an inclination, rad, where each F_m changes by the sizes of its terms, times it; if any.
+    /// Largest change of an inclination (rad) for relative changes 1 of the terms of F.
     std::optional<double> condition(const std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -171,7 +170,7 @@ class WholeBalance {
     }
 
    private:
-    /// Sets what is known of the topmost pin of a rig; returns the sigma of its weights that move.
+    /// Sets the topmost pin of a rig; returns the sigma of its moving weights.
     std::vector<Interval<T>> hold(const EnclosedLinks<T>& links, const End& support) {
         Interval<T> below(T(0));
         std::vector<Interval<T>> moving;
@@ -202,7 +201,7 @@ class WholeBalance {
         }
         return F;
     }
-    /// Of the derivative, in T: near a critical height one in double would be of no use.
+    /// The inverse of the derivative, in T: double would not do near a critical height.
     std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
         using std::sqrt;
         std::vector<T> jacobian(size_ * size_);
@@ -228,7 +227,7 @@ class WholeBalance {
     std::vector<T> middle_;
     struct {
         Interval<T> at_rest;        // offset of the topmost pin under vertical links
-        TangentBox<T> drawn, load;  // of a rig: what each sine adds to it; sigma times it at rest
+        TangentBox<T> drawn, load;  // what each sine adds to it; sigma times `at_rest`
         bool symmetric = true;
     } top_;
 };

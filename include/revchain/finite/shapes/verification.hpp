@@ -7,18 +7,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What is proved of a shape that Newton's method found.
+/// A proof for a shape that Newton's method found.
 struct Verified {
-    std::vector<Far> offset;   ///< of the pins, the support's 0 last; its digits are those of double-double
-    double inclination_error;  ///< a steady shape, and one alone, has all its inclinations within this, rad
-    double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
+    std::vector<Far> offset;   ///< of the pins, support last, in double-double
+    double inclination_error;  ///< exactly one steady shape has all inclinations within this (rad)
+    double condition;          ///< largest change of an inclination (rad) for relative changes 1 of forces
 };
 
-/// Forces at the pins, lambda times, and what their derivative is made of, for offsets within intervals: the tangent
-/// stiffness of each link and a mass at each pin, never added up.
+/// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a
+/// tangent stiffness for each link and a mass for each pin.
 struct Forces {
     std::vector<Interval<Far>> force, stiffness, mass;
-    std::vector<double> size, cosine;  ///< of the terms of each force; of each link's inclination, from below
+    std::vector<double> size, cosine;  ///< sum of sizes of each force; lower bound for each link
     bool known = true;
 
     template <class End>
@@ -46,7 +46,7 @@ struct Forces {
             size_below = largest(pull) + largest(turn) + largest(at_upper);
             from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
-        if constexpr (is_held<End>) {  // a spring is a link more, the upper end of which stays where it is
+        if constexpr (is_held<End>) {  // a spring is one more link with a fixed upper end
             if (!support.yields()) return;
             const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
             force.push_back(from_below + pull - at_lower);
@@ -54,7 +54,7 @@ struct Forces {
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
-    /// Row m of the derivative times a vector, 0 at the support.
+    /// Row m of the derivative times a vector that is 0 at the support.
     Interval<Far> row(std::size_t m, const std::vector<Far>& x) const {
         Interval<Far> result =
             stiffness[m] * (Interval<Far>(x[m]) - Interval<Far>(x[m + 1])) - mass[m] * Interval<Far>(x[m]);
@@ -63,7 +63,8 @@ struct Forces {
     }
 };
 
-/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it from the free end up, q from the support down.
+/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it from the free end, q from the
+/// support.
 struct Inverse {
     std::vector<Far> p, q;
     Far w;
@@ -84,7 +85,6 @@ struct Inverse {
         }
         w = -(pull + at.mass[0].middle() * q[0]);
     }
-    /// Step of Newton's method.
     std::vector<Far> step(const std::vector<Interval<Far>>& force) const {
         const std::size_t n = force.size();
         std::vector<Far> result(n);
@@ -100,8 +100,8 @@ struct Inverse {
         }
         return result;
     }
-    /// For each pin |q| times the sum of `of_p` below it and |p| times that of `of_q` above it, over |w|; a little more
-    /// for rounding.
+    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|,
+    /// rounded up.
     std::vector<double> spread(const std::vector<double>& of_p, const std::vector<double>& of_q) const {
         const std::size_t n = of_p.size();
         std::vector<double> result(n);
@@ -116,15 +116,15 @@ struct Inverse {
     static double size(const Interval<Far>& x) { return as_double(x.size()) * 1.0000001; }
 };
 
-/// Offsets that Newton's method leaves no better, the forces there and the inverse of their derivative.
+/// Offsets at the limit of Newton's method, with forces and inverse.
 struct Balance {
     std::vector<Far> offset;
     Forces at;
     Inverse inverse;
 };
 
-/// Newton's method to the last digit of double-double; nothing where an offset is out of reach. Not that of
-/// balance/newton.hpp: its steps use the inverse and the enclosed forces that the test below needs anyway.
+/// Newton's method to the last digit of double-double; none if an offset is out of reach. It uses
+/// the inverse and the enclosed forces that the test below needs.
 template <class End>
 std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
                               const End& support) {
@@ -146,8 +146,8 @@ std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Fa
     }
 }
 
-/// Krawczyk's test on all pins at once: how far each may be from its place in the one shape that is so near; nothing
-/// where that is not proved.
+/// Krawczyk's test on all pins at once: the distance of each from its offset in the one shape near;
+/// none if it fails.
 template <class End>
 std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Interval<Far>& height,
                                                  const Balance& found, const End& support) {
@@ -170,7 +170,7 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     const Forces over(links, height, box, support);
     if (!over.known) return std::nullopt;
 
-    // Rows of 1 - inverse times derivative: beside the diagonal p_i or q_i times what p and q leave of the equations.
+    // rows of 1 - inverse times derivative: off the diagonal p_i or q_i times residuals of p and q
     const Interval<Far> one(Far(1)), W(w);
     for (std::size_t m = 0; m < n; ++m) {
         const Interval<Far> rest = over.row(m, q), P(p[m]), Q(q[m]);
@@ -188,9 +188,9 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     return radius;
 }
 
-/// Newton's method, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
-/// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a
-/// link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
+/// Newton's method, then Krawczyk's test (Computing 4 (1969) 187, doi:10.1007/BF02234767), on all
+/// pins at once. The inverse of the tridiagonal derivative is two vectors: O(N), 4 microseconds a
+/// link, and intervals do not grow from link to link as in a sweep.
 template <class End = OnAxis>
 Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
                   const End& support = {}) {
@@ -219,16 +219,16 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
     return result;
 }
 
-/// Where there are mirror images, chooses the one with its free end at a positive offset.
+/// Of two mirror images chooses the one with its free end at a positive offset.
 template <class End>
 void turn_outwards(Balanced<Fine>& shape, const End& support) {
     if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();
 }
 
-/// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
-/// mirror images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is
-/// proved. Else, where the height is given, the digits are those of `verified`; where it was found too they stay, as
-/// next to the vertical the height's own rounding moves the shape, and the bound holds what they are off.
+/// A shape found by Newton's method, all links hanging, with error bound and condition of
+/// `verified` at heights in `within`. The bound is infinite if nothing is proved. At a given height
+/// the digits are those of `verified`. At a found height they stay, since near the vertical the
+/// rounding of the height moves the shape; the bound then includes the difference.
 template <class Shape = SteadyShape, class AnyLinks>
 Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Fine& height,
                      const Interval<Far>& within, Balanced<Fine> found, bool height_is_given) {
@@ -249,7 +249,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
     const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
-    // and two roundings of an angle below pi/2, or below pi
+    // the last term: two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;
     return shape;

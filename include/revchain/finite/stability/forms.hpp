@@ -5,8 +5,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are
-/// alike: negative directions, whether every direction is positive, and whether no sign is within rounding.
+/// Signs of the second variation of the energy, in and out of the plane: number of negative
+/// directions, whether all are positive, whether all are certain despite rounding.
 struct EnergySigns {
     Index negative;
     bool is_minimum, is_certain;
@@ -19,7 +19,7 @@ inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<dou
     return {inside.negative + outside.negative, least > rounding, least < -rounding};
 }
 
-/// p'A q of complex vectors, given by their parts, without a conjugate.
+/// p'A q of complex vectors, without conjugation.
 template <class S>
 std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
                          Index j) {
@@ -36,7 +36,7 @@ std::complex<double> rounded(const std::complex<S>& x) {
     return {as_double(x.real()), as_double(x.imag())};
 }
 
-/// The error of s where that of s^2 is known.
+/// The error of s from that of s^2.
 inline double error_of_root(double square, double error) {
     return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
 }

@@ -13,18 +13,18 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
 
-/// A verdict, and whether an exponent has lost digits: by estimate more than 5e-11 of the largest, or 5e-9 where it is
-/// about 1; more in proportion where there are more than 16 unknowns, as rounding in the eigenvalue solver grows.
-/// Estimates are mostly some thousand times what is lost; where two motions are nearly alike, as those of a light link
-/// in the plane and out of it, up to forty times more is lost (tests/python/test_light_links.py).
+/// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
+/// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
+/// 1000 times the error; for almost equal motions, as of a light link in and out of the plane, up
+/// to 40 times less (tests/python/test_light_links.py).
 struct Judgement {
     Stability stability;
     bool is_spoilt = false;
 };
 
-/// The verdict by squares of exponents and their errors. One grows if its distance from the negative numbers exceeds
-/// its error. One whose square is negative and farther than the errors from every other stays imaginary, as squares
-/// leave the real numbers in pairs; those of a symmetric matrix do not leave them.
+/// The verdict from squares of exponents and their errors. A square farther from the negative
+/// numbers than its error is unstable. A negative square separated from all others stays imaginary:
+/// squares leave the real axis in pairs, and those of a symmetric matrix never.
 inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
                           bool is_symmetric) {
     bool still = true;
@@ -38,12 +38,12 @@ inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const
     return still ? Verdict::spectrally_stable : Verdict::undecided;
 }
 
-/// The verdict on a disturbed shape of so many links. To first order damping c (F, H) changes an exponent by
+/// The verdict on a disturbed shape. To first order damping c (F, H) changes an exponent by
 ///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'N Y - 2 q'B Y)),    Y = s b,
-/// since (q, -b) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
-/// In the same way changes of the matrices move s^2. What is left of q'(...) - b'(...) of a mode, and the rounding of
-/// its terms, give an error of s^2 besides that of the eigenvalue solver; relative changes of masses and pulls give
-/// that by the shape as given. Nothing where rounding leaves a mass matrix indefinite.
+/// since (q, -b) is the left mode; drag in space adds -2 q'X'E Y to the numerator, X'E the
+/// `drag_coupling`. Changes of the matrices move s^2 alike. The error of s^2 adds the residual of a
+/// mode and its rounding, the error of the eigenvalue solver, and the effect of relative errors of
+/// masses and pulls. None if rounding leaves a mass matrix indefinite.
 template <class S>
 std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d, const ChainUnits& units) {
     using std::sqrt;
@@ -55,7 +55,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     Matrix<S> beside_shape = others;
     if (rotates) {
         const Vector<S> momentum = d.mass * d.offset;
-        others = beside(Matrix<S>(momentum));  // angles at right angles to the rotation, in the masses
+        others = beside(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
         beside_shape = beside(Matrix<S>(d.offset));
         turning = sqrt(S(d.offset.dot(momentum)));
         b = d.coupling * d.offset / turning;
@@ -134,7 +134,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     double largest = 0;
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
-        for (std::size_t k = 0; k < square.size(); ++k)  // two that cannot be told from one another have no mode each
+        for (std::size_t k = 0; k < square.size(); ++k)  // equal ones have no mode each
             if (k != j && std::abs(square[j] - square[k]) <= 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
                 for (const std::size_t i : {2 * j, 2 * j + 1})
                     list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
@@ -169,14 +169,14 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const
     return found ? found->stability : Stability();
 }
 
-/// lambda times the pull along each link, and that pull's error over that of rounding.
+/// lambda times the pull along each link, and its error over rounding.
 struct Pulls {
     std::vector<double> pull, doubt;
 };
 
-/// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in the given units: the
-/// load over the cosine or, where this loses the digits of a link that lies nearly level, the load resolved along the
-/// link, whose sideways part may cancel.
+/// The pulls of a shape, from the force (H, tau) on the lowest pin, in the given units: load over
+/// cosine or, for a nearly level link, the load resolved along the link, whose part across may
+/// cancel.
 template <class Shape>
 Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units, double H = 0,
             double tau = 0) {
@@ -242,7 +242,7 @@ void require_shape_of(const Chain<double>& chain, const Shape& shape) {
     }
 }
 
-/// Links disturbed, with what their ends allow.
+/// Disturbed links with the constraints of their ends.
 template <class S>
 DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     DisturbedIn<S> d(links);
@@ -251,7 +251,8 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     return d;
 }
 
-/// Throws InvalidArgument where a pin that moves has no mass, but for an upper end that its spring balances.
+/// Throws InvalidArgument if a moving pin has no mass, other than an upper end balanced by its
+/// spring.
 inline void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
     const auto top = static_cast<Index>(links.links.size());
@@ -263,9 +264,9 @@ inline void require_mass(const PulledLinks& links, const Disturbed& d) {
                               "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
 }
 
-/// The verdict on a shape: in double and, where rounding spoils that, in twice the digits.
+/// The verdict on a shape, in double or, if rounding spoils that, in double-double.
 REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links) {
-    constexpr Index most_in_words = 100;  ///< unknowns: half a second
+    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
     if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
@@ -290,7 +291,7 @@ REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShap
 
 namespace finite {
 
-/// The shape of a rig. A link's momentum p about its own axis adds p/a to the pull along it.
+/// The shape of a rig. Momentum p of a link about its own axis adds p/a to the pull.
 inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
@@ -306,7 +307,7 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
         const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
         Link<Fine> link = given.links[i];
-        // as a body: what turns with it lessened what it resists turning with
+        // as a body: inertia that turns with it had lessened its resistance
         link.cross = given.given[i].cross - Fine(about) / (link.length * given.given[i].length);
         const double kept = height * as_double(given.speed * given.given[i].spin), a = links[i].length;
         result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
@@ -321,8 +322,9 @@ inline bool displaces_turning_fluid(const Rig& rig) {
     return false;
 }
 
-/// The verdict where the kinetic energy is not known, but for that it is positive and that 0 is rest in the turning
-/// frame: a shape whose potential energy there is least, but for a rotation, is stable; of any other nothing is known.
+/// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
+/// shape with minimal potential energy there, but for a rotation, is stable; nothing is known of
+/// others.
 REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;
     Matrix<double> in_plane = d.in_plane, across(0, 0);

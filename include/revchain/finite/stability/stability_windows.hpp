@@ -11,13 +11,13 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-/// The verdict at one place of a branch.
+/// The verdict at one point of a branch.
 struct JudgedPlace {
     double arc, height;
     Verdict verdict;
 };
 
-/// The verdict on a shape of a system, turning as its branch does.
+/// The verdict on a shape of a branch.
 inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
     return stability(chain, shape, frame).verdict;
 }
@@ -27,7 +27,7 @@ inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShap
     return stability(rig, shape, options).verdict;
 }
 
-/// Judges a branch at an arc beyond point `index` and not beyond the next.
+/// The verdict at an arc after point `index`, at most that of the next.
 template <class System>
 JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector, std::size_t index, double arc,
                       StabilityFrame frame) {
@@ -68,7 +68,7 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     };
     Judged last = judge(first, branch.arc[first]);
     windows.push_back({last.arc, last.arc, last.height, last.height, last.verdict});
-    // the part from `last` on to one judged, cut in two until it is short or of one verdict
+    // extends the windows to a judged point, by bisection until a part is short or of one verdict
     const auto extend = [&](std::size_t index, const Judged& to) {
         std::vector<Judged> ahead{to};
         while (!ahead.empty()) {
@@ -94,10 +94,10 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     for (std::size_t i = first; i + 1 < branch.size(); ++i) {
         const double step = branch.arc[i + 1] - branch.arc[i];
         for (int k = 1; k < options.samples; ++k) extend(i, judge(i, branch.arc[i] + step * k / options.samples));
-        // the next point, told from this one: halving stays within one step
+        // from point to point: bisection stays within one step
         extend(i, judge(i + 1, branch.arc[i + 1]));
     }
-    // between two verdicts a shape may be too near the change to be judged: within the tolerance that is the change
+    // a short undecided window between two verdicts is the change itself
     for (std::size_t i = 1; i + 1 < windows.size(); ++i) {
         StabilityWindow &before = windows[i - 1], &after = windows[i + 1];
         const StabilityWindow& change = windows[i];
