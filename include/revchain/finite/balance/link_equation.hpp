@@ -94,8 +94,7 @@ S tangent_from(S t, const S& stiffness, const S& turning, const S& R) {
     return t;
 }
 
-/// The tangent under the load R, where stiffness + min(0, turning) > 0: the load grows with the
-/// tangent.
+/// The tangent under the load R, if stiffness + min(0, turning) > 0: the load grows with it.
 template <class S>
 S tangent_of(const S& stiffness, const S& turning, const S& R) {
     if (is_zero(turning)) return R / stiffness;
@@ -119,8 +118,7 @@ T rounding_step(const T& t) {
     return T(2) * epsilon<T>() * abs(t) + std::numeric_limits<T>::denorm_min();
 }
 
-/// Encloses the tangents under the loads R, also for a wide interval of stiffness; NaN if none is
-/// found.
+/// Encloses the tangents under the loads R, for any width of the stiffness; NaN if none is found.
 template <Real T>
 Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
     if (is_zero(turning)) return R / stiffness;

@@ -52,8 +52,7 @@ struct Sine<V> {
 };
 
 /// Encloses the tangents under the loads R; NaN if none is found. Each end is the first of t, t +
-/// step, t + 3 step, ... from the result of Newton's method whose load is certainly beyond the
-/// given one.
+/// step, t + 3 step, ... from Newton's result whose load is certainly beyond the given one.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> tangent_of(const Interval<V>& stiffness, const Interval<V>& turning,
                                                      const Interval<V>& R) {

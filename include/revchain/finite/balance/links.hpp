@@ -36,6 +36,7 @@ using EnclosedLinks = std::vector<Link<Interval<T>>>;
 using Fine = Wide<double>;
 /// The arithmetic of proofs that double leaves undecided.
 using Far = DoubleDouble;
+using Span = Interval<Far>;
 
 /// The nearest double.
 template <class S>
@@ -92,7 +93,7 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
 }
 
 /// Encloses in T a number that S holds to all but its last digits. A narrower T that holds it
-/// exactly encloses it as a point.
+/// exactly gives a point.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);

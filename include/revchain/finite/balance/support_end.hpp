@@ -12,8 +12,7 @@ struct OnAxis {
     static constexpr bool is_symmetric() { return true; }
     static constexpr bool yields() { return false; }
 
-    /// Distance of the topmost pin, at offset y and with lambda times the pull `sum`, from its
-    /// support.
+    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
     template <class F>
     const F& miss(const F& y, const F&) const {
         return y;
@@ -55,8 +54,7 @@ template <class End>
 inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
 /// What the sweep needs of a chain: its support, the posture in which all links hang, its links,
-/// and whether all links may stand (never: nothing would bear the load). `RiggedLinks` has the same
-/// functions.
+/// and whether all links may stand (never: nothing would bear the load). See also `RiggedLinks`.
 inline OnAxis support_of(const Links<Fine>&) { return {}; }
 inline std::vector<Posture> posture_of(const Links<Fine>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);

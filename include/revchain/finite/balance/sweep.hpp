@@ -6,8 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Result of the upward sweep: the offset of the topmost pin, and H, lambda times the pull across
-/// it.
+/// Result of the upward sweep: the offset of the topmost pin and H, lambda times the pull across.
 template <class F>
 struct SweepEnd {
     F offset{}, sum{};

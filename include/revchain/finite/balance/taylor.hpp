@@ -178,8 +178,7 @@ struct KeptMomentum {
 /// R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary initial and
 /// boundary value problems", in: Computational Ordinary Differential Equations (1992), uses such
 /// frames. Plain intervals of the slopes are computed too: they are narrower if links turn far
-/// within the cell. `spins` (with D = 2): flywheels have momentum, and the pull of link m is  pull
-/// + n spin[m].
+/// within the cell. `spins` (with D = 2): the pull of link m is pull + n spin[m].
 template <class T, std::size_t D, bool spins = false>
 class CellSweep {
     using I = Interval<T>;
@@ -367,8 +366,7 @@ Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& he
 }
 
 /// The sweep over a cell of x = lambda t, t the tangent of the lowest link, and heights lambda; the
-/// offset of the support is 0 for every steady shape. NaN where a link may have several
-/// inclinations.
+/// offset of the support is 0 for every steady shape. NaN if a link may have several.
 template <class T, bool spins = false>
 [[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(const EnclosedLinks<Lane<T>>& links,
                                                                 const Cell<T, 2>& cell,

@@ -29,8 +29,7 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 
 namespace finite {
 
-/// Follows the branch from rest, from a tenth of the first critical speed or of the given speed if
-/// that is slower.
+/// Follows the branch from rest, from a tenth of the first critical or a slower given speed.
 template <class Options>
 Branch from_rest(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
@@ -70,8 +69,7 @@ Branch from_vertical(BranchRoot root, double conical_height, const Options& opti
         return result;
     }
     const double log_top = std::log(100 * std::max(conical_height, root.height) * unit);
-    // if modes almost coincide the first step may miss the branch and end it soon: start closer to
-    // the vertical
+    // if modes almost coincide the first step may miss the branch: start closer to the vertical
     const Branch only_vertical = result;
     for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
         const auto start = onset.start(root.corrector, from);

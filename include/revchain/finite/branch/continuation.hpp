@@ -49,8 +49,7 @@ class BranchWalk {
         return false;
     }
 
-    /// The point of the branch at distance `reach` of arc from another, in the plane across its
-    /// direction.
+    /// The point at distance `reach` of arc from another, in the plane across its direction.
     std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
         BranchState there = moved(from.state, reach, from.tangent);
         auto next = corrector_->corrected(std::move(there), from.tangent, 0.3 * std::abs(reach) + 1e-9);

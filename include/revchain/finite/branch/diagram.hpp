@@ -182,8 +182,7 @@ class Diagram {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
-    /// The branch through a state, followed on the side of `across`, which must not be orthogonal
-    /// to it.
+    /// The branch through a state, followed on the side of `across` (not orthogonal to it).
     Branch from_here(const BranchState& at, const BranchState& across, int half_waves) {
         Branch result;
         trace_of(result).system = ask_.system, result.birth = BranchBirth::fold;
@@ -212,8 +211,7 @@ class Diagram {
         at.log_height = std::log(height * unit_);
         return at;
     }
-    /// Checks that every shape at one height is on one branch. Follows the branch of a shape that
-    /// is on none.
+    /// Checks that every shape at a height is on one branch; follows branches of those on none.
     void look(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);

@@ -58,8 +58,8 @@ class DiagramProver {
         : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
     /// Covers heights from the highest to the lowest and x from 0 to `last`. `known(point,
-    /// rectangle)` returns whether a known branch goes through the rectangle, or one is found
-    /// through the point.
+    /// rectangle)` returns whether a branch through the rectangle is known, or found through the
+    /// point.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
@@ -109,8 +109,7 @@ class DiagramProver {
         return false;
     }
     /// The function over several rectangles, in lanes of the registers that the compiler flags
-    /// allow: `over` is not inlined, and code for AVX2 or AVX-512 chosen at run time took 4 times
-    /// as long.
+    /// allow: code for AVX2 or AVX-512 chosen at run time, not inlined, took 4 times as long.
     std::array<Taylor<double, 2>, batch> offsets_over(const std::vector<Rectangle>& parts) const {
         const std::size_t count = parts.size();
         if (diagram_.spins()) {
@@ -147,8 +146,7 @@ class DiagramProver {
     Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}).front(); }
     bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
-    /// The part extended up and down, if all its zeros lie on one graph lambda(x) within the
-    /// extension.
+    /// The part extended up and down, if its zeros lie on one graph lambda(x) inside.
     std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
         const bool from_zero = goes_to_vertical(part);
         const auto rise = [&](const Taylor<double, 2>& f) {
@@ -209,8 +207,7 @@ class DiagramProver {
 };
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x) through
-/// `at`: a point of it is in the rectangle, or it crosses the x of `at` there. `side`: see
-/// EnclosedDiagram.
+/// `at`: a point of it is in the rectangle, or it crosses the x of `at` there.
 template <class Branch>
 bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within,
                   int side = 0) {

@@ -15,8 +15,7 @@ struct DiagramPoint {
 
 /// The function of x and lambda whose zeros are the diagram: the distance of the topmost pin from
 /// its support. With a spring of stiffness E and a carriage W it is lambda E (y - b) - H - W y,
-/// finite at any height. Off the axis x has both signs: `side` -1 is the mirror image, at positive
-/// x.
+/// finite at any height. Off the axis x has both signs: `side` -1 is the mirror image.
 class EnclosedDiagram {
    public:
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
@@ -79,8 +78,7 @@ class EnclosedDiagram {
         return ended(swept_cell<T>(links_, cell), cell);
     }
     bool spins() const { return !kept_.spin.empty(); }
-    /// `over` for rigs with flywheels, one cell at a time: only the function without them is
-    /// compiled for packs.
+    /// `over` for rigs with flywheels, one cell at a time, not compiled for packs.
     Taylor<double, 2> spinning_over(const Cell<double, 2>& cell) const {
         return ended(swept_cell<double, true>(links_, cell, &kept_), cell);
     }

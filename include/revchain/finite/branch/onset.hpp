@@ -53,8 +53,7 @@ struct BranchOnset {
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
-    /// The point of a state near the vertical, with tangent and arc from the vertical to second
-    /// order.
+    /// The point of a state near the vertical, with tangent and arc to second order.
     BranchPoint point(BranchState state, double amplitude) const {
         BranchPoint result{state, std::move(state), 0, half_waves};
         result.tangent.log_height = -2 * curvature * amplitude * amplitude;
@@ -82,8 +81,7 @@ struct BranchOnset {
 };
 
 /// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
-/// mode's height, that height is computed in double-double (1e-24 relative) from a balanced state
-/// inclined by 1e-6.
+/// mode's height, that is computed in double-double (1e-24 relative) from a state inclined by 1e-6.
 inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double narrow = as_double(height);
     if (std::abs(onset.height - narrow) > 1e-6 * onset.height)
@@ -152,8 +150,7 @@ struct BranchRoot {
         const Vector<double> shape = modes.shape(found);
         return from(std::make_shared<const BranchSystem>(rig, gravity, direction), found.conical_height, &shape);
     }
-    /// Conical height of the slowest mode of a rig with its support moved to the axis; the length
-    /// of the rig if it has none.
+    /// Conical height of the slowest mode of a rig; its length if it has none.
     static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();

@@ -4,6 +4,8 @@
 #include "revchain/finite/balance/newton.hpp"
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/corrector.hpp"
+#include "revchain/finite/shapes/verification.hpp"
+#include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -32,8 +34,8 @@ struct GivenHeight : Condition {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0, as accurate near the horizontal as elsewhere.
-/// The sign is that of the link.
+/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too. The sign is
+/// that of the link.
 struct GivenTipInclination : Condition {
     Fine sine, cosine;
     double angle;
@@ -64,8 +66,7 @@ struct GivenTipRadius : Condition {
     double size(const Fine&) const override { return as_double(wanted); }
 };
 
-/// The size of the reaction at the topmost pin: |sum of weights times centroids' offsets| = lambda
-/// sqrt(T^2 - W^2).
+/// The reaction at the topmost pin: |sum of weights times offsets| = lambda sqrt(T^2 - W^2).
 struct GivenTopTension : Condition {
     Fine across;   ///< the sideways part of T, positive
     double share;  ///< its relative change for one of T
@@ -115,14 +116,12 @@ struct Polished {
     Fine height;
     double residual = 0;  ///< largest residual force at a pin over the sum of sizes of its terms
     /// Largest change of an inclination (rad) for relative changes 1 of all forces, in a few
-    /// patterns of signs, or of the given number. The exact maximum, with a free height, would cost
-    /// O(N^2).
+    /// patterns of signs, or of the given number. The exact maximum would cost O(N^2).
     double condition = 0;
 };
 
 /// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
-/// condition's change for a relative change 1 of the given number, `growth` 1/(a cos^2) of the
-/// links.
+/// condition's change for that of the number, `growth` 1/(a cos^2) of links.
 inline double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
                            const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
@@ -159,8 +158,8 @@ inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const Branch
     return y;
 }
 
-/// Newton's method on all pins and the height at once: as `balance`, with the height free and one
-/// condition given. Cost O(N) a step.
+/// Newton's method on all pins and the height at once: as `balance`, with one condition. Cost O(N)
+/// a step.
 inline Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
@@ -225,6 +224,35 @@ inline Polished polished(const BranchLinks<Fine>& links, const BranchState& star
     }
     if (result.shape.converged) result.condition = condition_of(links, border, size, growth, condition.size(height));
     return result;
+}
+
+/// A shape found at a height by Newton's method, `verified` at heights in `within`.
+inline SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
+                                  Balanced<Fine> found, bool height_is_given) {
+    if (!system.rig)
+        return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
+                              height_is_given);
+    const RiggedLinks rig = system.rigged_at(height);
+    found.offset.resize(rig.links.size() + 1);  // without the firm end of a spring
+    found.posture = rig.posture;
+    return verified_shape(rig, folded_links(rig), height, within, std::move(found), height_is_given);
+}
+
+/// The shape near a point of a branch that satisfies a condition. At a given height its bound is
+/// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
+/// the condition number; where nothing is proved, as at a fold, it is that alone.
+inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
+                                           const Condition& condition) {
+    auto found = polished(system.links, near, condition);
+    if (!found.shape.converged) return std::nullopt;
+    const bool given = condition.gives_height();
+    const auto height = given ? enclosed<Far>(found.height) : Span(Far(found.height));
+    SteadyShape shape = verified_shape(system, found.height, height, std::move(found.shape), given);
+    const bool proved = shape.error_bound < 1;
+    if (given && proved) return shape;
+    shape.condition = found.condition;
+    shape.error_bound = (proved ? shape.error_bound : 0x1p-52) + found.condition * (found.residual + 1e-30);
+    return shape;
 }
 
 }  // namespace revchain::finite

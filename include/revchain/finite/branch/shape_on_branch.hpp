@@ -5,7 +5,6 @@
 
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 #include "revchain/finite/branch/trace.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -96,8 +95,7 @@ class BranchSearch {
         result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.system->units.length_exponent);
         return std::move(result);
     }
-    /// The state that satisfies the condition near one of the branch, with links at most `farthest`
-    /// (rad) away.
+    /// The state that satisfies the condition, with links at most `farthest` (rad) from `near`.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
         const auto& links = root_.corrector.links();
         auto shape = shape_at(*root_.system, near, condition_);

@@ -4,7 +4,6 @@
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 

@@ -59,12 +59,11 @@ inline double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * 
 inline double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
 /// The line on which crossing number `crossing` of the paths of a cord is at the support: f =
-/// log(arc lambda / length) = 0. As u and eta are never both 0, a branch of j half waves lies on
-/// the line of crossing j.
+/// log(arc lambda / length) = 0. A branch of j half waves lies on the line of crossing j, as u and
+/// eta are not both 0.
 class BranchLine {
    public:
-    /// A point on the line, its unit direction, the derivative of f by the bend (0 at a fold), and
-    /// f.
+    /// A point on the line, its unit direction, the derivative of f by the bend, and f.
     struct Point {
         BranchPlace at, direction;
         double rate = 0, off = 0;
@@ -148,8 +147,7 @@ class BranchLine {
 };
 
 /// Follows a line: predictor along the direction, corrector across it. Accepts a step if Newton's
-/// method contracts, the direction turns by less than 0.2 and the correction is below a third of
-/// the step.
+/// method contracts, the direction turns by less than 0.2 and the correction is below step/3.
 class BranchLineWalk {
    public:
     double longest = 0.1;  ///< step

@@ -41,8 +41,8 @@ CordShape shape_near(const Cord& cord, double conical_height, int half_waves, do
 }  // namespace finite
 
 /// All branches found above a conical height. `complete` if a theorem counts the shapes (see
-/// `steady_shapes` of a cord). Else `consistent` says whether at every height in `looked_at` each
-/// scanned shape is on one branch.
+/// `steady_shapes` of a cord). Else `consistent`: at every height in `looked_at` each scanned shape
+/// is on one branch.
 struct CordBranches {
     std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones by greatest height
     double conical_height = 0;         ///< lowest conical height of the diagram
@@ -114,8 +114,8 @@ inline bool append(CordBranch& branch, const BranchLine::Point& point) {
     return true;
 }
 
-/// Follows a line from a point until it ends or `stop(last, now)`, which may change `now`, returns
-/// a reason. Folds become points.
+/// Follows a line from a point until it ends or `stop(last, now)` returns a reason. Folds become
+/// points.
 template <class Stop>
 BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
                  const Stop& stop) {

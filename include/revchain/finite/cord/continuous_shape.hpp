@@ -156,8 +156,7 @@ class ShapeSamples {
         x.offset = 0;
         samples_.push_back({x, change});
     }
-    /// Drops the step beyond the support that arises if a piece of the density ends there but for
-    /// rounding.
+    /// Drops a step beyond the support, where a piece of the density ends there but for rounding.
     void drop_repeated() {
         const double last = samples_.back().place.arc * close;
         auto from = samples_.end() - 1;
@@ -171,8 +170,7 @@ class ShapeSamples {
         const double sum = kind_.tip * std::hypot(1.0, tip_offset_) + end.height + 0.5 * tip_offset_ * tip_offset_;
         return std::abs(tension - sum) / std::max(tension, sum);
     }
-    /// Error and condition, from changes of inclinations and offsets with the free end's offset and
-    /// the arc.
+    /// Error and condition, from derivatives of inclinations and offsets.
     void judge(CordShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
         for (const auto& [x, change] : samples_) {

@@ -72,8 +72,7 @@ class CordDiagram {
                     ++met[i];
     }
 
-    /// The isolated branch through a shape: down to the lowest height, and from there to its other
-    /// end; or closed.
+    /// The isolated branch through a shape: closed, or from the lowest height to its other end.
     CordBranch through(const CordShape& shape) const {
         CordBranch result;
         auto line = std::make_shared<const BranchLine>(cord_, shape.half_waves);

@@ -46,8 +46,7 @@ class Path {
             state = series.state(series.reach), change = series.change(series.reach);
         } else if (kind.density != nullptr) {
             state = near_tip(kind, tip_offset, first_arc(kind));
-            // without a tip the change is proportional, but for the effect of the first 2^-40 of
-            // the length
+            // without a tip the change is proportional, but for the first 2^-40 of the length
             change = kind.tip > 0 ? change_near_tip(kind, tip_offset, state.arc)
                                   : PathChange{0, 1, state.pull / tip_offset, 0};
         }

@@ -47,8 +47,8 @@ struct PathKind {
 /// polynomials:
 ///     dsigma = T dt:   eta' = u,   u' = -rho T eta,   V' = rho T,   xi' = V,   T' = rho (V - u eta)    (' by t).
 /// For the uniform chain the last has the integral T = C + xi - eta^2/2. At a sharp turn T goes
-/// like a hyperbolic cosine of t: one step in t spans most of the corner, where steps in sigma
-/// would have to stay within its radius.
+/// like a hyperbolic cosine of t: one step in t spans most of the corner, one in sigma only about
+/// its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
@@ -147,8 +147,8 @@ class PathSeries {
         offset_change[0] = change.offset, pull_change[0] = change.pull;
         arc_change[0] = change.arc, height_change[0] = change.height;
     }
-    /// Unit weight is known at compile time: two products fewer in a row for each coefficient save
-    /// 5 % of a path (bench/continuous.cpp).
+    /// Unit weight is known at compile time: two products fewer in a row save 5 % of a path
+    /// (bench/continuous.cpp).
     template <bool unit_weight>
     void uniform(const Constants& constants) {
         if (has_change_)
@@ -240,8 +240,7 @@ class PathSeries {
     }
 
     /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of
-    /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range
-    /// for very light chains and heavy tips.
+    /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
         std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
@@ -348,8 +347,7 @@ class TipSeries {
             height_change[n + 1] = sink * inverse;
             height[n + 1] = cosine[n] * inverse;
         }
-        // no zero of eta before max(1.4458, eta_0), at least j_{0,1}^2/4: a chain bends less than
-        // at small amplitude
+        // no zero of eta before max(1.4458, eta_0): it bends less than at small amplitude
         const double within = PathSeries::reach(
             tolerance, [&](std::size_t k) { return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k])); });
         reach = std::min(0.9 * std::max(1.4458, tip_offset), within);

@@ -75,8 +75,7 @@ inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_
         if (round > 1 && std::abs(next / tip - 1) > 0.5 * last) next = middle();
         last = std::abs(next / tip - 1);
         tip = next;
-        // the next step would be below the square of this one, usually a tenth of it, plus the
-        // tolerance
+        // the next step would be below the square of this one plus the tolerance
         if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise && tolerance * length < TipOffset::near * rise)
             break;
     }

@@ -49,8 +49,7 @@ class HeldBounds {
             const Span apart = square(goal) + square(upper_.radius - lower_.radius);
             most = change * length / sqrt(square(length) - apart);
         } else if (goal_.is_span) {
-            // links lie within an angle of the lowest; relative to span/length some are steeper,
-            // some flatter
+            // links lie within an angle of the lowest, some steeper than span/length, some flatter
             const auto drawn = [&](const Held<Span>& end) {
                 return end.stiffness * (farthest + Span(end.radius.size())) + end.carriage * farthest;
             };

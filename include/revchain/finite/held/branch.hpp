@@ -40,8 +40,7 @@ std::optional<HeldState> fold_between(System& held, const HeldState& from, const
     return detail::state_between(at_low, at_high, at, turning);
 }
 
-/// The branch from a state, for heights from its own up. `describe(state, is_fold)` returns a
-/// shape.
+/// The branch from a state up in height. `describe(state, is_fold)` returns a shape.
 template <class System, class Describe>
 auto branch_from(System& held, const HeldState& first, double max_step, const Describe& describe) {
     const double height = first.forces.height;
@@ -122,8 +121,7 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const H
     return branch;
 }
 
-/// The fastest shape with a given tension at the upper end on the branch of a mode, between firm
-/// ends.
+/// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
 inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
                                                       double span, double tension, int mode) {
     HeldChain held(chain, supports);

@@ -20,8 +20,7 @@ class HeldCells : public HeldBounds {
    public:
     using HeldBounds::HeldBounds;
 
-    /// Divides the directions of a possibly slack link into arcs, for at most `arcs` sweeps of the
-    /// chain.
+    /// Divides directions of a possibly slack link into arcs, for at most `arcs` sweeps.
     HeldReach operator()(const HeldCell& cell, long arcs) const {
         const HeldCell middle{{point(cell.at[0]), point(cell.at[1])}, cell.up};
         Start box(cell, *this), centre(middle, *this);
@@ -148,8 +147,7 @@ class HeldCells : public HeldBounds {
     };
 
     /// Derivatives of a chain by pull and tangent: those at the centre, and deviations in the basis
-    /// of the product of the links' matrices (determinant 1), so that intervals do not grow with
-    /// every half wave.
+    /// of the product of the links' matrices, so that intervals do not grow.
     class Slopes {
        public:
         /// Call this before the chain passes the link.
@@ -226,15 +224,13 @@ class HeldCells : public HeldBounds {
     Span side(const Start& chain) const {
         return mirrored_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
     }
-    /// Offset of the line between the rest positions of the ends, at the chain's height, over the
-    /// unit.
+    /// Offset of the line between the rest positions of the ends at the chain's height.
     Span line(const Start& chain) const { return mirrored_ ? Span(0.0) : lower_.radius + slope_ * chain.rise; }
     /// The side of the lower end, 0 if uncertain.
     int begin_side(const Start& chain) const {
         return (gives_ * chain.pull * (mirrored_ ? Span(1.0) : chain.sine) + foot_ - lower_.radius).sign();
     }
-    /// Whether a chain swept to link m cannot meet the upper end with the wanted half waves; counts
-    /// them.
+    /// Whether a chain swept to link m cannot meet the goal; counts half waves.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
         const bool last = m + 1 == links_.size();
         const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0), z = goal_.is_span ? gap(chain) : Span(0.0);
@@ -273,8 +269,7 @@ class HeldCells : public HeldBounds {
         return true;
     }
 
-    /// `may_meet` for directions of link m in an arc: part of a quarter circle, by tangents of the
-    /// half angle.
+    /// `may_meet` for directions of link m in part of a quarter circle.
     bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at, int waves, int sign,
                 long& work, std::size_t quarter, double from, double to) const {
         if (--work < 0) return true;

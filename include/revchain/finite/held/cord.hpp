@@ -155,8 +155,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     return shape;
 }
 
-/// The shape of each number of half waves up to `max_half_waves` at a span and height (0: no
-/// gravity).
+/// The shape of each number of half waves at a span and height (0: no gravity).
 inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
     const double length = cord.length();
     auto result = each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
@@ -164,14 +163,12 @@ inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double hei
             add(std::optional(described(*state, span, length, cord.weight())));
     });
     // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa increases
-    // with kappa, since the power series K has positive terms: one kappa for each number of half
-    // waves.
+    // with kappa, since K has positive terms: one kappa for each number.
     result.complete = height == 0 && result.missing.empty();
     return result;
 }
 
-/// All shapes with a given tension at the upper end times height, on the branch of each number of
-/// half waves.
+/// All shapes with a given tension at the upper end times height.
 inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
                                                      int max_half_waves) {
     const double length = cord.length(), weight = cord.weight();

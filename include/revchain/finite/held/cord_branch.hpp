@@ -10,8 +10,7 @@ using HeldCordBranch = HeldBranchOf<HeldCordShape>;
 
 namespace finite {
 
-/// The branch of a number of half waves at a span, for heights from `least` up; none if it does not
-/// exist.
+/// The branch of a number of half waves at a span, for heights from `least` up, if it exists.
 inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
                                                  double max_step) {
     HeldCord held;

@@ -7,13 +7,12 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of a uniform cord held at both ends, lengths over the cord's: arc from the lower end,
-/// offset y, height z, and lambda times the upward force over the weight: u across the axis, V
-/// along it.
+/// offset y, height z, and lambda times the upward force over the weight, u across, V along the
+/// axis.
 struct HeldCordState {
     double arc = 0, offset = 0, rise = 0, across = 0, along = 0;
 };
-/// Derivatives of a point at fixed arc by the force at the lower end, as in `HeldForces`, and the
-/// height.
+/// Derivatives of a point at fixed arc by the numbers of `HeldForces`.
 using CordChange = std::array<HeldCordState, 3>;
 
 /// The power series of a cord about a point, in the time of `PathSeries`, ds = T dt:
@@ -72,8 +71,7 @@ HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
     CordChange change{};
     change[0].across = -1, change[1].along = 1;
     for (int step = 0; step < max_steps; ++step) {
-        // after a sharper turn no digit of the inclination is left: the cord is folded along the
-        // axis
+        // a sharper turn leaves no digit: the cord is folded along the axis
         if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
         const CordSeries series(place, forces.height, &change);
         double duration = series.reach();

@@ -9,8 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of a chain or cord held at both ends, in double: forces at the lower end, distance of
-/// the ends.
+/// A state of a chain or cord held at both ends: forces at the lower end, and span.
 struct HeldState {
     HeldForces<double> forces;
     double span;
@@ -21,13 +20,12 @@ enum class Third { span, height, part };
 
 /// A curve of states that meet the upper end, in two forces and a third number, by its arc, through
 /// folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the upper
-/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; with `keep` later
-/// sweeps start from this state.
+/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores the
+/// state.
 template <class Shooter>
 class HeldCurve {
    public:
-    /// `length` and `weight` scale steps; `mirrored`: both ends are on the axis and shapes have
-    /// mirror images.
+    /// `length` and `weight` scale steps; `mirrored`: both ends are on the axis.
     HeldCurve(Shooter& shooter, double length, double weight, bool mirrored = true)
         : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
 
@@ -321,8 +319,7 @@ void each_under(System& held, int half_waves, double height, double wanted, cons
 /// Larger error bounds mean that the cord hangs folded along the axis.
 inline constexpr double folded = 1e-3;
 
-/// Collects shapes of 1 ... `most` half waves. `find(k, add)` calls `add` with each shape of k half
-/// waves, or none.
+/// Collects shapes of 1 ... `most` half waves. `find(k, add)` calls `add` with each shape.
 template <class Shapes, class Find>
 Shapes each_half_wave(int most, const Find& find) {
     Shapes result;

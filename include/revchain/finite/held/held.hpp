@@ -4,7 +4,6 @@
 #include "revchain/finite/held/proof.hpp"
 #include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
-#include "revchain/finite/held/supports.hpp"
 #include "revchain/linear/counted_roots.hpp"
 #include "revchain/steady_shapes.hpp"
 
@@ -20,6 +19,42 @@ struct HeldShapes {
 };
 
 namespace finite {
+
+/// The supports of both ends, and the height at which springs are taken, if not the shape's.
+struct HeldSupports {
+    Support lower{}, upper{};
+    std::optional<Fine> height{};
+
+    bool plain() const { return lower == Support{} && upper == Support{}; }
+};
+
+/// The supports at a height, in units of a chain, with radii and compliances times `part`. The
+/// third number is the height, or with `by_part` the part.
+template <class T>
+HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, const T& height, double part = 1,
+                      bool by_part = false) {
+    HeldEnds<T> result;
+    if (supports.plain()) return result;
+    if (by_part) result.height_change = T(0);
+    for (const bool above : {false, true}) {
+        const Support& support = above ? supports.upper : supports.lower;
+        Held<T>& end = above ? result.upper : result.lower;
+        const T radius(std::ldexp(support.radius, -units.length_exponent));
+        end.radius = radius * T(part), end.symmetric = part == 0 || support.radius == 0;
+        if (by_part) result.radius_change[above] = radius;
+        if (support.is_firm() || (part == 0 && !by_part)) continue;
+        const T at = supports.height ? static_cast<T>(*supports.height) : height;
+        const T stiffness =
+            at * static_cast<T>(ldexp(support.stiffness, units.length_exponent - units.weight_exponent));
+        end.firm = false, end.stiffness = stiffness / T(part > 0 ? part : 1), end.compliance = T(part) / stiffness;
+        end.carriage = T(std::ldexp(support.carriage_weight, -units.weight_exponent));
+        if (by_part)
+            result.compliance_change[above] = T(1) / stiffness;
+        else if (!supports.height)
+            result.compliance_change[above] = -(end.compliance / height);
+    }
+    return result;
+}
 
 /// A chain held at both ends, and the directions of its links in the last kept state.
 class HeldChain {
@@ -49,8 +84,7 @@ class HeldChain {
         return end;
     }
     void vary_part(bool part) { by_part_ = part; }
-    /// Fixes the height at which springs are taken, in units of the chain; without it that of each
-    /// state.
+    /// Fixes the height at which springs are taken; without it that of each state.
     void springs_at(const std::optional<S>& height) { supports_.height = height; }
 
     /// The supports at a height, or `part` of them.
@@ -202,8 +236,7 @@ inline bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
     });
 }
 
-/// Removes repeated shapes and sorts: curves that begin with the ends on the axis may lead to one
-/// shape or change half waves.
+/// Removes repeated shapes and sorts: several curves may lead to one shape or change half waves.
 inline void keep_different(HeldShapes& list, int max_half_waves) {
     std::vector<HeldShape> kept;
     for (const HeldShape& shape : list.shapes)

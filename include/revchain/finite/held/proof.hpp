@@ -5,8 +5,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-using Span = Interval<Far>;
-
 inline double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
 /// Encloses the direction of a link near one found. Returns the derivative of its moment by the

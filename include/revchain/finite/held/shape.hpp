@@ -9,8 +9,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// A steady shape of a chain held at both ends: links lowest first, pins from the lower end up, in
 /// the units of the chain. Forces are times the conical height lambda, weight times length: so they
-/// exist without gravity too. There weights stand for masses, and forces are these numbers times
-/// n^2.
+/// exist without gravity too. There weights are masses, and forces these numbers times n^2.
 struct HeldShape {
     Vector<double> inclination;           ///< (N) of each link to the upward vertical, rad, in (-pi, pi]; sign of §8
     Vector<double> offset;                ///< (N + 1) of pins from the axis; with ends on it 0, the second positive
@@ -37,8 +36,7 @@ struct HeldShape {
 
 namespace finite {
 
-/// Counts half waves: side changes of pins about the line between the rest positions of the ends,
-/// plus 1.
+/// Counts half waves: side changes of pins about the line between the rested ends, plus 1.
 template <class S>
 struct Sides {
     const HeldEnds<S>& ends;

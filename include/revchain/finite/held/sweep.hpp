@@ -43,8 +43,7 @@ struct Direction {
     S sine, cosine;
 };
 
-/// The swept upper end: its distance from the support, as in `Held::miss`, its height, and lambda
-/// times the force across the axis.
+/// The swept upper end: distance from the support, as in `Held::miss`, height, and force across.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
@@ -218,8 +217,7 @@ bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, do
 }
 
 /// The lowest link of a chain held at both ends, in intervals: lambda times its pull, and the
-/// tangent of half its angle to the upward vertical, or to the downward one unless `up`; positive
-/// outwards.
+/// tangent, positive outwards, of half its angle to the vertical, upward or not.
 struct HeldCell {
     std::array<Interval<double>, 2> at;  ///< pull; tangent from 0 or, without mirror images, -1 to 1
     bool up = true;

@@ -25,8 +25,7 @@ inline double beyond(double angle, bool backwards) {
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }
 
-/// A shape from the offsets of its pins, without error bound and condition. `hung`: the weights on
-/// the upper pins.
+/// A shape from the offsets of its pins, without error bound. `hung`: weights on upper pins.
 template <class Shape = SteadyShape>
 Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found,
                 const std::vector<double>& hung, double total_weight) {

@@ -63,8 +63,7 @@ class Cutting {
         if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
         return low + at * (high - low);
     }
-    /// As above; none if the range is narrower than `narrowest` of its upper end, or from 0, of
-    /// min(`last`, 1).
+    /// None if the range is narrower than `narrowest` of its upper end; from 0, of min(`last`, 1).
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
         const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
@@ -78,8 +77,8 @@ class Cutting {
 
 /// Visits cells and their parts until none waits, up to `batch` at once: the newest first, so that
 /// few wait, or with `large_first` the oldest, so that remaining cells are small. `visit(cells,
-/// wait)` settles each cell, leaves it open, or gives its parts to `wait`. Once `spent()` is true
-/// waiting cells go to `leave_open`.
+/// wait)` settles each cell, leaves it open, or passes its parts to `wait`. Once `spent()`, cells
+/// go to `leave_open`.
 template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
 void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
@@ -102,7 +101,7 @@ enum class Seen { settled, open, ruled_by_rounding };
 
 /// Splits `whole` until `classify(part, cells)` settles every part. Calls `leave_open(part)` for
 /// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns the number of
-/// parts, to which `classify` may add.
+/// parts.
 template <class T, class Classify, class LeaveOpen>
 long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
            const LeaveOpen& leave_open) {

@@ -5,8 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The zeros of the balance in one posture, each in a box with no other; mirror images count as
-/// one.
+/// The zeros of the balance in one posture, each alone in a box; mirror images are one.
 template <Real T, class End = OnAxis>
 class KrawczykList {
    public:
@@ -80,8 +79,7 @@ class KrawczykList {
         return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) { return within(box, zone.box); });
     }
 
-    /// Adds the one zero of the box, within `near`; false if it cannot be told from those in the
-    /// list.
+    /// Adds the zero of the box, within `near`; false if it may be one in the list.
     bool add(const TangentBox<T>& box, TangentBox<T> near) {
         for (int round = 0; round < 20; ++round) {
             const auto again = balance_.narrowed(near);

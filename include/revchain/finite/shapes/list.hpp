@@ -16,12 +16,10 @@
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/parallel.hpp"
 
-/// The list of all steady shapes at a height. `Result` and `Options` are those of
-/// revchain/steady_shapes.hpp.
+/// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An upper bound for the tangent of the lowest link, from y0 = lambda t + (a X/moment) s and the
-/// reach of the chain.
+/// An upper bound for the lowest tangent, from y0 = lambda t + (a X/moment) s and the reach.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
@@ -89,7 +87,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, 
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
     const auto wide = swept_links<Far>(chain);
-    const Interval<Far> height_wide = enclosed<Far>(height);
+    const Span height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
     for (const Bracket<double>& open : joined(first.undecided)) {
         const auto again = isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
@@ -133,12 +131,11 @@ std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height
 }
 
 /// Bounds the error (rad) of inclinations found by Newton's method, from signs of the support's
-/// offset on both sides of the lowest tangent, as close as double-double resolves, and the ranges
-/// of all links between.
+/// offset on both sides of the lowest tangent, and the ranges of all links between.
 template <class End>
 double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, const Bracket<Far>& bracket,
                          const Balanced<Fine>& found, const std::vector<Link<Fine>>& middle, const End& support) {
-    const Interval<Far> lambda = enclosed<Far>(height);
+    const Span lambda = enclosed<Far>(height);
     const Far tangent(tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
     for (int round = 0;; ++round, reach = reach * Far(16)) {
@@ -148,12 +145,12 @@ double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, co
         const bool whole = low == bracket.low && high == bracket.high;
         const auto sign = [&](const Far& t) { return sign_at(links, lambda, t, support); };
         if (!far && !whole && sign(low) * sign(high) != -1) continue;
-        std::vector<Interval<Far>> tangents;
-        support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
+        std::vector<Span> tangents;
+        support_offset(links, lambda, Span(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
             const Far t(tangent_in(found, middle, m));
-            const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
+            const Span both = hull(tangents[m], Span(t));
             const double near = both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
             const double change = as_double(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
             worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
@@ -164,11 +161,10 @@ double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, co
 
 /// Halves a bracket of a shape by proved signs until rounding leaves one undecided.
 template <class End>
-Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
-                      Bracket<Far> bracket) {
+Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const End& support, Bracket<Far> bracket) {
     const int low_sign = sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
-        const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
+        const Far middle = Span(bracket.low, bracket.high).middle();
         const int sign = sign_at(links, lambda, middle, support);
         if (sign == 0 || !(bracket.low < middle && middle < bracket.high)) break;
         (sign == low_sign ? bracket.low : bracket.high) = middle;
@@ -185,7 +181,7 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& h
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
     TangentBox<Far> near;
-    support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
+    support_offset(links, lambda, Span(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
     auto found = settled(chain, height, balance, near);
     if (!found) return std::nullopt;

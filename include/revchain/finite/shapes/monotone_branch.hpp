@@ -17,8 +17,7 @@ bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
 }
 
-/// Tangents of a branch under a load R; `smooth` if all are away from joints, so that derivatives
-/// exist.
+/// Tangents of a branch under a load R; `smooth` if they are away from joints.
 template <Real T>
 struct LoadedTangents {
     Interval<T> tangent;
@@ -79,8 +78,7 @@ class Response {
         least_ = load(joint_);
     }
 
-    /// Solves R(t) = wanted from a side from which Newton's method does not overshoot: R is convex
-    /// for t > 0.
+    /// Solves R(t) = wanted without overshooting: R is convex for t > 0.
     T near(const T& start, const T& wanted) const {
         return tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
     }

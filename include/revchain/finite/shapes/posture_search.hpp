@@ -21,8 +21,7 @@ bool goes_on(const OpenPart<T>& part, const OpenPart<T>& next) {
 /// Steady shapes with every link in a given posture. A choice is one branch for each link; along it
 /// the tangents of all links are functions of the lowest one, by the upward sweep of Greenhill
 /// (1908) §8 (4), (12), differentiable away from joints. Parts of a choice are excluded by the
-/// offset of the support or split, until the tangents of all links lie in a box that `KrawczykList`
-/// settles.
+/// offset of the support or split, until `KrawczykList` settles the box of all tangents.
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:

@@ -32,7 +32,7 @@ struct RiggedLinks : Links<Fine> {
 template <class T>
 Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
     if (link.spin == Fine(0)) return enclosed<T>(link.tension);
-    const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
+    const Span pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
     return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
 

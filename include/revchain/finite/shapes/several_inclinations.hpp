@@ -51,8 +51,7 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not
-/// determine a support on a spring.
+/// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
 inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
                    const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
@@ -81,14 +80,14 @@ std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const 
     const std::size_t n = links.size();
     std::vector<Fine> offset(n + 1, Fine(0));
     if constexpr (is_held<End>) {
-        std::vector<Interval<Far>> sines;
+        std::vector<Span> sines;
         for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
         offset[n] = balance.top(sines).middle().word();
         chain.turn(*box);
     }
     Fine lowest_inclined(0);
     for (std::size_t m = n; m-- > 0;) {
-        const Fine sine = balance.sine(m, Interval<Far>((*box)[m].middle())).middle().word();
+        const Fine sine = balance.sine(m, Span((*box)[m].middle())).middle().word();
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(Far(0))) lowest_inclined = sine;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -39,29 +40,6 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     std::vector<T> result;
     for (const Interval<T>& t : x) result.push_back(t.middle());
     return result;
-}
-
-/// Replaces a matrix, given by rows, by its inverse (Gauss-Jordan); false if it is singular.
-template <Real T>
-bool invert(std::vector<T>& a, std::size_t size) {
-    using std::abs;
-    const auto n = static_cast<Index>(size);
-    Eigen::Map<Table<T>> matrix(a.data(), n, n);
-    Table<T> rows(n, 2 * n);  // the matrix and its inverse
-    rows << matrix, Table<T>::Identity(n, n);
-    for (Index j = 0; j < n; ++j) {
-        Index pivot = j;
-        for (Index i = j + 1; i < n; ++i)
-            if (abs(rows(i, j)) > abs(rows(pivot, j))) pivot = i;
-        const T top = rows(pivot, j);
-        if (!(abs(top) > T(0))) return false;
-        if (pivot != j) rows.row(j).swap(rows.row(pivot));
-        rows.row(j) /= top;
-        for (Index i = 0; i < n; ++i)
-            if (const T share = rows(i, j); i != j && share != T(0)) rows.row(i) -= share * rows.row(j);
-    }
-    matrix = rows.rightCols(n);
-    return matrix.allFinite();
 }
 
 /// The balance of a whole chain in the tangents of its links in one posture, s the sines:
@@ -123,8 +101,8 @@ class WholeBalance {
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T> product(T(0));  // of the inverse and B
                 for (std::size_t q = 0; q < size_; ++q)
-                    product = product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
-                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
+                    product = product + Interval<T>((*inverse)(m, q)) * matrix_[q * size_ + r];
+                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)(m, r)) * stiffness_[r];
                 if (m == r) entry = entry + Interval<T>(T(1));
                 sum = sum + entry * off[r];
             }
@@ -133,8 +111,7 @@ class WholeBalance {
         return result;
     }
 
-    /// One step of Newton's method in T. Returns the largest change of an inclination, if there is
-    /// an inverse.
+    /// One step of Newton's method in T; returns the largest change of an inclination, if any.
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -162,7 +139,7 @@ class WholeBalance {
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)[m * size_ + r])) * terms[r];
+            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)(m, r))) * terms[r];
             const double tangent = as_double(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
@@ -202,22 +179,22 @@ class WholeBalance {
         return F;
     }
     /// The inverse of the derivative, in T: double would not do near a critical height.
-    std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
+    std::optional<Table<T>> inverse_at(const std::vector<T>& t) const {
         using std::sqrt;
-        std::vector<T> jacobian(size_ * size_);
+        Table<T> jacobian(size_, size_);
         for (std::size_t r = 0; r < size_; ++r) {
             const T secant_squared = T(1) + t[r] * t[r];
             const T slope = T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
-            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
-            jacobian[r * size_ + r] = jacobian[r * size_ + r] + stiffness_[r].middle();
+            for (std::size_t m = 0; m < size_; ++m) jacobian(m, r) = -(middle_[m * size_ + r] * slope);
+            jacobian(r, r) += stiffness_[r].middle();
         }
-        if (!invert(jacobian, size_)) return std::nullopt;
-        return jacobian;
+        const Table<T> inverse = Eigen::PartialPivLU<Table<T>>(jacobian).inverse();
+        return inverse.allFinite() ? std::optional(inverse) : std::nullopt;
     }
-    TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {
+    TangentBox<T> scaled(const Table<T>& a, const TangentBox<T>& x) const {
         TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
+            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a(m, r)) * x[r];
         return result;
     }
 

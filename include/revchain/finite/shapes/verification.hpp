@@ -17,27 +17,26 @@ struct Verified {
 /// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a
 /// tangent stiffness for each link and a mass for each pin.
 struct Forces {
-    std::vector<Interval<Far>> force, stiffness, mass;
+    std::vector<Span> force, stiffness, mass;
     std::vector<double> size, cosine;  ///< sum of sizes of each force; lower bound for each link
     bool known = true;
 
     template <class End>
-    Forces(const EnclosedLinks<Far>& links, const Interval<Far>& height, const std::vector<Interval<Far>>& y,
-           const End& support) {
+    Forces(const EnclosedLinks<Far>& links, const Span& height, const std::vector<Span>& y, const End& support) {
         const std::size_t n = links.size();
-        Interval<Far> from_below(Far(0)), mass_below(Far(0));
+        Span from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
-        const auto largest = [](const Interval<Far>& x) { return as_double(x.size()); };
+        const auto largest = [](const Span& x) { return as_double(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
-            const Link<Interval<Far>>& link = links[m];
-            const Interval<Far> d = y[m] - y[m + 1];
-            const Interval<Far> square = (link.length - d) * (link.length + d);
+            const Link<Span>& link = links[m];
+            const Span d = y[m] - y[m + 1];
+            const Span square = (link.length - d) * (link.length + d);
             if (!square.positive()) {
                 known = false;
                 return;
             }
-            const Interval<Far> adjacent = sqrt(square), pull = height * link.pull * d / adjacent,
-                                turn = link.cross * d, at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            const Span adjacent = sqrt(square), pull = height * link.pull * d / adjacent, turn = link.cross * d,
+                       at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
             force.push_back(from_below + pull + turn - at_lower);
             stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
             mass.push_back(mass_below + link.moment);
@@ -48,23 +47,21 @@ struct Forces {
         }
         if constexpr (is_held<End>) {  // a spring is one more link with a fixed upper end
             if (!support.yields()) return;
-            const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
+            const Span pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
             force.push_back(from_below + pull - at_lower);
             stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
     /// Row m of the derivative times a vector that is 0 at the support.
-    Interval<Far> row(std::size_t m, const std::vector<Far>& x) const {
-        Interval<Far> result =
-            stiffness[m] * (Interval<Far>(x[m]) - Interval<Far>(x[m + 1])) - mass[m] * Interval<Far>(x[m]);
-        if (m > 0) result = result - stiffness[m - 1] * (Interval<Far>(x[m - 1]) - Interval<Far>(x[m]));
+    Span row(std::size_t m, const std::vector<Far>& x) const {
+        Span result = stiffness[m] * (Span(x[m]) - Span(x[m + 1])) - mass[m] * Span(x[m]);
+        if (m > 0) result = result - stiffness[m - 1] * (Span(x[m - 1]) - Span(x[m]));
         return result;
     }
 };
 
-/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it from the free end, q from the
-/// support.
+/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it upwards, q downwards.
 struct Inverse {
     std::vector<Far> p, q;
     Far w;
@@ -85,7 +82,7 @@ struct Inverse {
         }
         w = -(pull + at.mass[0].middle() * q[0]);
     }
-    std::vector<Far> step(const std::vector<Interval<Far>>& force) const {
+    std::vector<Far> step(const std::vector<Span>& force) const {
         const std::size_t n = force.size();
         std::vector<Far> result(n);
         Far sum(0);
@@ -100,8 +97,7 @@ struct Inverse {
         }
         return result;
     }
-    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|,
-    /// rounded up.
+    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|.
     std::vector<double> spread(const std::vector<double>& of_p, const std::vector<double>& of_q) const {
         const std::size_t n = of_p.size();
         std::vector<double> result(n);
@@ -113,7 +109,7 @@ struct Inverse {
     }
     double share() const { return 1.0000001 / size(w); }
     static double size(const Far& x) { return std::abs(as_double(x)); }
-    static double size(const Interval<Far>& x) { return as_double(x.size()) * 1.0000001; }
+    static double size(const Span& x) { return as_double(x.size()) * 1.0000001; }
 };
 
 /// Offsets at the limit of Newton's method, with forces and inverse.
@@ -126,7 +122,7 @@ struct Balance {
 /// Newton's method to the last digit of double-double; none if an offset is out of reach. It uses
 /// the inverse and the enclosed forces that the test below needs.
 template <class End>
-std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
+std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                               const End& support) {
     const std::size_t n = offset.size() - 1;
     double last = std::numeric_limits<double>::infinity();
@@ -146,10 +142,9 @@ std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Fa
     }
 }
 
-/// Krawczyk's test on all pins at once: the distance of each from its offset in the one shape near;
-/// none if it fails.
+/// Krawczyk's test on all pins at once: bounds the error of each offset; none if it fails.
 template <class End>
-std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Interval<Far>& height,
+std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Span& height,
                                                  const Balance& found, const End& support) {
     const auto& [offset, at, inverse] = found;
     const auto& [p, q, w] = inverse;
@@ -161,23 +156,21 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     }
     std::vector<double> step = inverse.spread(by_p, by_q);
     for (std::size_t m = 0; m < n; ++m) step[m] += Inverse::size(p[m]) * by_q[m] * inverse.share();
-    std::vector<Interval<Far>> box;
+    std::vector<Span> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
         box.push_back({detail::down(offset[m] - Far(radius[m])), detail::up(offset[m] + Far(radius[m]))});
     }
-    box.push_back(Interval<Far>(offset[n]));
+    box.push_back(Span(offset[n]));
     const Forces over(links, height, box, support);
     if (!over.known) return std::nullopt;
 
     // rows of 1 - inverse times derivative: off the diagonal p_i or q_i times residuals of p and q
-    const Interval<Far> one(Far(1)), W(w);
+    const Span one(Far(1)), W(w);
     for (std::size_t m = 0; m < n; ++m) {
-        const Interval<Far> rest = over.row(m, q), P(p[m]), Q(q[m]);
-        Interval<Far> product = P * rest;
-        if (m > 0)
-            product = product +
-                      over.stiffness[m - 1] * (P * (Interval<Far>(q[m - 1]) - Q) + Q * (P - Interval<Far>(p[m - 1])));
+        const Span rest = over.row(m, q), P(p[m]), Q(q[m]);
+        Span product = P * rest;
+        if (m > 0) product = product + over.stiffness[m - 1] * (P * (Span(q[m - 1]) - Q) + Q * (P - Span(p[m - 1])));
         own[m] = Inverse::size(one - product / W) * radius[m];
         by_q[m] = Inverse::size(rest) * radius[m];
         by_p[m] = m + 1 < n ? Inverse::size(over.row(m, p)) * radius[m] : 0.0;
@@ -192,7 +185,7 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
 /// pins at once. The inverse of the tridiagonal derivative is two vectors: O(N), 4 microseconds a
 /// link, and intervals do not grow from link to link as in a sweep.
 template <class End = OnAxis>
-Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
+Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                   const End& support = {}) {
     Verified result{offset, std::numeric_limits<double>::infinity(), 0};
     if constexpr (is_held<End>)
@@ -231,7 +224,7 @@ void turn_outwards(Balanced<Fine>& shape, const End& support) {
 /// rounding of the height moves the shape; the bound then includes the difference.
 template <class Shape = SteadyShape, class AnyLinks>
 Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Fine& height,
-                     const Interval<Far>& within, Balanced<Fine> found, bool height_is_given) {
+                     const Span& within, Balanced<Fine> found, bool height_is_given) {
     std::vector<Fine>& y = found.offset;
     const auto support = enclosed<Far>(support_of(chain));
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);

@@ -139,8 +139,7 @@ class DisturbedCord {
         add_jumps(ends);
         return ends;
     }
-    /// Adds the jumps of the density, unless they are so many that there would be too many
-    /// unknowns.
+    /// Adds the jumps of the density, unless there would be too many unknowns.
     void add_jumps(std::vector<double>& ends) const {
         constexpr std::size_t most = 16;
         std::vector<double> jumps;

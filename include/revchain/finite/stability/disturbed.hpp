@@ -58,8 +58,7 @@ struct PulledLinks {
     }
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
-    /// Adds a link, or merges it with the last if their pin has no mass and no load and they are in
-    /// line.
+    /// Adds a link, or merges it with the last if they are in line and their pin has no mass.
     void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0, double about = 0) {
         if (!links.empty()) {
             Link<Fine>& below = links.back();
@@ -195,8 +194,7 @@ struct DisturbedIn {
         offset = (held.transpose() * offset).eval();
     }
 
-    /// Eliminates a yielding upper end without mass: spring and top link turn in proportion, as
-    /// springs in series.
+    /// Eliminates a yielding upper end without mass: spring and top link are in series.
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);

@@ -4,14 +4,55 @@
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
-#include "revchain/finite/stability/forms.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/pencil/complex/gyroscopic.hpp"
 #include "revchain/rig.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
+
+/// Signs of the second variation of the energy, in and out of the plane: number of negative
+/// directions, whether all are positive, whether all are certain despite rounding.
+struct EnergySigns {
+    Index negative;
+    bool is_minimum, is_certain;
+};
+inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
+    return {inside.negative + outside.negative, least > rounding, least < -rounding};
+}
+
+/// p'A q of complex vectors, without conjugation.
+template <class S>
+std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
+                         Index j) {
+    const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
+    const auto re = p.real.col(j), im = p.imag.col(j);
+    return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
+}
+template <class S>
+double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
+    const S real = q.real.col(j).dot(A * q.real.col(j)), imag = q.imag.col(j).dot(A * q.imag.col(j));
+    return std::abs(as_double(real + imag));
+}
+template <class S>
+double squared_norm(const pencil::ComplexColumns<S>& q, Index j) {
+    return as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
+}
+template <class S>
+std::complex<double> rounded(const std::complex<S>& x) {
+    return {as_double(x.real()), as_double(x.imag())};
+}
+
+/// The error of s from that of s^2.
+inline double error_of_root(double square, double error) {
+    return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
+}
 
 /// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
 /// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
@@ -68,22 +109,22 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     const auto found = pencil::mirrored_modes(forms);
     if (!found) return std::nullopt;
     const pencil::MirroredModes<S>& modes = *found;
-    const pencil::ComplexColumns<S>&q = modes.x, &others_of_y = modes.y;
+    const pencil::ComplexColumns<S>&q = modes.x, &r = modes.y;
 
     Judgement judgement;
     Stability& result = judgement.stability;
     result.frame = frame;
     const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
-    pencil::ComplexColumns<S> Y{pencil::product(others, others_of_y.real), pencil::product(others, others_of_y.imag)};
+    pencil::ComplexColumns<S> Y{pencil::product(others, r.real), pencil::product(others, r.imag)};
     for (Index j = 0; rotates && j < modes.square.size(); ++j) {
         const S twice = S(2) / turning;
         Y.real.col(j) -= (twice * b.dot(q.real.col(j))) * d.offset;
         Y.imag.col(j) -= (twice * b.dot(q.imag.col(j))) * d.offset;
     }
     const auto size = [](const Matrix<S>& A) { return as_double(A.norm()); };
-    const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M), in_K = size(forms.K),
-                 in_C = size(forms.C);
+    const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M);
+    const double in_K = size(forms.K), in_C = size(forms.C), rounding = as_double(std::numeric_limits<S>::epsilon());
     std::vector<std::complex<double>> square;
     std::vector<double> error;
     struct Mode {
@@ -92,42 +133,37 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     };
     std::vector<Mode> list;
     for (Index j = 0; j < modes.square.size(); ++j) {
-        const std::complex<S> of = modes.square[j];
-        const auto form = [&](const Matrix<S>& A, const Matrix<S>& M) {
-            return of * bilinear(q, A, q, j) - bilinear(Y, M, Y, j);
+        const std::complex<S> of = modes.square[j], two(S(2));
+        const auto form = [&](const Matrix<S>& A, const Matrix<S>& B, const Matrix<S>& M) {
+            return of * bilinear(q, A, q, j) - two * bilinear(q, B, Y, j) - bilinear(Y, M, Y, j);
         };
-        const std::complex<S> two(S(2));
-        const std::complex<double> norm =
-            rounded(two * (form(d.inertia, d.mass) - two * bilinear(q, d.coupling, Y, j)));
-        const std::complex<double> inner = rounded(form(d.bending, d.swivelling)) / norm;
-        const std::complex<double> outer =
-            rounded(form(d.drag_in_plane, d.drag_across) - two * bilinear(q, d.drag_coupling, Y, j)) / norm;
+        const std::complex<double> norm = rounded(two * form(d.inertia, d.coupling, d.mass));
+        const std::complex<double> turned =
+            rounded(of * bilinear(q, d.bending, q, j) - bilinear(Y, d.swivelling, Y, j));
+        const double inner = -pins * (turned / norm).real();
+        const std::complex<double> dragged = rounded(form(d.drag_in_plane, d.drag_coupling, d.drag_across));
+        const double outer = -air * (dragged / norm).real();
 
         const std::complex<double> s2 = rounded(of);
         const double far = std::abs(s2);
-        const auto sizes = [&](double A, double B, double M, double K, double C, double x, double y) {
-            return far * A * x + K * x + 4 * B * std::sqrt(x * y) + M * y + (far > 0 ? C * y / far : 0.0);
+        const auto total = [&](double A, double B, double M, double K, double C) {
+            return far * A + K + 4 * B + M + (far > 0 ? C / far : 0.0);
         };
         const std::complex<S> left = of * bilinear(q, forms.A, q, j) + bilinear(q, forms.K, q, j) -
-                                     two * two * bilinear(q, forms.B, others_of_y, j) -
-                                     bilinear(others_of_y, forms.M, others_of_y, j) -
-                                     bilinear(others_of_y, forms.C, others_of_y, j) / of;
-        const auto rounding = as_double(std::numeric_limits<S>::epsilon());
-        const double x = as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
-        const double y = as_double(others_of_y.real.col(j).squaredNorm() + others_of_y.imag.col(j).squaredNorm());
-        const double to_square = 2 * far / std::abs(norm);
-        const double alpha = hermitian(q, forms.A, j), mu = hermitian(others_of_y, forms.M, j),
-                     kappa = d.doubt * x + alpha, gamma = d.doubt * y + mu;
+                                     two * two * bilinear(q, forms.B, r, j) - bilinear(r, forms.M, r, j) -
+                                     bilinear(r, forms.C, r, j) / of;
+        const double x = squared_norm(q, j), y = squared_norm(r, j);
+        const double alpha = hermitian(q, forms.A, j), mu = hermitian(r, forms.M, j);
+        const double given = total(alpha, std::sqrt(alpha * mu), mu, d.doubt * x + alpha, d.doubt * y + mu);
+        const double computed = total(in_A * x, in_B * std::sqrt(x * y), in_M * y, in_K * x, in_C * y);
         const double missing = far > 0 ? std::abs(rounded(left)) : 0.0;
-        square.push_back(s2);
-        const double given = far * alpha + kappa + 4 * std::sqrt(alpha * mu) + mu + (far > 0 ? gamma / far : 0.0);
+        const double changed = missing + 4 * 0x1p-52 * given + rounding * computed;
         constexpr double safety = 100;
-        error.push_back(safety * (modes.error[j] + to_square * (missing + 4 * 0x1p-52 * given +
-                                                                rounding * sizes(in_A, in_B, in_M, in_K, in_C, x, y))));
+        square.push_back(s2);
+        error.push_back(safety * (modes.error[j] + 2 * far / std::abs(norm) * changed));
         const std::complex<double> s = std::sqrt(s2);
         const double off = error_of_root(far, error.back());
-        list.push_back({s, -pins * inner.real(), -air * outer.real(), off});
-        list.push_back({0.0 - s, -pins * inner.real(), -air * outer.real(), off});
+        for (const std::complex<double>& each : {s, 0.0 - s}) list.push_back({each, inner, outer, off});
         result.growth_rate = std::max(result.growth_rate, std::abs(s.real()));
         result.margin = std::max(result.margin, off);
     }
@@ -135,19 +171,20 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
         for (std::size_t k = 0; k < square.size(); ++k)  // equal ones have no mode each
-            if (k != j && std::abs(square[j] - square[k]) <= 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
-                for (const std::size_t i : {2 * j, 2 * j + 1})
-                    list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
+        {
+            const double near = 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]);
+            if (k == j || !(std::abs(square[j] - square[k]) <= near)) continue;
+            for (const std::size_t i : {2 * j, 2 * j + 1})
+                list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
+        }
     }
     const double lost = 5e-11 * std::max(1.0, as_double(square.size()) / 16);
     for (std::size_t j = 0; j < square.size(); ++j) {
         const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
     }
-    std::sort(list.begin(), list.end(), [](const Mode& x, const Mode& z) {
-        const auto &s = x.exponent, &t = z.exponent;
-        return s.imag() != t.imag() ? s.imag() < t.imag() : s.real() < t.real();
-    });
+    const auto by_part = [](const Mode& x) { return std::pair(x.exponent.imag(), x.exponent.real()); };
+    std::ranges::sort(list, {}, by_part);
     for (const Mode& mode : list) {
         result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
         result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
@@ -175,8 +212,7 @@ struct Pulls {
 };
 
 /// The pulls of a shape, from the force (H, tau) on the lowest pin, in the given units: load over
-/// cosine or, for a nearly level link, the load resolved along the link, whose part across may
-/// cancel.
+/// cosine or, for a nearly level link, the load resolved along the link.
 template <class Shape>
 Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units, double H = 0,
             double tau = 0) {
@@ -229,16 +265,16 @@ inline PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape
 /// Throws InvalidArgument unless a shape has the links of a chain.
 template <class Shape>
 void require_shape_of(const Chain<double>& chain, const Shape& shape) {
-    if (shape.inclination.size() != chain.size())
-        detail::throw_invalid("stability", "the shape is not of this chain; its links number",
-                              shape.inclination.size());
+    const Index size = shape.inclination.size();
+    if (size != chain.size())
+        detail::throw_invalid("stability", "the shape is not of this chain; its links number", size);
     const double rounding = 1e-12 * (chain.total_length() + std::abs(shape.offset[chain.size()]));
     for (Index m = 0; m < chain.size(); ++m) {
-        const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
-        if (!(std::abs(length - chain.length()[m]) <= rounding))
-            detail::throw_invalid(
-                "stability", "the shape is not of this chain; in it links[" + std::to_string(m) + "] is as long as",
-                length);
+        const double across = shape.offset[m] - shape.offset[m + 1], along = shape.height[m] - shape.height[m + 1];
+        const double length = std::hypot(across, along);
+        if (std::abs(length - chain.length()[m]) <= rounding) continue;
+        const std::string link = "links[" + std::to_string(m) + "]";
+        detail::throw_invalid("stability", "the shape is not of this chain; in it " + link + " is as long as", length);
     }
 }
 
@@ -251,8 +287,7 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     return d;
 }
 
-/// Throws InvalidArgument if a moving pin has no mass, other than an upper end balanced by its
-/// spring.
+/// Throws InvalidArgument if a moving pin has no mass, but for a balanced upper end.
 inline void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
     const auto top = static_cast<Index>(links.links.size());
@@ -280,13 +315,19 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links)
     if (!found) detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
     return found->stability;
 }
+template <class Shape>
+Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape) {
+    require_shape_of(chain, shape);
+    return judged(frame, pulled_links(links_of(chain), shape));
+}
 
 }  // namespace finite
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    return finite::judged(frame, links);
+    return finite::judged(frame, chain, shape);
+}
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+    return finite::judged(frame, chain, shape);
 }
 
 namespace finite {
@@ -323,8 +364,7 @@ inline bool displaces_turning_fluid(const Rig& rig) {
 }
 
 /// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
-/// shape with minimal potential energy there, but for a rotation, is stable; nothing is known of
-/// others.
+/// shape with minimal potential energy, but for a rotation, is stable.
 REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;
     Matrix<double> in_plane = d.in_plane, across(0, 0);
@@ -348,12 +388,6 @@ REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed
 }
 
 }  // namespace finite
-
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    return finite::judged(frame, links);
-}
 
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";

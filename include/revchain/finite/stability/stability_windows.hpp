@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/stability_windows.hpp"
