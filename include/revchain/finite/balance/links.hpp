@@ -38,7 +38,6 @@ using Fine = Wide<double>;
 using Far = DoubleDouble;
 using Span = Interval<Far>;
 
-/// The nearest double.
 template <class S>
 double as_double(const S& x) {
     return static_cast<double>(x);
@@ -78,7 +77,6 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     return result;
 }
 
-/// Links with every number x replaced by `to(x)`.
 template <class To, class From, class Convert>
 std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Convert& to) {
     std::vector<Link<To>> result;

@@ -28,7 +28,6 @@ S cosine_of(const S& length, const S& difference, bool stands = false) {
     return stands ? -size : size;
 }
 
-/// cos d and tan d of link m.
 template <class S>
 S cosine_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
     if (shape.tangent.empty())

@@ -65,7 +65,6 @@ EnclosedLinks<T> swept_links(const Links<Fine>& chain) {
     return enclosed<T>(chain.links);
 }
 
-/// A support enclosed in T.
 template <class T>
 OnAxis enclosed(const OnAxis& end) {
     return end;

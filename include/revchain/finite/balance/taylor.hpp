@@ -19,7 +19,6 @@ struct Derivatives {
     std::array<Interval<T>, D> slope, centre_slope;
     std::array<Interval<T>, pairs> bend;  ///< for (0, 0), ..., (0, D - 1), (1, 1), ...
 
-    /// Combines each part of f with that of g.
     template <class Operation>
     [[gnu::always_inline]] void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
         for (std::size_t n = 0; n < 2 * D + pairs; ++n) part(*this, n) = of(part(f, n), part(g, n));
@@ -99,7 +98,6 @@ class Cell {
     }
     const Interval<T>& range(std::size_t i) const { return range_[i]; }
     const Interval<T>& centre(std::size_t i) const { return centre_[i]; }
-    /// The first number as a function.
     [[gnu::always_inline]] Taylor<T, D> first() const {
         Taylor<T, D> x;
         x.value = range_[0], x.centre_value = centre_[0];
@@ -129,7 +127,6 @@ class Cell {
     std::array<Interval<T>, Taylor<T, D>::pairs> product_;
 };
 
-/// Sine of the inclination whose tangent is t.
 template <class T, std::size_t D>
 [[gnu::always_inline]] inline Taylor<T, D> sine_at(const Taylor<T, D>& t) {
     const Sine<T> over(t.value), centre(t.centre_value);
@@ -196,7 +193,6 @@ class CellSweep {
         start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
         for (std::size_t m = 1; m < links.size(); ++m) pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
-    /// Offset of the topmost pin, and H there.
     [[gnu::always_inline]] Taylor<T, D> offset() const {
         return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_);
     }
@@ -260,7 +256,6 @@ class CellSweep {
         for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
         const auto R = narrowed(
             framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
-        // index 0: over the cell; 1: at its centre
         const Pull pull = pull_of(m, link.pull);
         const std::array<I, 2> heights{height_, centre_height_}, loads{R.value, R.centre_value},
             pulls{pull.whole, pull.centre_whole};
@@ -338,7 +333,6 @@ class CellSweep {
         return f;
     }
 
-    /// `given`, each slope intersected with the given one.
     [[gnu::always_inline]] Taylor<T, D> narrowed(const Taylor<T, D>& given, const std::array<I, D>& slope) const {
         Taylor<T, D> f = given;
         for (std::size_t i = 0; i < D; ++i) f.slope[i] = common(f.slope[i], slope[i]);

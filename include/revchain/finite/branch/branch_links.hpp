@@ -40,7 +40,6 @@ struct BranchLinks {
         using std::sqrt;
         return spin.empty() ? S(0.0) : S(speed / sqrt(height));
     }
-    /// The effective pull of link m at speed n.
     S pull(std::size_t m, const S& n) const { return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]); }
     /// The derivative of lambda times the pull by log lambda, over lambda.
     S growing_pull(std::size_t m, const S& n) const { return pull(m, S(n * S(0.5))); }
@@ -109,7 +108,6 @@ struct BranchSystem {
         links.spring = true;
     }
     bool stands(std::size_t m) const { return rig && rig->stands(static_cast<Index>(m)); }
-    /// The rig at a height in the unit of its links.
     RiggedLinks rigged_at(const S& height) const {
         using std::sqrt;
         const S whole = ldexp(height, units.length_exponent), n = sqrt(S(gravity) / whole);

@@ -45,7 +45,6 @@ Branch from_rest(BranchRoot root, double conical_height, const Options& options)
     return result;
 }
 
-/// The branch of a mode.
 template <class Options>
 Branch from_vertical(BranchRoot root, double conical_height, const Options& options) {
     Branch result;

@@ -15,7 +15,6 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
 class BranchWalk {
    public:
-    /// Starts at a point on the branch, in the direction of its tangent.
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05, double longest = 0.5)
         : longest_(longest), corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
 
@@ -59,7 +58,6 @@ class BranchWalk {
         return next;
     }
 
-    /// The point at `share` of the step from before() to here().
     std::optional<BranchPoint> within(double share) const { return at(before_, share * (here_.arc - before_.arc)); }
 
    private:

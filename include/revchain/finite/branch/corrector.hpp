@@ -15,7 +15,6 @@ inline double inner(const BranchState& x, const BranchState& y) {
     for (std::size_t m = 0; m < x.rise.size(); ++m) sum += x.rise[m] * y.rise[m];
     return sum / as_double(x.rise.size()) + x.log_height * y.log_height;
 }
-/// x + share * direction.
 inline BranchState moved(BranchState x, double share, const BranchState& direction) {
     for (std::size_t m = 0; m < x.rise.size(); ++m) x.rise[m] += share * direction.rise[m];
     x.log_height += share * direction.log_height;

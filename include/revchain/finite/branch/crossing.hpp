@@ -11,7 +11,6 @@ struct Measured {
     double value, slope;
 };
 
-/// log lambda.
 struct HeightMeasure {
     double wanted;
     Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
@@ -27,7 +26,6 @@ struct TipInclinationMeasure {
     }
 };
 
-/// The distance of the free end from the axis.
 struct TipRadiusMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -61,7 +59,6 @@ struct TopPullMeasure {
     }
 };
 
-/// A point inside a step, at a share of its arc.
 struct WithinStep {
     double share;
     BranchPoint point;

@@ -53,7 +53,6 @@ class ChainQuestions {
     const DiagramOptions& options_;
 };
 
-/// What a diagram needs of a rig.
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const RigDiagramOptions& options)
@@ -154,15 +153,17 @@ class Diagram {
             return std::move(result_);
         }
         const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
-        for (Index mode = 1; mode <= roots; ++mode) follow_from(mode);
+        for (Index mode = 1; mode <= roots; ++mode) {
+            result_.branches.push_back(ask_.followed(mode, lowest));
+            settle(result_.branches.back().end);
+        }
         // from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
         for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
         prove(settled);
-        std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
-        std::stable_sort(result_.branches.begin() + roots, result_.branches.end(),
-                         [](const auto& x, const auto& y) { return highest(x) > highest(y); });
+        std::ranges::sort(result_.looked_at, std::greater<>());
+        std::ranges::stable_sort(result_.branches.begin() + roots, result_.branches.end(), std::greater<>(), highest);
         return std::move(result_);
     }
 
@@ -174,10 +175,6 @@ class Diagram {
         return reach / unit_;
     }
     static double highest(const Branch& branch) { return std::ranges::max(branch.conical_height); }
-    void follow_from(Index mode) {
-        result_.branches.push_back(ask_.followed(mode, result_.conical_height));
-        settle(result_.branches.back().end);
-    }
     void settle(BranchEnd end) {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
@@ -275,17 +272,12 @@ class Diagram {
         for (const int side : {1, -1}) {
             const EnclosedDiagram diagram(*ask_.system, side);
             const double tight = std::max(lowest, 1.001 * diagram.loosest_height());
-            const auto note = [&](double low, double high) {
-                whole.open_low = whole.complete ? low : std::min(whole.open_low, low);
-                whole.open_high = std::max(whole.open_high, high);
-                whole.complete = false;
-            };
-            if (tight > lowest) note(lowest, std::min(tight, first));
+            if (tight > lowest) whole.leave_open(lowest, std::min(tight, first));
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
             const auto is_known = [&](const auto& at, const auto& within) { return known(diagram, at, within); };
             const auto proof = prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
-            if (!proof.complete) note(proof.open_low, proof.open_high);
+            if (!proof.complete) whole.leave_open(proof.open_low, proof.open_high);
             if (diagram.is_symmetric()) break;
         }
         return whole;

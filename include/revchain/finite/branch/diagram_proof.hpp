@@ -10,7 +10,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A cell of the diagram.
 struct Rectangle {
     double low, high, height_low, height_high;
 
@@ -34,6 +33,12 @@ struct DiagramProof {
     bool complete = true;
     double open_low = 0, open_high = 0;  ///< a loop may be missing between these heights
     long rectangles = 0;                 ///< examined
+
+    void leave_open(double low, double high) {
+        open_low = complete ? low : std::min(open_low, low);
+        open_high = std::max(open_high, high);
+        complete = false;
+    }
 };
 
 /// Proves that every connected piece of the diagram is known: of the zeros of y(x, lambda), the
@@ -64,7 +69,7 @@ class DiagramProver {
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
         const auto spent = [&] { return proof.rectangles >= budget_; };
-        const auto open = [&](const Rectangle& part) { leave_open(proof, part); };
+        const auto open = [&](const Rectangle& part) { proof.leave_open(part.height_low, part.height_high); };
         const auto visit = [&](const std::vector<Rectangle>& parts, const auto& wait) {
             const auto y = offsets_over(parts);
             for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -84,12 +89,6 @@ class DiagramProver {
 
    private:
     static constexpr std::size_t batch = 8;
-
-    static void leave_open(DiagramProof& proof, const Rectangle& part) {
-        proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
-        proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
-        proof.complete = false;
-    }
 
     /// Whether nothing remains to be proved in a part.
     template <class Known>
@@ -143,7 +142,6 @@ class DiagramProver {
             return result;
         });
     }
-    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}).front(); }
     bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
     /// The part extended up and down, if its zeros lie on one graph lambda(x) inside.
@@ -160,7 +158,7 @@ class DiagramProver {
         if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low)))) return std::nullopt;
         const Rectangle beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
         ++proof.rectangles;
-        if (!(rise(offset_over(beyond)) <
+        if (!(rise(offsets_over({beyond}).front()) <
               std::min(part.height_low - beyond.height_low, beyond.height_high - part.height_high)))
             return std::nullopt;
         return beyond;

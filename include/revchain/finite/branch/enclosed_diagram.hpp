@@ -52,13 +52,11 @@ class EnclosedDiagram {
             slackest[m].pull.low = std::min(slackest[m].pull.low, links_[m].pull.low);
         return height * farthest_tangent(slackest, lambda, false, held_at(lambda));
     }
-    /// The function at a point.
     Interval<double> at(double x, double height) const {
         const Interval<double> lambda(height);
         if (kept_.spin.empty()) return offset(links_, x, lambda);
         return offset(links_at(lambda), x, lambda);
     }
-    /// The state of a shape at a point.
     BranchState state_at(const DiagramPoint& at) const {
         const Interval<double> lambda(at.height);
         const double turned = side_ < 0 ? -1 : 1;

@@ -69,7 +69,6 @@ struct BranchOnset {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
             auto found = corrector.corrected(near.state, near.tangent, 0.1 * near.arc);
             if (!found || (found->state.log_height >= std::log(height)) != rises()) continue;
-            // the branch of a neighbouring mode
             if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
             if (inner(found->tangent, near.tangent) < 0.8) continue;
             found->arc = near.arc;

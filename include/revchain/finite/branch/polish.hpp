@@ -21,7 +21,6 @@ struct Condition {
     virtual bool gives_height() const { return false; }
 };
 
-/// The conical height.
 struct GivenHeight : Condition {
     Fine wanted;
     explicit GivenHeight(Fine height) : wanted(std::move(height)) {}
@@ -110,7 +109,6 @@ struct GivenPlace : Condition {
     double size(const Fine&) const override { return 0; }
 };
 
-/// A shape and its height.
 struct Polished {
     Balanced<Fine> shape;
     Fine height;

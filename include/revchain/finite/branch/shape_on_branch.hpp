@@ -137,7 +137,6 @@ inline double reach_of(const Rig& rig) {
                                    : std::numeric_limits<double>::infinity();
 }
 
-/// The conical height, given directly or as a speed.
 template <class Options>
 Fine height_given(std::string_view place, const Options& given) {
     using detail::require_positive;

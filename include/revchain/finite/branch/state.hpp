@@ -33,7 +33,6 @@ struct BranchTrace {
     std::shared_ptr<const BranchOnset> onset;  ///< of the mode; null for other branches
 };
 
-/// Accesses the trace of a branch.
 struct TraceBehind {
     template <class Branch>
     static auto& of(Branch& branch) {

@@ -150,14 +150,12 @@ class BranchLine {
 /// method contracts, the direction turns by less than 0.2 and the correction is below step/3.
 class BranchLineWalk {
    public:
-    double longest = 0.1;  ///< step
-
-    BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double first)
-        : line_(line), at_(start), step_(first) {}
+    BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double longest)
+        : line_(line), at_(start), step_(std::min(0.02, longest)), longest_(longest) {}
 
     const BranchLine::Point& at() const { return at_; }
     bool advance() {
-        for (double step = std::min(step_, longest); step > 1e-9; step /= 2) {
+        for (double step = std::min(step_, longest_); step > 1e-9; step /= 2) {
             const BranchPlace guess = at_.at + step * at_.direction;
             const auto next = line_.next_to(guess, at_.direction, step);
             if (!next) continue;
@@ -173,7 +171,7 @@ class BranchLineWalk {
    private:
     const BranchLine& line_;
     BranchLine::Point at_;
-    double step_;
+    double step_, longest_;
 };
 
 }  // namespace revchain::finite

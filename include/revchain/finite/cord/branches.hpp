@@ -120,8 +120,7 @@ template <class Stop>
 BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
                  const Stop& stop) {
     const BranchLine& line = *branch.line;
-    BranchLineWalk walk(line, start, std::min(0.02, longest));
-    walk.longest = longest;
+    BranchLineWalk walk(line, start, longest);
     while (branch.size() < most) {
         detail::look();
         const BranchLine::Point last = walk.at();
@@ -164,8 +163,8 @@ inline CordBranch branch_of_mode(const Cord& cord, double critical, double heigh
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(options.mode));
     result.line = line;
     append_vertical(result, critical);
-    result.end =
-        follow(result, result.points.front(), options.max_step, options.max_points, down_to(*line, std::log(height)));
+    const auto down = down_to(*line, std::log(height));
+    result.end = follow(result, result.points.front(), options.max_step, options.max_points, down);
     if (result.end == BranchEnd::height) result.conical_height.back() = height;
     return result;
 }

@@ -11,27 +11,30 @@
 /// any inclination: Greenhill (1908) §4 without small angles. A path is followed up from the free
 /// end; the offset eta_0 of that end is the one unknown. A shape of j half waves is a path whose
 /// crossing j, at s_j(eta_0), is the support (equations at `finite::PathState`). Properties of s_j:
-///   - s_j(eta_0) > s_j(0), the value at small amplitude, by Sturm's comparison: against V the pull satisfies
-///     u'' = -u/(rho T), u'(tip) = u(tip)/tip, and T > V. So no shape has j half waves at or above the
-///     conical height lambda_j of small amplitude.
+///   - s_j(eta_0) > s_j(0), the value at small amplitude, by Sturm's comparison: against V the pull
+///     satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip, and T > V. So no shape has j half waves at
+///     or above the conical height lambda_j of small amplitude.
 ///   - s_j is unbounded, as s_1 >= eta_0: at least one shape has j half waves if lambda < lambda_j.
-///   - s_1 increases: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so (u v' - v u')' > 0 while u and v
-///     have one sign, and at the crossing, where u' = 0, u v' > 0. So at most one shape has no node.
-///   - Every s_j increases if h = sqrt(rho/V) is a convex function of V: then there is one shape for every
-///     critical height above lambda. This holds for a uniform chain with any tip weight, and for densities
-///     s^p without a tip for p > -1, with a tip for p <= 0. Proof (' by V): let w = eta_0 v, which starts as
-///     u does. By u'' = -u/(rho T) and w'' = -q w, q = V^2/(rho T^3) <= 1/(rho T), the phase of w,
-///     tan theta = w/w', lags that of u (Sturm). E = V u' - u is 0 at the free end, E' = -V u/(rho T) and
-///     E'' + (ln(rho/V))' E' + q E = 0, so y = h E satisfies y'' = -(q - h''/h) y with h'' >= 0. Hence w has
-///     a zero between the free end and the first zero of E, and between any two zeros, upper ones included.
-///     (Else, where w y < 0 up to the next zero b, W = w y' - w' y has W' = w y h''/h <= 0 but
-///     W(b) = w(b) y'(b) > 0. At the free end the monotone W has a limit that is not positive: a positive
-///     one contradicts y > 0 rising from 0 with a tip; without a tip it makes (y/w)' = W/w^2 ~ 1/V^2 not
-///     integrable, while y/w tends to 0.) E is monotone between zeros of u. At crossing j, where u' = 0, E
-///     and E' have the sign of -u, so E has one zero between each zero of u and the next crossing: j - 1
-///     below crossing j. There theta lies between (j - 1) pi, from the zeros of w, and (j - 1/2) pi, the
-///     phase of u: w' has the sign of u, and ds_j/deta_0 that of u w'. Only the density up to s_j counts:
-///     extend it beyond the support; s_j(eta_0) is smooth and rises at the support, so it is there once.
+///   - s_1 increases: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so (u v' - v u')' > 0 while
+///     u and v have one sign, and at the crossing, where u' = 0, u v' > 0. So at most one shape has
+///     no node.
+///   - Every s_j increases if h = sqrt(rho/V) is a convex function of V: then there is one shape
+///     for every critical height above lambda. This holds for a uniform chain with any tip weight,
+///     and for densities s^p without a tip for p > -1, with a tip for p <= 0. Proof (' by V): let w
+///     = eta_0 v, which starts as u does. By u'' = -u/(rho T) and w'' = -q w, q = V^2/(rho T^3) <=
+///     1/(rho T), the phase of w, tan theta = w/w', lags that of u (Sturm). E = V u' - u is 0 at
+///     the free end, E' = -V u/(rho T) and E'' + (ln(rho/V))' E' + q E = 0, so y = h E satisfies
+///     y'' = -(q - h''/h) y with h'' >= 0. Hence w has a zero between the free end and the first
+///     zero of E, and between any two zeros, upper ones included. (Else, where w y < 0 up to the
+///     next zero b, W = w y' - w' y has W' = w y h''/h <= 0 but W(b) = w(b) y'(b) > 0. At the free
+///     end the monotone W has a limit that is not positive: a positive one contradicts y > 0 rising
+///     from 0 with a tip; without a tip it makes (y/w)' = W/w^2 ~ 1/V^2 not integrable, while y/w
+///     tends to 0.) E is monotone between zeros of u. At crossing j, where u' = 0, E and E' have
+///     the sign of -u, so E has one zero between each zero of u and the next crossing: j - 1 below
+///     crossing j. There theta lies between (j - 1) pi, from the zeros of w, and (j - 1/2) pi, the
+///     phase of u: w' has the sign of u, and ds_j/deta_0 that of u w'. Only the density up to s_j
+///     counts: extend it beyond the support; s_j(eta_0) is smooth and rises at the support, so it
+///     is there once.
 /// For the uniform chain without a tip this is I. I. Kolodner, Heavy rotating string - a nonlinear
 /// eigenvalue problem, Comm. Pure Appl. Math. 8 (1955); for densities s^p without a tip P. Amore,
 /// J. P. Boyd, A. Marquez, arXiv:2202.13476. It fails in general: three heavy beads on a light
@@ -41,7 +44,6 @@
 /// `complete` is false.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The shapes found.
 struct CordShapes {
     std::vector<CordShape> shapes;  ///< by half waves, then the free end's offset
     bool complete = false;          ///< a theorem excludes others
@@ -57,7 +59,6 @@ struct CordShapesOptions {
 
 namespace finite {
 
-/// A cord for paths.
 struct ContinuousChain {
     double length, tip;                          ///< tip: length of cord with the weight of the tip
     std::shared_ptr<const LineDensity> density;  ///< null for a uniform cord
@@ -78,7 +79,6 @@ inline PathKind kind_of(const ContinuousChain& chain, double height, double bend
     return {chain.tip / height, height, mean, chain.density.get(), bend, chain.line_weight};
 }
 
-/// The path of small amplitude, without derivatives.
 inline Path path_at_rest(const ContinuousChain& chain, double height, Path::Options options) {
     options.with_change = false;
     return {kind_of(chain, height, 0), 1, options};
@@ -166,7 +166,7 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
         }
         law = law.of_one_before(crossing);
     }
-    std::reverse(result.shapes.begin(), result.shapes.end());
+    std::ranges::reverse(result.shapes);
     for (CordShape& shape : result.shapes) shape.density = chain.density;
     return result;
 }
@@ -213,8 +213,8 @@ inline Index critical_heights_above(const ContinuousChain& chain, double height)
     const double length = length_in_heights(place, chain.length, height);
     const Path path = path_at_rest(chain, height, {.farthest = length});
     require_followed(place, path, length, height);
-    return std::count_if(path.crossings().begin(), path.crossings().end(),
-                         [&](const Path::Crossing& crossing) { return crossing.arc < length; });
+    return std::ranges::count_if(path.crossings(),
+                                 [&](const Path::Crossing& crossing) { return crossing.arc < length; });
 }
 
 /// A mode of small amplitude. Cost: one path; 1 microsecond a point, 10 with a density.

@@ -124,7 +124,6 @@ class ShapeSamples {
         PathChange change;
     };
     using Row = std::array<double, per_step>;
-    /// A series at all samples of a step.
     static Row at(const PathSeries::Coefficients& c, const Row& t) {
         Row sum;
         sum.fill(c[PathSeries::order]);

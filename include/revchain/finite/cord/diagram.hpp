@@ -19,9 +19,9 @@ class CordDiagram {
         const double lowest = result_.conical_height;
         bool ended = true;
         for (Index j = 0; j < critical_.size(); ++j) {
-            result_.branches.push_back(
-                branch_of_mode(cord_, critical_[j], lowest,
-                               {.mode = j + 1, .max_points = options_.max_points, .max_step = options_.max_step}));
+            const BranchOptions of_mode{
+                .mode = j + 1, .max_points = options_.max_points, .max_step = options_.max_step};
+            result_.branches.push_back(branch_of_mode(cord_, critical_[j], lowest, of_mode));
             ended = ended && result_.branches.back().end == BranchEnd::height;
         }
         result_.consistent = ended;
@@ -31,12 +31,10 @@ class CordDiagram {
             const double share = static_cast<double>(i) / options_.lists;
             compare(lowest * std::pow(critical_[0] / lowest, share));
         }
-        std::reverse(result_.looked_at.begin(), result_.looked_at.end());
+        std::ranges::reverse(result_.looked_at);
         const auto isolated = result_.branches.begin() + critical_.size();
-        std::stable_sort(isolated, result_.branches.end(), [](const CordBranch& x, const CordBranch& y) {
-            const auto born = [](const auto& all) { return *std::max_element(all.begin(), all.end()); };
-            return born(x.conical_height) > born(y.conical_height);
-        });
+        const auto born = [](const CordBranch& branch) { return std::ranges::max(branch.conical_height); };
+        std::ranges::stable_sort(isolated, result_.branches.end(), std::greater<>(), born);
         result_.remark = critical_.size() == 0 ? "no shape leaves the vertical at this height or above"
                          : result_.complete    ? "a theorem counts the shapes: there are no others"
                          : !ended              ? "a branch could not be followed to the end"

@@ -23,7 +23,6 @@ struct PathState {
 /// The derivative of a path by the offset of its free end.
 using PathChange = PathState;
 
-/// The parameters of a path.
 struct PathKind {
     double tip = 0;                        ///< weight at the free end
     double unit = 1;                       ///< conical height in the unit of length of `density`
@@ -60,12 +59,10 @@ class PathSeries {
 
     /// With `change`, also the series of the derivatives.
     void start(const PathKind& kind, const PathState& state, const PathChange* change = nullptr) {
-        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
-        below[0] = kind.weight_below(state.arc);
+        set(state, kind.weight_below(state.arc), change);
         tension[0] = kind.tension(state.pull, below[0]);
-        has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
+        is_dense_ = kind.density != nullptr, pace = 1;
         latest_ = std::numeric_limits<double>::infinity();
-        if (has_change_) set_change(*change);
         if (is_dense_)
             dense(kind);
         else
@@ -78,10 +75,8 @@ class PathSeries {
     };
     void start(const Constants& constants, const PathState& state, double weight_below, const PathChange* change,
                double change_below) {
-        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
-        below[0] = weight_below, below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
-        has_change_ = change != nullptr;
-        if (has_change_) set_change(*change);
+        set(state, weight_below, change);
+        below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
         uniform<false>(constants);
     }
 
@@ -125,7 +120,6 @@ class PathSeries {
         return x;
     }
     PathState state(double t) const { return reached(t).state; }
-    /// The density, if there is one; at the end of the series still that of its piece.
     double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
         PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
@@ -143,9 +137,12 @@ class PathSeries {
     Coefficients arc_change, offset_change, pull_change, height_change, tension_change, below_change;
 
    private:
-    void set_change(const PathChange& change) {
-        offset_change[0] = change.offset, pull_change[0] = change.pull;
-        arc_change[0] = change.arc, height_change[0] = change.height;
+    void set(const PathState& state, double weight_below, const PathChange* change) {
+        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull, height[0] = state.height;
+        below[0] = weight_below, has_change_ = change != nullptr;
+        if (!has_change_) return;
+        arc_change[0] = change->arc, offset_change[0] = change->offset;
+        pull_change[0] = change->pull, height_change[0] = change->height;
     }
     /// Unit weight is known at compile time: two products fewer in a row save 5 % of a path
     /// (bench/continuous.cpp).
@@ -243,24 +240,22 @@ class PathSeries {
     /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
-        std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
+        const double at = arc[0] * kind.unit;
+        std::array<double, degree + 1> c = kind.density->about(at);
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
-        int last = degree;  // higher powers are negligible within the piece
-        const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
+        std::size_t last = degree;  // higher powers are negligible within the piece
+        const double span = std::min(kind.density->end_of_piece(at) / kind.unit - arc[0], 1e300);
         if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a heavy tip
-        while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
+        while (last > 0 && std::abs(c[last]) * std::pow(span, last) < 1e-17 * c[0]) --last;
         const auto extend = [&](int n) {
             const auto k = static_cast<std::size_t>(n);
-            line[static_cast<std::size_t>(last)][k] = n == 0 ? c[static_cast<std::size_t>(last)] : 0.0;
-            for (int i = last; i-- > 0;) {
-                const auto& above = line[static_cast<std::size_t>(i) + 1];
-                line[static_cast<std::size_t>(i)][k] =
-                    n == 0 ? c[static_cast<std::size_t>(i)] : product(arc.data() + 1, above.data(), n - 1);
-            }
+            line[last][k] = n == 0 ? c[last] : 0.0;
+            for (std::size_t i = last; i-- > 0;)
+                line[i][k] = n == 0 ? c[i] : product(arc.data() + 1, line[i + 1].data(), n - 1);
             density[k] = line[0][k];
         };
         extend(0);
@@ -295,8 +290,6 @@ class PathSeries {
         }
         mass[order] = product(density, tension, order);
     }
-    double state_arc(const PathKind& kind) const { return arc[0] * kind.unit; }
-
     Coefficients density{}, mass{};  // rho, rho T: with a density
     bool has_change_ = false, is_dense_ = false;
     double latest_ = std::numeric_limits<double>::infinity();  ///< latest time within a short piece

@@ -30,7 +30,8 @@ class HeldCells : public HeldBounds {
         Slopes slopes;
         slopes.begin(box, links_[0]);
         int waves = 1, sign = 0;
-        if (lower_.yields()) sign = begin_side(box);
+        if (lower_.yields())
+            sign = (gives_ * box.pull * (mirrored_ ? Span(1.0) : box.sine) + foot_ - lower_.radius).sign();
         Direction<Span> last{-box.sine, box.cosine};
         if (misses(box, 0, waves, sign)) return none(result.looked);
         for (std::size_t m = 1; m < links_.size(); ++m) {
@@ -150,7 +151,6 @@ class HeldCells : public HeldBounds {
     /// of the product of the links' matrices, so that intervals do not grow.
     class Slopes {
        public:
-        /// Call this before the chain passes the link.
         void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
             const Span& s = hung.sine;
             const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
@@ -214,7 +214,6 @@ class HeldCells : public HeldBounds {
     };
 
     Span top(const Start& chain) const { return chain.push + height_ * (weight_ - links_[0].pull); }
-    /// By how much a swept chain exceeds the goal.
     Span gap(const Start& chain) const {
         if (goal_.is_span) return chain.rise - goal_.value;
         return sqrt(square(chain.unit * chain.across) + square(top(chain))) - goal_.value;
@@ -226,10 +225,6 @@ class HeldCells : public HeldBounds {
     }
     /// Offset of the line between the rest positions of the ends at the chain's height.
     Span line(const Start& chain) const { return mirrored_ ? Span(0.0) : lower_.radius + slope_ * chain.rise; }
-    /// The side of the lower end, 0 if uncertain.
-    int begin_side(const Start& chain) const {
-        return (gives_ * chain.pull * (mirrored_ ? Span(1.0) : chain.sine) + foot_ - lower_.radius).sign();
-    }
     /// Whether a chain swept to link m cannot meet the goal; counts half waves.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
         const bool last = m + 1 == links_.size();

@@ -55,7 +55,6 @@ class HeldCord {
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
         return cord_end(forces, [](const CordSeries&, double) {});
     }
-    /// A path needs no start from earlier states.
     struct Nothing {};
     static Nothing kept() { return {}; }
     static void keep(Nothing) {}

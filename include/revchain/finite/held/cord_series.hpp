@@ -24,9 +24,8 @@ class CordSeries {
         const PathState state{place.arc, place.offset, place.across, place.rise};
         for (std::size_t i = 0; i < (change == nullptr ? 1 : 3); ++i) {
             const HeldCordState d = change == nullptr ? HeldCordState{} : (*change)[i];
-            const PathChange varied{d.arc, d.offset, d.across, d.rise};
-            series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, change == nullptr ? nullptr : &varied,
-                             d.along);
+            const PathChange varied{d.arc, d.offset, d.across, d.rise}, *given = change == nullptr ? nullptr : &varied;
+            series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, given, d.along);
         }
     }
 
@@ -55,8 +54,6 @@ class CordSeries {
                              std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
         });
     }
-    double arc_at(double t) const { return PathSeries::at(series_[0].arc, t); }
-    /// The time at which an arc is reached.
     double time_at(double wanted, double duration) const { return finite::time_at(series_[0], wanted, duration); }
 
    private:
@@ -75,7 +72,7 @@ HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
         if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
         const CordSeries series(place, forces.height, &change);
         double duration = series.reach();
-        const bool last = series.arc_at(duration) >= 1;
+        const bool last = series.place(duration).arc >= 1;
         if (last) duration = series.time_at(1, duration);
         visit(series, duration);
         place = series.place(duration), change = series.change(duration, forces.height);

@@ -109,7 +109,6 @@ class HeldCurve {
         (*shooter_)(at.forces, true);
         return at;
     }
-    /// The first state along heights at which `off` is 0.
     template <class Off>
     std::optional<HeldState> first_where(const HeldState& from, const Off& off) {
         HeldState before = from;
@@ -179,7 +178,6 @@ class HeldCurve {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
     }
 
-    /// Scales of a step of the three numbers.
     template <Third third>
     Triple scales(const HeldState& x) const {
         const double along = std::abs(x.forces.along), hung = weight_ * x.forces.height,
@@ -240,7 +238,6 @@ class HeldCurve {
             if (!(step > 1e-9)) return;
             (*shooter_)(next.forces, true);
             if (!visit(next)) return;
-            // the tangent in the new scales
             const Triple before = scale;
             state = next, end = there, scale = scales<third>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);

@@ -220,7 +220,6 @@ inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& c
     return apart;
 }
 
-/// Options of a list of shapes.
 struct HeldListOptions {
     int max_half_waves;
     bool prove;

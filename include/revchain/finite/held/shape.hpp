@@ -136,7 +136,6 @@ inline HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends,
     const Fine& lambda = forces.height;
     condition(Fine(0), span, 0);
     condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, narrow(lambda));
-    // an estimate: rounding of the data
     shape.error_bound = epsilon<double>() * (2 + shape.condition);
     return shape;
 }

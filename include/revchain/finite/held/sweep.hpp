@@ -37,7 +37,6 @@ HeldEnds<Interval<T>> enclosed(const HeldEnds<S>& ends) {
 template <class S, std::size_t K = 3>
 using HeldChange = std::array<S, K>;
 
-/// Sine and cosine of a link's inclination.
 template <class S>
 struct Direction {
     S sine, cosine;

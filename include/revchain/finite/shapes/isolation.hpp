@@ -21,7 +21,6 @@ bool goes_on(const Bracket<T>& part, const Bracket<T>& next) {
     return part.high == next.low;
 }
 
-/// Merges neighbouring parts of an ordered list.
 template <class Part>
 std::vector<Part> joined(const std::vector<Part>& parts) {
     std::vector<Part> result;
@@ -34,7 +33,6 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
     return result;
 }
 
-/// Steady shapes isolated by proof.
 template <class T>
 struct Isolation {
     std::vector<Bracket<T>> shapes;     ///< ascending

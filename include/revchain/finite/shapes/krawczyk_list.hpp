@@ -76,7 +76,7 @@ class KrawczykList {
     };
 
     bool is_known(const TangentBox<T>& box) const {
-        return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) { return within(box, zone.box); });
+        return std::ranges::any_of(zones_, [&](const Zone& zone) { return within(box, zone.box); });
     }
 
     /// Adds the zero of the box, within `near`; false if it may be one in the list.

@@ -53,7 +53,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
         tangents.push_back(last * i / third);
         tangents.push_back(last * std::pow(10.0, -12 * i / third));
     }
-    std::sort(tangents.begin(), tangents.end());
+    std::ranges::sort(tangents);
     std::vector<Bracket<T>> found;
     auto next = tangents.begin();
     for (const Bracket<T>& range : ranges) {
@@ -231,7 +231,6 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         }
         if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
     }
-    // the tangents may do so too
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
     if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
         result.shapes.clear();
@@ -280,9 +279,8 @@ void add_several_valued(const AnyLinks& links, const Fine& height, double last, 
 
 template <class Result>
 void sort(Result& found) {
-    std::sort(found.shapes.begin(), found.shapes.end(), [](const auto& x, const auto& y) {
-        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
-    });
+    const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
+    std::ranges::sort(found.shapes, {}, order);
     found.complete = found.undecided.empty();
 }
 

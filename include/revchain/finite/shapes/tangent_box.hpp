@@ -11,7 +11,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Tangents of all links, each within an interval.
 template <class T>
 using TangentBox = std::vector<Interval<T>>;
 
@@ -72,7 +71,6 @@ class WholeBalance {
     }
     const std::vector<Posture>& posture() const { return posture_; }
     bool is_symmetric() const { return top_.symmetric; }
-    /// Offset of the topmost pin.
     Interval<T> top(const std::vector<Interval<T>>& sines) const {
         Interval<T> y(T(0));
         if constexpr (is_held<End>) {

@@ -7,7 +7,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A proof for a shape that Newton's method found.
 struct Verified {
     std::vector<Far> offset;   ///< of the pins, support last, in double-double
     double inclination_error;  ///< exactly one steady shape has all inclinations within this (rad)
@@ -112,7 +111,6 @@ struct Inverse {
     static double size(const Span& x) { return as_double(x.size()) * 1.0000001; }
 };
 
-/// Offsets at the limit of Newton's method, with forces and inverse.
 struct Balance {
     std::vector<Far> offset;
     Forces at;
@@ -241,7 +239,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     }
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
-    const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
+    const bool stands = std::ranges::find(found.posture, Posture::stands) != found.posture.end();
     // the last term: two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;

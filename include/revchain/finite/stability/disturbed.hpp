@@ -13,7 +13,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-// for Eigen's solvers
 inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
 inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
@@ -28,7 +27,6 @@ Matrix<S> beside(const Matrix<S>& columns) {
     return whole.rightCols(columns.rows() - columns.cols());
 }
 
-/// X'AX
 template <class S>
 Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));

@@ -49,7 +49,6 @@ std::complex<double> rounded(const std::complex<S>& x) {
     return {as_double(x.real()), as_double(x.imag())};
 }
 
-/// The error of s from that of s^2.
 inline double error_of_root(double square, double error) {
     return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
 }

@@ -10,13 +10,11 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-/// The verdict at one point of a branch.
 struct JudgedPlace {
     double arc, height;
     Verdict verdict;
 };
 
-/// The verdict on a shape of a branch.
 inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
     return stability(chain, shape, frame).verdict;
 }
