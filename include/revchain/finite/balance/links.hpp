@@ -90,8 +90,7 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
-/// Encloses in T a number that S holds to all but its last digits. A narrower T that holds it
-/// exactly gives a point.
+/// Encloses in T a number known in S but for its last digits; a point if a narrower T holds it.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);

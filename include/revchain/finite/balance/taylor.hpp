@@ -313,8 +313,8 @@ class CellSweep {
         }
     }
 
-    /// Makes q orthogonal to p, by subtracting a multiple of p, if their directions are close. An
-    /// offset times `weight` counts as a sum.
+    /// Makes q orthogonal to p, by subtracting a multiple of p, if they are almost parallel.
+    /// `weight` scales offsets.
     [[gnu::always_inline]] void spread_frame(const T& weight) {
         const T a = weight * p_.offset.middle(), b = p_.sum.middle();
         const T c = weight * q_.offset.middle(), d = q_.sum.middle();
@@ -350,7 +350,7 @@ class CellSweep {
 };
 
 /// Distance of the topmost pin from its support over a cell of tangents of the lowest link: 0 for
-/// every steady shape. `height` is lambda.
+/// steady shapes.
 template <Real T, class End = OnAxis>
 Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height, const Cell<T, 1>& cell,
                             const End& support = {}) {

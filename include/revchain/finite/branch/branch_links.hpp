@@ -16,8 +16,7 @@ struct Inclined {
 /// The links of a chain or a rig for branches, lowest first. sin(inclination) = tanh tau defines
 /// the tau of a link; a standing link obeys the equations of a hanging one with the opposite pull.
 /// A spring at the support is one more link, its upper end firm at the radius: its stretch over the
-/// total length of the links, `length`, is sinh tau, its sine and tangent; `pull` is stiffness
-/// times `length`.
+/// total length of the links, `length`, is sinh tau; `pull` is stiffness times `length`.
 template <class S>
 struct BranchLinks {
     std::vector<Link<S>> links;  ///< `pull` without what flywheels add

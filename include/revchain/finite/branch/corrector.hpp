@@ -47,8 +47,7 @@ class Corrector {
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
     /// Whether the number of half waves is constant along a branch: in chains with l <= a for all
-    /// links. There a pin on the axis has its neighbours on opposite sides, so sign changes
-    /// persist.
+    /// links. There a pin on the axis has its neighbours on opposite sides.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
@@ -76,8 +75,7 @@ class Corrector {
     }
 
     /// The state on the branch in the plane through `start` across a direction. None if the first
-    /// step is longer than `farthest`, or a later one longer than `contraction` times the one
-    /// before.
+    /// step is longer than `farthest`, or longer than `contraction` times the one before.
     std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
                                          double contraction = 0.3) {
         double last = 0;

@@ -94,8 +94,7 @@ std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& meas
         walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
 }
 
-/// Points of the last step with the wanted number, in order; at most one on each side of an
-/// extremum
+/// Points of the last step with the wanted number, in order, around at most one extremum.
 template <class Measure>
 std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& measure) {
     std::vector<WithinStep> found;

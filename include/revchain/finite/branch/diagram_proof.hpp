@@ -51,8 +51,8 @@ struct DiagramProof {
 /// Rectangles of (x, lambda) are split until in each
 ///   y or y_x does not change sign, so that no such point is in it; or
 ///   y_lambda does not change sign in it and beyond it as far as the slope |y_x/y_lambda| can lead
-///   within its width: all zeros in it lie on one graph lambda(x) over its width. If there are any, one
-///   is at the middle; it is on a known branch, or its branch is followed.
+///   within its width: all zeros in it lie on one graph lambda(x) over its width. If there are any,
+///   one is at the middle; it is on a known branch, or its branch is followed.
 /// Next to x = 0, y = x f(x, lambda), and f, f_x and f_lambda lie within y_x, y_xx times 0 ... 1,
 /// and y_x lambda over 0 ... x (mean value theorem): the graph continues to the vertical.
 class DiagramProver {
@@ -63,8 +63,7 @@ class DiagramProver {
         : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
     /// Covers heights from the highest to the lowest and x from 0 to `last`. `known(point,
-    /// rectangle)` returns whether a branch through the rectangle is known, or found through the
-    /// point.
+    /// rectangle)` returns whether a branch through the rectangle is known or found.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;

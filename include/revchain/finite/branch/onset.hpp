@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The branch near the vertical, to leading order in its amplitude A, for a mode phi at height
 /// lambda_k:
-///     y = A phi,   lambda = lambda_k/(1 + A^2 curvature),   curvature = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
+///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
 /// sigma is the effective pull; the lower sum includes its derivative by log lambda and the spring
 /// at a support as one more link. With standing links or links that lean against their loads the
 /// curvature may be negative: the branch then begins towards slower speeds.
@@ -69,10 +69,10 @@ struct BranchOnset {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
             auto found = corrector.corrected(near.state, near.tangent, 0.1 * near.arc);
             if (!found || (found->state.log_height >= std::log(height)) != rises()) continue;
-            if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
             if (inner(found->tangent, near.tangent) < 0.8) continue;
             found->arc = near.arc;
             if (found->half_waves == 0) found->half_waves = half_waves;
+            if (corrector.half_waves_are_kept() && found->half_waves != half_waves) continue;
             return found;
         }
         return std::nullopt;
@@ -126,7 +126,7 @@ struct BranchRoot {
     static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
         require_mode(place, options.mode, chain.mode_count());
         const auto found = detail::one_mode(chain, options.mode);
-        return from(std::make_shared<const BranchSystem>(chain), found.conical_height, &found.shape);
+        return from(BranchSystem(chain), found.conical_height, &found.shape);
     }
     template <class Options>
     static BranchRoot of(std::string_view place, const Rig& rig, const Options& options) {
@@ -140,14 +140,13 @@ struct BranchRoot {
                                       "with a support off the axis mode must be 1, the branch from rest; "
                                       "branches lists those born in folds",
                                       mode);
-            return from(std::make_shared<const BranchSystem>(rig, gravity, direction),
-                        first_height(place, rig, gravity, direction), nullptr);
+            return from(BranchSystem(rig, gravity, direction), first_height(place, rig, gravity, direction));
         }
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         require_mode(place, mode, modes.count());
         const auto found = modes.found(mode, 1).front();
         const Vector<double> shape = modes.shape(found);
-        return from(std::make_shared<const BranchSystem>(rig, gravity, direction), found.conical_height, &shape);
+        return from(BranchSystem(rig, gravity, direction), found.conical_height, &shape);
     }
     /// Conical height of the slowest mode of a rig; its length if it has none.
     static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
@@ -173,11 +172,12 @@ struct BranchRoot {
         if (mode < 1 || mode > count)
             detail::throw_invalid(place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
     }
-    static BranchRoot from(std::shared_ptr<const BranchSystem> system, double height, const Vector<double>* mode) {
-        auto narrow = rounded(system->links);
+    static BranchRoot from(BranchSystem system, double height, const Vector<double>* mode = nullptr) {
+        auto narrow = rounded(system.links);
         std::optional<BranchOnset> onset;
-        if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system->units.length_exponent));
-        return {std::move(system), Corrector(std::move(narrow)), std::move(onset), height};
+        if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system.units.length_exponent));
+        auto shared = std::make_shared<const BranchSystem>(std::move(system));
+        return {std::move(shared), Corrector(std::move(narrow)), std::move(onset), height};
     }
 };
 

@@ -33,8 +33,8 @@ struct GivenHeight : Condition {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too. The sign is
-/// that of the link.
+/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too, with the
+/// link's sign.
 struct GivenTipInclination : Condition {
     Fine sine, cosine;
     double angle;
@@ -156,8 +156,7 @@ inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const Branch
     return y;
 }
 
-/// Newton's method on all pins and the height at once: as `balance`, with one condition. Cost O(N)
-/// a step.
+/// Newton's method on all pins and the height, as `balance`, with one condition. Cost O(N) a step.
 inline Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
@@ -200,7 +199,7 @@ inline Polished polished(const BranchLinks<Fine>& links, const BranchState& star
         const double log_change = border.solve(left, as_double(open), reach);
         // Changes are relative to a link's own inclination and to the steepest one. The start was
         // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
-        // That decreases by 1e-16 a step and does no harm.
+        // It does no harm.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
             // of an accidentally vertical link, only what double-double offsets resolve

@@ -92,7 +92,8 @@ class BranchSearch {
 
     Found stopped(Found& result, const BranchWalk& walk, End end) const {
         result.end = end;
-        result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.system->units.length_exponent);
+        const double height = std::exp(walk.here().state.log_height);
+        result.searched_to = std::ldexp(height, root_.system->units.length_exponent);
         return std::move(result);
     }
     /// The state that satisfies the condition, with links at most `farthest` (rad) from `near`.
@@ -100,15 +101,19 @@ class BranchSearch {
         const auto& links = root_.corrector.links();
         auto shape = shape_at(*root_.system, near, condition_);
         // near the vertical the height is rounded to that of the mode, itself rounded
-        if (!shape || (links.plain && !(shape->conical_height <= root_.height * (1 + 0x1p-50)))) return std::nullopt;
-        if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset->half_waves) return std::nullopt;
+        if (!shape) return shape;
+        const bool in_reach = shape->conical_height <= root_.height * (1 + 0x1p-50);
+        if (links.plain && !in_reach) return std::nullopt;
+        const bool kept = root_.corrector.half_waves_are_kept();
+        if (kept && shape->half_waves != root_.onset->half_waves) return std::nullopt;
         double same = 0, mirrored = 0;  // a symmetric shape has its free end at a positive offset
         for (std::size_t m = 0; m < links.bodies(); ++m) {
             const auto i = static_cast<Index>(m);
             const bool stands = root_.system->stands(m);
             const double inclination = shape->inclination[i], there = std::atan(std::sinh(near.rise[m])),
                          here = stands ? -std::remainder(inclination, std::numbers::pi) : inclination;
-            same = std::max(same, std::abs(here - there)), mirrored = std::max(mirrored, std::abs(here + there));
+            same = std::max(same, std::abs(here - there));
+            mirrored = std::max(mirrored, std::abs(here + there));
         }
         const double off = links.is_symmetric() ? std::min(same, mirrored) : same;
         if (!(off <= 0.3 * farthest)) return std::nullopt;

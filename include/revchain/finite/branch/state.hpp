@@ -9,8 +9,7 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of a branch or a direction: tau of each link, with tan(inclination) = sinh tau, and log
-/// lambda. tau is a small inclination or the logarithm of a large tangent: branches end almost
-/// straight.
+/// lambda. tau is a small inclination or the logarithm of a large tangent; branches end straight.
 struct BranchState {
     std::vector<double> rise;  ///< tau, lowest link first
     double log_height = 0;

@@ -8,7 +8,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Moment of inertia and potential energy of a path, integrated by parts with the axis at the
 /// support:
-///     sum of weight times eta^2 = integral of u^2/T,   sum of weight times height = - integral of V^2/T.
+///     sum of weight eta^2 = integral of u^2/T,   sum of weight height = - integral of V^2/T.
 class PathEnergies {
    public:
     explicit PathEnergies(const PathKind& kind, double tip_offset) : kind_(kind) {
@@ -59,8 +59,7 @@ inline double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * 
 inline double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
 /// The line on which crossing number `crossing` of the paths of a cord is at the support: f =
-/// log(arc lambda / length) = 0. A branch of j half waves lies on the line of crossing j, as u and
-/// eta are not both 0.
+/// log(arc lambda / length) = 0. A branch of j half waves lies on the line of crossing j.
 class BranchLine {
    public:
     /// A point on the line, its unit direction, the derivative of f by the bend, and f.

@@ -41,8 +41,8 @@ CordShape shape_near(const Cord& cord, double conical_height, int half_waves, do
 }  // namespace finite
 
 /// All branches found above a conical height. `complete` if a theorem counts the shapes (see
-/// `steady_shapes` of a cord). Else `consistent`: at every height in `looked_at` each scanned shape
-/// is on one branch.
+/// `steady_shapes` of a cord). Else `consistent`: at each height in `looked_at` each scanned shape
+/// is on one.
 struct CordBranches {
     std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones by greatest height
     double conical_height = 0;         ///< lowest conical height of the diagram
@@ -54,7 +54,7 @@ struct CordBranches {
 namespace finite {
 
 /// The shape at a point of a line; none if no path could be followed that far. At a fold the error
-/// is estimated from that of the fold's position.
+/// is that of its position.
 inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
     constexpr double of_fold = 1e-7;
     const double height = std::exp(point.at.log_height);
@@ -114,8 +114,7 @@ inline bool append(CordBranch& branch, const BranchLine::Point& point) {
     return true;
 }
 
-/// Follows a line from a point until it ends or `stop(last, now)` returns a reason. Folds become
-/// points.
+/// Follows a line from a point until it ends or `stop(last, now)` gives a reason. Folds are points.
 template <class Stop>
 BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
                  const Stop& stop) {

@@ -40,8 +40,8 @@
 /// J. P. Boyd, A. Marquez, arXiv:2202.13476. It fails in general: three heavy beads on a light
 /// thread have five shapes below three critical heights
 /// (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true if sqrt(rho/V) is known to
-/// be convex, or if at most one critical height is above; otherwise many eta_0 are sampled, and
-/// `complete` is false.
+/// be convex, or if at most one critical height is above; else many eta_0 are sampled, without
+/// proof.
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct CordShapes {
@@ -279,8 +279,8 @@ class CordModeShape {
 /// (bench/continuous.cpp); ten times that with a density, plus `scanned` paths. Throws
 /// InvalidArgument unless exactly one of height and speed is given, positive and finite; for a
 /// length above 1e6 heights, `scanned` below 1, an exponent of the density above 20, and a cord
-/// that the series cannot follow (such as an exponent of 16 without a tip, or a tip of 1e30 times
-/// the cord's weight).
+/// that the series cannot follow (as an exponent of 16 without a tip, or a tip of 1e30 times its
+/// weight).
 CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 
 }  // namespace revchain

@@ -13,7 +13,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// derivatives by that offset. Between two crossings there is one turn (u = 0), and (eta, u) passes
 /// the four quadrants in one order. The quadrants at the ends of a step thus tell its crossings if
 /// it passes fewer than four: if step times sqrt(largest T) < 3 pi/2 (Prüfer angle). Steps are cut
-/// until that holds with at most one crossing.
+/// until this holds.
 class Path {
    public:
     struct Step {

@@ -44,10 +44,9 @@ struct PathKind {
 
 /// The power series of a path about one of its points, in a time t that makes the equations
 /// polynomials:
-///     dsigma = T dt:   eta' = u,   u' = -rho T eta,   V' = rho T,   xi' = V,   T' = rho (V - u eta)    (' by t).
+///     dsigma = T dt:  eta' = u,  u' = -rho T eta,  V' = rho T,  xi' = V,  T' = rho (V - u eta).
 /// For the uniform chain the last has the integral T = C + xi - eta^2/2. At a sharp turn T goes
-/// like a hyperbolic cosine of t: one step in t spans most of the corner, one in sigma only about
-/// its radius.
+/// like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
@@ -99,8 +98,8 @@ class PathSeries {
         for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
         return sum;
     }
-    /// The state at a time, the tension by its own series, and a bound of the change of the Prüfer
-    /// angle: dtheta/dt <= pace sqrt(largest rho T).
+    /// The state at a time, the tension by its own series, and a bound of the Prüfer angle:
+    /// dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
         double tension, max_phase;
@@ -134,7 +133,8 @@ class PathSeries {
 
     Coefficients arc{}, offset, pull, height, tension, below;
     double pace = 1;  ///< dsigma = pace T dt
-    Coefficients arc_change, offset_change, pull_change, height_change, tension_change, below_change;
+    Coefficients arc_change, offset_change, pull_change, height_change;
+    Coefficients tension_change, below_change;
 
    private:
     void set(const PathState& state, double weight_below, const PathChange* change) {
@@ -144,7 +144,7 @@ class PathSeries {
         arc_change[0] = change->arc, offset_change[0] = change->offset;
         pull_change[0] = change->pull, height_change[0] = change->height;
     }
-    /// Unit weight is known at compile time: two products fewer in a row save 5 % of a path
+    /// Unit weight is known at compile time: fewer products in a row save 5 %
     /// (bench/continuous.cpp).
     template <bool unit_weight>
     void uniform(const Constants& constants) {

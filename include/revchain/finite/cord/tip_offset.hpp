@@ -5,8 +5,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A model of the arc s of one crossing by the offset eta_0 of the free end: s - s(0) = c
-/// eta_0^2/(1 + b eta_0), quadratic, then linear.
+/// A model of the arc s of one crossing by the free end's offset eta_0: s - s(0) = c eta_0^2/(1 + b
+/// eta_0).
 struct CrossingLaw {
     double quadratic, bend;
 

@@ -7,8 +7,7 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of a uniform cord held at both ends, lengths over the cord's: arc from the lower end,
-/// offset y, height z, and lambda times the upward force over the weight, u across, V along the
-/// axis.
+/// offset y, height z, and lambda times the upward force over the weight, u across, V along.
 struct HeldCordState {
     double arc = 0, offset = 0, rise = 0, across = 0, along = 0;
 };

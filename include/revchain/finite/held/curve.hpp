@@ -20,8 +20,7 @@ enum class Third { span, height, part };
 
 /// A curve of states that meet the upper end, in two forces and a third number, by its arc, through
 /// folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the upper
-/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores the
-/// state.
+/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores it.
 template <class Shooter>
 class HeldCurve {
    public:

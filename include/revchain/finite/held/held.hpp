@@ -104,8 +104,8 @@ class HeldChain {
     /// The state with `half_waves` half waves, see `HeldCurve::from_straight`. Without mirror
     /// images the lowest link of the nearly straight chain leads outwards, or not.
     std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
-        // The nearly straight chain without gravity has the shape y of a mode under tension 1; the
-        // height of the mode is the force along the axis.
+        // The nearly straight chain without gravity has the shape y of a mode under tension 1; its
+        // height is the force along the axis.
         const detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
         const auto taut = detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
         if (half_waves > taut.available.count) return {};

@@ -75,8 +75,7 @@ class Cutting {
 
 /// Visits cells and their parts until none waits, up to `batch` at once: the newest first, so that
 /// few wait, or with `large_first` the oldest, so that remaining cells are small. `visit(cells,
-/// wait)` settles each cell, leaves it open, or passes its parts to `wait`. Once `spent()`, cells
-/// go to `leave_open`.
+/// wait)` settles each cell, leaves it open, or passes parts to `wait`; `spent()` ends this.
 template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
 void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
@@ -98,8 +97,7 @@ void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
 enum class Seen { settled, open, ruled_by_rounding };
 
 /// Splits `whole` until `classify(part, cells)` settles every part. Calls `leave_open(part)` for
-/// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns the number of
-/// parts.
+/// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns their number.
 template <class T, class Classify, class LeaveOpen>
 long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
            const LeaveOpen& leave_open) {

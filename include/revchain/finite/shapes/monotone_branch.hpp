@@ -6,8 +6,8 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one, the whole;
-/// else R falls in the middle and grows on its right and left, beyond the joints t =
-/// +-sqrt((|turning|/stiffness)^(2/3) - 1).
+/// else R falls in the middle and grows beyond the joints t = +-sqrt((|turning|/stiffness)^(2/3) -
+/// 1).
 enum class MonotoneBranch { whole, right, middle, left };
 
 /// Whether R grows with t everywhere by at least a hundredth of `stiffness`. A flatter one is

@@ -42,7 +42,7 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
 }
 
 /// The balance of a whole chain in the tangents of its links in one posture, s the sines:
-///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal.
+///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r - (m = r) X_m a_m.
 /// It is linear but for the sines, so its derivative over a box is as sharp as theirs, and regular
 /// at joints of branches. In a rig, sigma in B is of the moving weights; with W their sum the
 /// highest pin is at
@@ -157,8 +157,8 @@ class WholeBalance {
         top_.at_rest = support.firm ? support.radius : support.radius / yields;
         top_.symmetric = support.symmetric;
         for (std::size_t r = 0; r < size_; ++r) {
-            top_.drawn.push_back(support.firm ? Interval<T>(T(0))
-                                              : support.compliance / yields * moving[r] * links[r].length);
+            const Interval<T> drawn = support.compliance / yields * moving[r] * links[r].length;
+            top_.drawn.push_back(support.firm ? Interval<T>(T(0)) : drawn);
             top_.load.push_back(moving[r] * top_.at_rest);
         }
         return moving;

@@ -85,8 +85,8 @@ struct PulledLinks {
 /// by link without cancellation. A support that yields moves by the last q and b, which are
 /// lengths: it adds lambda E to both stiffnesses and its carriage to M. So does a lower end on a
 /// spring, by the motion of the lowest pin. Angles are scaled so that stiffness and mass are about
-/// 1, for light links too. Damping adds rates of dissipation: F q', H b' at the pins, drag in
-/// proportion to length and velocity in space.
+/// 1, for light links too. Damping adds rates of dissipation: F q', H b' at the pins, drag by
+/// length and velocity.
 template <class S>
 struct DisturbedIn {
     Matrix<S> inertia, coupling, mass;  // A, B, N
