@@ -11,7 +11,7 @@ struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
     bool converged = false;        ///< Newton's method reached the last digits of S
-    std::vector<S> tangent{};      ///< of the links, if too near the horizontal for offsets; else empty
+    std::vector<S> tangent{};      ///< of links, if too near the horizontal for offsets; or empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
     void mirror() {
@@ -69,11 +69,11 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
     support.place(y);
-    const std::size_t rows = n + (support.yields() ? 1 : 0);        // the topmost pin is unknown too
+    const std::size_t rows = n + (support.yields() ? 1 : 0);        // with the topmost pin
     std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: forces, then steps
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
-        S from_below(0);  // lambda sigma tan d + a X sin d, less the centrifugal force, of the link below
+        S from_below(0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
         double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];

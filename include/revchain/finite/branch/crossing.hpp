@@ -81,7 +81,7 @@ std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measu
     else
         zero_between(detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
                      {.width = 2e-16, .value = tolerance});
-    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end is near enough
+    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end will do
     return best;
 }
 

@@ -36,7 +36,7 @@ class ChainQuestions {
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
             const double each = detail::one_mode(chain_, mode, false).conical_height;
-            if (each > height) found.push_back(each);  // exactly at the height of a mode it has no branch
+            if (each > height) found.push_back(each);  // at its height it has no branch
         }
         return found;
     }

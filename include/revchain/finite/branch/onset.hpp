@@ -120,7 +120,7 @@ struct BranchRoot {
     std::shared_ptr<const BranchSystem> system;
     Corrector corrector;
     std::optional<BranchOnset> onset;  ///< none from rest
-    double height;                     ///< of the mode (from rest: of the first with the support on the axis), unscaled
+    double height;                     ///< of the mode, or from rest of the first mode
 
     template <class Options>
     static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {

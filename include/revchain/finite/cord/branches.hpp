@@ -44,7 +44,7 @@ CordShape shape_near(const Cord& cord, double conical_height, int half_waves, do
 /// `steady_shapes` of a cord). Else `consistent`: at each height in `looked_at` each scanned shape
 /// is on one.
 struct CordBranches {
-    std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones by greatest height
+    std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones, highest first
     double conical_height = 0;         ///< lowest conical height of the diagram
     bool consistent = false, complete = false;
     std::vector<double> looked_at;  ///< conical heights of scanned lists, descending

@@ -137,7 +137,7 @@ inline void require_followed(std::string_view place, const Path& path, double le
 }
 
 inline CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
-    const double undecided = 32 * epsilon<double>();  // uncertainty of a length near a critical height
+    const double undecided = 32 * epsilon<double>();  // of a length near a critical height
     const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
     const Path small = path_at_rest(chain, height, {.farthest = farthest});

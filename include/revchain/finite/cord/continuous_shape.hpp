@@ -28,8 +28,8 @@ struct CordShape {
     double length = 0;
     double conical_height = 0;  ///< of the speed
     double residual = 0;        ///< of the first integral at the support, over the largest tension
-    double error_bound = 0;     ///< of every inclination (rad), and of every offset and height over length
-    double condition = 0;       ///< largest change of an inclination for a relative change 1 of the length
+    double error_bound = 0;     ///< of inclinations (rad), and of offsets and heights over length
+    double condition = 0;       ///< largest change of an inclination per relative change of the length
 
     /// The point at an arc length from the free end. Cost: 1 microsecond. Throws InvalidArgument
     /// outside 0 ... length.

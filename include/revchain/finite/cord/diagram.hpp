@@ -46,7 +46,7 @@ class CordDiagram {
     }
 
    private:
-    static constexpr double alike = 1e-6;  // relative difference of the free end's offset of one shape
+    static constexpr double alike = 1e-6;  // relative difference of tip offsets of one shape
 
     void compare(double height) {
         result_.looked_at.push_back(height);

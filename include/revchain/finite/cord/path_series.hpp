@@ -244,7 +244,7 @@ class PathSeries {
         std::array<double, degree + 1> c = kind.density->about(at);
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
-        std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
+        std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + sigma line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
         std::size_t last = degree;  // higher powers are negligible within the piece
@@ -319,7 +319,7 @@ class TipSeries {
 
     TipSeries(double tip_offset, double bend, double tolerance = PathSeries::rounding) {
         offset[0] = tip_offset, offset_change[0] = 1, height[0] = 0;
-        Coefficients size{}, cosine{}, cube{}, turn{};  // 1 + q^2, its powers -1/2, -3/2; sine's change
+        Coefficients size{}, cosine{}, cube{}, turn{};  // 1 + q^2, its powers -1/2, -3/2
         height_change[0] = 0;
         for (std::size_t n = 0; n <= order; ++n) {
             const double inverse = 1.0 / static_cast<double>(n + 1);

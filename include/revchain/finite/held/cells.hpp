@@ -8,7 +8,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// Bounds common to all chains that begin in a cell. With mirror images, offsets are over the sine
 /// of the lowest link's angle: this excludes the chain along the axis.
 struct HeldReach {
-    bool none = false;           ///< no chain of the cell meets the upper end with the wanted half waves
+    bool none = false;           ///< no chain of the cell meets the goal with the wanted half waves
     bool known = false;          ///< the rest is
     long looked = 1;             ///< links swept
     Interval<double> side, gap;  ///< of the upper end, at the cell's centre

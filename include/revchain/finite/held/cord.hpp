@@ -15,21 +15,21 @@ namespace revchain::inline REVCHAIN_BUILD {
 struct HeldCordPlace {
     double arc_length;            ///< from the lower end
     double offset, height;        ///< from the axis; above the lower end
-    double inclination;           ///< to the upward vertical, rad; positive where the cord rises towards the axis
+    double inclination;           ///< to the upward vertical, rad; positive if rising towards the axis
     double height_times_tension;  ///< lambda times the tension
 };
 
 /// A steady shape of a uniform cord whose ends are held on the axis. Forces are times the conical
 /// height, as in `HeldShape`. Eight points a step: dense where the cord turns sharply.
 struct HeldCordShape {
-    Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) lower end first
-    std::array<double, 2> lower_pull;  ///< lambda times the pull on the lower bearing: outwards, up
+    Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) upwards
+    std::array<double, 2> lower_pull;  ///< lambda times pull on the lower bearing: outwards, up
     std::array<double, 2> upper_pull;  ///< the same on the upper bearing
     int half_waves = 1;
     double span = 0, length = 0, weight = 0, conical_height = 0;
-    double residual = 0;     ///< of T - lambda z w + w y^2/2 over the largest tension, and of the gap, at the upper end
-    double error_bound = 0;  ///< estimate for every inclination (rad) and offset over length
-    double condition = 0;    ///< largest change of an inclination for a relative change 1 of span or height
+    double residual = 0;           ///< of T - lambda z w + w y^2/2 over the largest tension, and gap, at the end
+    double error_bound = 0;        ///< estimate for every inclination (rad) and offset over length
+    double condition = 0;          ///< largest change of an inclination per relative change of span or height
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared
 
     /// The point at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
@@ -42,7 +42,7 @@ struct HeldCordShape {
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
-    bool complete = false;  ///< proved that no half waves are missing; only for a span without gravity
+    bool complete = false;  ///< proved that none is missing; only for a span without gravity
 };
 
 namespace finite {

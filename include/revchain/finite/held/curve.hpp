@@ -29,7 +29,7 @@ class HeldCurve {
         : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
 
     static constexpr int max_steps = 3000;
-    static constexpr double at_rest = 1e4;  ///< conical height over length of a chain that hangs as at rest
+    static constexpr double at_rest = 1e4;  ///< conical height over length of a chain at rest
 
     /// Newton's method at the span and height of `state`, to double accuracy.
     std::optional<HeldState> corrected(HeldState state) {

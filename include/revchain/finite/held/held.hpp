@@ -13,8 +13,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 struct HeldShapes {
     std::vector<HeldShape> shapes;            ///< by half waves
     std::vector<int> missing;                 ///< half waves for which nothing was found
-    bool complete = false;                    ///< proved that no shape is missing; false unless planar
-    std::vector<InclinationRange> undecided;  ///< of the lowest link, where other planar shapes may begin
+    bool complete = false;                    ///< proved that none is missing; false unless planar
+    std::vector<InclinationRange> undecided;  ///< of the lowest link, for further planar shapes
     long cells = 0;                           ///< examined
 };
 
@@ -117,7 +117,7 @@ class HeldChain {
         double short_of = 0;  // by how much the shape y is shorter than the chain
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += std::pow(y[m] - y[m + 1], 2) / (2 * links_[m].length);
-        const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);  // across
+        const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);
         straighten();
         const double across = outwards ? -1 : 1, part = supports_.plain() ? 1 : 0;
         return curve().from_straight(as_double(length_ - span), as_double(span), height, [&](double slack) {
@@ -134,7 +134,7 @@ class HeldChain {
             const S sine(d.sine), cosine(d.cosine), size = sqrt(sine * sine + cosine * cosine);
             direction.push_back({sine / size, cosine / size});
         }
-        if (mirrored() && kept_.front().sine > 0) {  // the mirror image with the lowest link outwards
+        if (mirrored() && kept_.front().sine > 0) {  // lowest link outwards
             forces.across = -forces.across;
             for (Direction<S>& d : direction) d.sine = -d.sine;
         }

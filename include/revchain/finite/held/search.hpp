@@ -151,7 +151,7 @@ class HeldSearch {
     }
 
     static constexpr double least_ = 1e-9;  // relative width of cells that are not split
-    static constexpr double fine_ = 0.02;   // relative width of cells whose slack links are divided into arcs
+    static constexpr double fine_ = 0.02;   // relative width of cells with arcs for slack links
     static constexpr long arcs_ = 300;
     const HeldCells& chain_;
     long budget_;

@@ -11,21 +11,21 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// the units of the chain. Forces are times the conical height lambda, weight times length: so they
 /// exist without gravity too. There weights are masses, and forces these numbers times n^2.
 struct HeldShape {
-    Vector<double> inclination;           ///< (N) of each link to the upward vertical, rad, in (-pi, pi]; sign of §8
-    Vector<double> offset;                ///< (N + 1) of pins from the axis; with ends on it 0, the second positive
-    Vector<double> height;                ///< (N + 1) of each pin above the lower end; the last the span
+    Vector<double> inclination;           ///< (N) to the upward vertical, rad, in (-pi, pi]; sign of §8
+    Vector<double> offset;                ///< (N + 1) of pins; with ends on the axis 0, the second positive
+    Vector<double> height;                ///< (N + 1) of pins above the lower end; the last the span
     Vector<double> height_times_tension;  ///< (N + 1) lambda times the force through each pin
     Vector<double> force_inclination;     ///< (N + 1) of that upward force to the vertical, rad
-    std::array<double, 2> lower_pull;     ///< lambda times the pull on the lower bearing: outwards, up
-    std::array<double, 2> upper_pull;     ///< the same on the upper bearing; up is negative if it hangs
-    int half_waves = 1;  ///< side changes of pins about the line between the ends' rest positions, plus 1
+    std::array<double, 2> lower_pull;     ///< lambda times pull on the lower bearing: outwards, up
+    std::array<double, 2> upper_pull;     ///< on the upper bearing; up is negative if it hangs
+    int half_waves = 1;                   ///< 1 + side changes of pins about the line between the rested ends
     double span = 0, conical_height = 0;
     std::array<Support, 2> ends{};   ///< lower and upper support, stiffness times the height
-    double residual = 0;             ///< largest moment about a pin over force and length, or gap over length
+    double residual = 0;             ///< largest moment about a pin over force and length, or gap
     double error_bound = 0;          ///< of every inclination, rad
     bool proved = false;             ///< else `error_bound` is an estimate
-    double condition = 0;            ///< largest change of an inclination for a relative change 1 of span or height
-    double moment_of_inertia = 0;    ///< about the axis, weight times length squared; carriages included
+    double condition = 0;            ///< largest change of an inclination per relative change of span or height
+    double moment_of_inertia = 0;    ///< about the axis, weight times length squared, with carriages
     double height_times_energy = 0;  ///< lambda (potential energy) - moment_of_inertia / 2
 
     /// In rad/s. Throws InvalidArgument without gravity: then any speed has this shape.

@@ -218,7 +218,7 @@ bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, do
 /// The lowest link of a chain held at both ends, in intervals: lambda times its pull, and the
 /// tangent, positive outwards, of half its angle to the vertical, upward or not.
 struct HeldCell {
-    std::array<Interval<double>, 2> at;  ///< pull; tangent from 0 or, without mirror images, -1 to 1
+    std::array<Interval<double>, 2> at;  ///< pull; tangent from 0 (mirror images) or -1 to 1
     bool up = true;
 };
 

@@ -10,7 +10,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct Verified {
     std::vector<Far> offset;   ///< of the pins, support last, in double-double
     double inclination_error;  ///< exactly one steady shape has all inclinations within this (rad)
-    double condition;          ///< largest change of an inclination (rad) for relative changes 1 of forces
+    double condition;          ///< largest change of an inclination (rad) per relative change of forces
 };
 
 /// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a

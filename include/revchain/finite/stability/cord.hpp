@@ -12,14 +12,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);  // finite/stability/stability.hpp
+Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);
 
 /// A shape of a cord along its arc, from the lower end, in any units of length and weight.
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;   ///< ascending arcs between which inclination and tension are smooth
-    std::vector<double> pieces;  ///< the same of the density; empty if it is uniform
+    std::vector<double> steps;                            ///< ascending; inclination and tension are smooth between
+    std::vector<double> pieces;                           ///< the same of the density; empty if it is uniform
     std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
     std::function<double(double)> density, weight_below;  ///< of the arc
     bool is_held = false;                                 ///< the lower end too
@@ -78,9 +78,9 @@ class DisturbedCord {
     Disturbed disturbed() const {
         Disturbed d;
         const Index n = wide_.size(), m = static_cast<Index>(points_.size());
-        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // makes the basis orthonormal
+        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // orthonormal basis
         Matrix<double> value = Matrix<double>::Zero(m, n);
-        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals up to the support; last: all
+        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: all
         Vector<double> mass(m + 1), length(m + 1), tension(m);
         for (Index i = 0; i < m; ++i) {
             const Point& point = points_[static_cast<std::size_t>(i)];

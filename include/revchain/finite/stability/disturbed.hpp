@@ -38,7 +38,7 @@ struct PulledLinks {
     std::vector<double> inclination, pull;
     std::vector<double> doubt;  // errors of pulls over rounding
     double upper_offset = 0;
-    std::vector<double> momentum, axial;                         // about the links: lambda n times momentum; inertia
+    std::vector<double> momentum, axial;                         // of flywheels: lambda n times momentum, inertia
     double stiffness = std::numeric_limits<double>::infinity();  // lambda times the support's
     double carriage = 0;
     double lower_stiffness = std::numeric_limits<double>::infinity();  // of a held lower end
