@@ -162,8 +162,9 @@ class Diagram {
         const int lists = first > lowest ? options_.lists : 1;
         for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
         prove(settled);
-        std::ranges::sort(result_.looked_at, std::greater<>());
-        std::ranges::stable_sort(result_.branches.begin() + roots, result_.branches.end(), std::greater<>(), highest);
+        std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
+        const auto before = [](const Branch& x, const Branch& y) { return highest(x) > highest(y); };
+        std::stable_sort(result_.branches.begin() + roots, result_.branches.end(), before);
         return std::move(result_);
     }
 
@@ -174,7 +175,9 @@ class Diagram {
             reach += as_double(ask_.system->links.links[m].length);
         return reach / unit_;
     }
-    static double highest(const Branch& branch) { return std::ranges::max(branch.conical_height); }
+    static double highest(const Branch& branch) {
+        return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
+    }
     void settle(BranchEnd end) {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
@@ -236,7 +239,8 @@ class Diagram {
             meet(loop);
             result_.branches.push_back(std::move(loop));
         }
-        result_.consistent &= crossings == list.shapes.size() && std::ranges::count(met, 1) == std::ssize(met);
+        const bool each_once = std::count(met.begin(), met.end(), 1) == std::ssize(met);
+        result_.consistent &= crossings == list.shapes.size() && each_once;
     }
 
     /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
@@ -299,7 +303,8 @@ class Diagram {
             ++stuck_;
             return false;
         }
-        const double top = highest(found), bottom = std::ranges::min(found.conical_height);
+        const double top = highest(found);
+        const double bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
         result_.branches.push_back(std::move(found));
         look(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;

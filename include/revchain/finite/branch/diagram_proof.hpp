@@ -216,7 +216,8 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
         return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height && height < high;
     };
     const auto& points = trace_of(branch).points;
-    if (std::ranges::any_of(points, inside, &BranchPoint::state)) return true;
+    for (const BranchPoint& point : points)
+        if (inside(point.state)) return true;
     const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
                  links = as_double(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {

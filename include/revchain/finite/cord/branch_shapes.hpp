@@ -10,7 +10,7 @@ REVCHAIN_INLINE CordShape CordBranch::shape(std::size_t point) const {
     constexpr std::string_view place = "CordBranch::shape";
     if (point >= size()) detail::throw_invalid(place, "there are so many points: " + std::to_string(size()), point);
     if (points[point].at.bend == 0) detail::throw_invalid(place, "this point is the straight cord", point);
-    const bool at_fold = std::ranges::find(folds, point) != folds.end();
+    const bool at_fold = std::find(folds.begin(), folds.end(), point) != folds.end();
     auto shape = finite::shape_at(*line, points[point], at_fold);
     if (!shape) detail::throw_invalid(place, "the shape at this point could not be followed", point);
     return *std::move(shape);

@@ -166,7 +166,7 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
         }
         law = law.of_one_before(crossing);
     }
-    std::ranges::reverse(result.shapes);
+    std::reverse(result.shapes.begin(), result.shapes.end());
     for (CordShape& shape : result.shapes) shape.density = chain.density;
     return result;
 }
@@ -213,8 +213,8 @@ inline Index critical_heights_above(const ContinuousChain& chain, double height)
     const double length = length_in_heights(place, chain.length, height);
     const Path path = path_at_rest(chain, height, {.farthest = length});
     require_followed(place, path, length, height);
-    return std::ranges::count_if(path.crossings(),
-                                 [&](const Path::Crossing& crossing) { return crossing.arc < length; });
+    return std::count_if(path.crossings().begin(), path.crossings().end(),
+                         [&](const Path::Crossing& crossing) { return crossing.arc < length; });
 }
 
 /// A mode of small amplitude. Cost: one path; 1 microsecond a point, 10 with a density.

@@ -31,10 +31,13 @@ class CordDiagram {
             const double share = static_cast<double>(i) / options_.lists;
             compare(lowest * std::pow(critical_[0] / lowest, share));
         }
-        std::ranges::reverse(result_.looked_at);
+        std::reverse(result_.looked_at.begin(), result_.looked_at.end());
         const auto isolated = result_.branches.begin() + critical_.size();
-        const auto born = [](const CordBranch& branch) { return std::ranges::max(branch.conical_height); };
-        std::ranges::stable_sort(isolated, result_.branches.end(), std::greater<>(), born);
+        const auto born = [](const CordBranch& branch) {
+            return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
+        };
+        const auto before = [&](const CordBranch& x, const CordBranch& y) { return born(x) > born(y); };
+        std::stable_sort(isolated, result_.branches.end(), before);
         result_.remark = critical_.size() == 0 ? "no shape leaves the vertical at this height or above"
                          : result_.complete    ? "a theorem counts the shapes: there are no others"
                          : !ended              ? "a branch could not be followed to the end"

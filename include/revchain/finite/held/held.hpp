@@ -210,7 +210,7 @@ inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& c
         if (high >= 0) result.push_back({std::max(low, 0.0) - by - pi, high + by - pi});
         if (low < 0) result.push_back({low - by + pi, std::min(high, 0.0) + by + pi});
     }
-    std::ranges::sort(result, {}, &InclinationRange::low);
+    std::sort(result.begin(), result.end(), [](const auto& x, const auto& y) { return x.low < y.low; });
     std::vector<InclinationRange> apart;
     for (const InclinationRange& range : result)
         if (!apart.empty() && range.low <= apart.back().high)
@@ -226,11 +226,15 @@ struct HeldListOptions {
     long budget;
 };
 
+inline void sort_by_half_waves(std::vector<HeldShape>& shapes) {
+    const auto before = [](const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; };
+    std::stable_sort(shapes.begin(), shapes.end(), before);
+}
 inline bool has(const std::vector<HeldShape>& shapes, int half_waves) {
-    return std::ranges::find(shapes, half_waves, &HeldShape::half_waves) != shapes.end();
+    return std::any_of(shapes.begin(), shapes.end(), [&](const auto& x) { return x.half_waves == half_waves; });
 }
 inline bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
-    return std::ranges::any_of(shapes, [&](const HeldShape& other) {
+    return std::any_of(shapes.begin(), shapes.end(), [&](const HeldShape& other) {
         return (other.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-8;
     });
 }
@@ -241,7 +245,7 @@ inline void keep_different(HeldShapes& list, int max_half_waves) {
     for (const HeldShape& shape : list.shapes)
         if (shape.half_waves <= max_half_waves && !has(kept, shape)) kept.push_back(shape);
     list.shapes = std::move(kept), list.missing.clear();
-    std::ranges::stable_sort(list.shapes, {}, &HeldShape::half_waves);
+    sort_by_half_waves(list.shapes);
     for (int k = 1; k <= max_half_waves; ++k)
         if (!has(list.shapes, k)) list.missing.push_back(k);
 }
@@ -269,7 +273,7 @@ inline void complete(HeldShapes& list, HeldChain& held, const Fine& height, cons
         else if (!has(list.shapes, *shape))
             list.shapes.push_back(*shape);
     }
-    std::ranges::stable_sort(list.shapes, {}, &HeldShape::half_waves);
+    sort_by_half_waves(list.shapes);
     std::erase_if(list.missing, [&](int k) { return has(list.shapes, k); });
     list.undecided = inclinations(found.undecided);
     list.complete = held.planar() && found.undecided.empty(), list.cells = found.cells;

@@ -76,7 +76,9 @@ class KrawczykList {
     };
 
     bool is_known(const TangentBox<T>& box) const {
-        return std::ranges::any_of(zones_, [&](const Zone& zone) { return within(box, zone.box); });
+        for (const Zone& zone : zones_)
+            if (within(box, zone.box)) return true;
+        return false;
     }
 
     /// Adds the zero of the box, within `near`; false if it may be one in the list.

@@ -53,7 +53,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
         tangents.push_back(last * i / third);
         tangents.push_back(last * std::pow(10.0, -12 * i / third));
     }
-    std::ranges::sort(tangents);
+    std::sort(tangents.begin(), tangents.end());
     std::vector<Bracket<T>> found;
     auto next = tangents.begin();
     for (const Bracket<T>& range : ranges) {
@@ -280,7 +280,8 @@ void add_several_valued(const AnyLinks& links, const Fine& height, double last, 
 template <class Result>
 void sort(Result& found) {
     const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
-    std::ranges::sort(found.shapes, {}, order);
+    const auto before = [&](const auto& x, const auto& y) { return order(x) < order(y); };
+    std::sort(found.shapes.begin(), found.shapes.end(), before);
     found.complete = found.undecided.empty();
 }
 

@@ -67,9 +67,10 @@ class PostureSearch {
     /// Settles a part of a choice, or leaves parts of it open as `split` does. Returns the number
     /// of parts, plus N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
-        const bool straight = support_.is_symmetric() && std::ranges::none_of(whole.choice, [](MonotoneBranch p) {
-                                  return p == MonotoneBranch::right || p == MonotoneBranch::left;
-                              });
+        const bool straight =
+            support_.is_symmetric() && std::none_of(whole.choice.begin(), whole.choice.end(), [](MonotoneBranch p) {
+                return p == MonotoneBranch::right || p == MonotoneBranch::left;
+            });
         return split(
             Bracket<T>{whole.low, whole.high}, last, narrowest, budget,
             [&](const Bracket<T>& part, long& cells) {

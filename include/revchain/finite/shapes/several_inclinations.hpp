@@ -156,8 +156,8 @@ SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& heig
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;
-        return m < n &&
-               (may_all_stand(chain) || std::ranges::any_of(posture, [](Posture p) { return p == Posture::hangs; }));
+        return m < n && (may_all_stand(chain) ||
+                         std::any_of(posture.begin(), posture.end(), [](Posture p) { return p == Posture::hangs; }));
     };
     do {
         search_posture(chain, height, posture, last, budget, result);

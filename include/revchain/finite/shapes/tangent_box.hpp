@@ -17,17 +17,17 @@ using TangentBox = std::vector<Interval<T>>;
 template <Real T>
 bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
     const auto inside = [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; };
-    return std::ranges::equal(x, y, inside);
+    return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
     const auto inside = [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; };
-    return std::ranges::equal(x, y, inside);
+    return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
     const auto meet = [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); };
-    return !std::ranges::equal(x, y, meet);
+    return !std::equal(x.begin(), x.end(), y.begin(), meet);
 }
 template <Real T>
 TangentBox<T> mirrored(TangentBox<T> x) {

@@ -239,7 +239,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     }
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
-    const bool stands = std::ranges::find(found.posture, Posture::stands) != found.posture.end();
+    const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
     // the last term: two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;

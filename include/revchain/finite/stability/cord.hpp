@@ -151,11 +151,11 @@ class DisturbedCord {
         }
         if (jumps.size() > most) return;
         const auto has_jump = [&](double at) {
-            return std::ranges::any_of(jumps, [&](double x) { return std::abs(x - at) < narrow(); });
+            return std::any_of(jumps.begin(), jumps.end(), [&](double x) { return std::abs(x - at) < narrow(); });
         };
         ends.erase(std::remove_if(ends.begin() + 1, ends.end() - 1, has_jump), ends.end() - 1);
         ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
-        std::ranges::sort(ends);
+        std::sort(ends.begin(), ends.end());
     }
     /// The Lagrange polynomials of the nodes at x, 0 ... 1 over a panel.
     Vector<double> lagrange(double x) const {
@@ -240,7 +240,7 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
             const auto alike = [&](const std::complex<double>& x) {
                 return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
             };
-            if (std::ranges::none_of(by.exponents, alike)) slowest = std::min(slowest, std::abs(s));
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike)) slowest = std::min(slowest, std::abs(s));
         }
         return slowest;
     };

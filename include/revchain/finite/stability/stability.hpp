@@ -4,54 +4,14 @@
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
+#include "revchain/finite/stability/forms.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/pencil/complex/gyroscopic.hpp"
 #include "revchain/rig.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
-
-/// Signs of the second variation of the energy, in and out of the plane: number of negative
-/// directions, whether all are positive, whether all are certain despite rounding.
-struct EnergySigns {
-    Index negative;
-    bool is_minimum, is_certain;
-};
-inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
-    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
-    const double stiffness =
-        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
-    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
-    return {inside.negative + outside.negative, least > rounding, least < -rounding};
-}
-
-/// p'A q of complex vectors, without conjugation.
-template <class S>
-std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
-                         Index j) {
-    const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
-    const auto re = p.real.col(j), im = p.imag.col(j);
-    return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
-}
-template <class S>
-double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
-    const S real = q.real.col(j).dot(A * q.real.col(j)), imag = q.imag.col(j).dot(A * q.imag.col(j));
-    return std::abs(as_double(real + imag));
-}
-template <class S>
-double squared_norm(const pencil::ComplexColumns<S>& q, Index j) {
-    return as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
-}
-template <class S>
-std::complex<double> rounded(const std::complex<S>& x) {
-    return {as_double(x.real()), as_double(x.imag())};
-}
-
-inline double error_of_root(double square, double error) {
-    return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
-}
 
 /// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
 /// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
@@ -182,8 +142,9 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
     }
-    const auto by_part = [](const Mode& x) { return std::pair(x.exponent.imag(), x.exponent.real()); };
-    std::ranges::sort(list, {}, by_part);
+    const auto parts = [](const Mode& x) { return std::pair(x.exponent.imag(), x.exponent.real()); };
+    const auto before = [&](const Mode& x, const Mode& y) { return parts(x) < parts(y); };
+    std::sort(list.begin(), list.end(), before);
     for (const Mode& mode : list) {
         result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
         result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);

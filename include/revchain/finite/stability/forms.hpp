@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/balance/links.hpp"
+#include "revchain/pencil/complex/gyroscopic.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::finite {
+
+/// Signs of the second variation of the energy, in and out of the plane: number of negative
+/// directions, whether all are positive, whether all are certain despite rounding.
+struct EnergySigns {
+    Index negative;
+    bool is_minimum, is_certain;
+};
+inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
+    return {inside.negative + outside.negative, least > rounding, least < -rounding};
+}
+
+/// p'A q of complex vectors, without conjugation.
+template <class S>
+std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
+                         Index j) {
+    const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
+    const auto re = p.real.col(j), im = p.imag.col(j);
+    return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
+}
+template <class S>
+double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
+    const S real = q.real.col(j).dot(A * q.real.col(j)), imag = q.imag.col(j).dot(A * q.imag.col(j));
+    return std::abs(as_double(real + imag));
+}
+template <class S>
+double squared_norm(const pencil::ComplexColumns<S>& q, Index j) {
+    return as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
+}
+template <class S>
+std::complex<double> rounded(const std::complex<S>& x) {
+    return {as_double(x.real()), as_double(x.imag())};
+}
+
+inline double error_of_root(double square, double error) {
+    return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
+}
+
+}  // namespace revchain::finite
