@@ -42,7 +42,7 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
 }
 
 /// The balance of a whole chain in the tangents of its links in one posture, s the sines:
-///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r - (m = r) X_m a_m.
+///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,  B_mr = sigma_min(m,r) a_r - (m = r) X_m a_m.
 /// It is linear but for the sines, so its derivative over a box is as sharp as theirs, and regular
 /// at joints of branches. In a rig, sigma in B is of the moving weights; with W their sum the
 /// highest pin is at
