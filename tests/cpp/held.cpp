@@ -508,7 +508,7 @@ std::vector<std::array<double, 2>> by_trials(const Chain<double>& chain, double 
                 changes = 0, last = 1;
                 const auto settle = [&](std::size_t m, double R, double V, Direction<double>& to) {
                     to = {R / std::hypot(R, V), V / std::hypot(R, V)};
-                    return revchain::finite::detail::settle(links[m], R, V, to);
+                    return revchain::finite::settle(links[m], R, V, to);
                 };
                 const auto end = revchain::finite::held_sweep<2>(
                     links, {}, forces, settle, [&](std::size_t m, double y, double, double, double, const auto&) {

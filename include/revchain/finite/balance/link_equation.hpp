@@ -3,9 +3,8 @@
 
 #include "revchain/finite/balance/links.hpp"
 
-/// The scalar equation of one link, t the tangent of its inclination and s its sine:
-///     lambda pull t + length cross s(t) = R.
-/// `stiffness` is lambda pull, `turning` is length cross.
+/// The equation of one link, lambda pull t + length cross s(t) = R, with t the tangent and s the
+/// sine of its inclination. `stiffness` is lambda pull, `turning` is length cross.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 template <class S>
@@ -26,21 +25,20 @@ bool is_positive(const Interval<T>& x) {
     return x.positive();
 }
 
-/// Length times cross, exactly 0 for a plummet: a product of intervals would be wider.
+/// Length times cross, exactly 0 for a plummet, where a product of intervals would be wider.
 template <class S>
 S turning_of(const Link<S>& link) {
     return is_zero(link.cross) ? link.cross : link.length * link.cross;
 }
 
-namespace detail {
-using revchain::detail::down;
-using revchain::detail::up;
+using detail::down;
+using detail::up;
 
 /// Largest t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
 inline constexpr double steepest_half_bend = 0.2862167011199732;
 
-/// Sine of the inclination whose tangent is t, and its derivatives along t, over an interval of t: each takes its
-/// extremes at the ends or where the next derivative turns.
+/// Encloses the sine of the inclination of tangent t, and its derivatives by t, over an interval of
+/// t. Each is extreme at an end or where the next derivative is 0.
 template <class T>
 struct Sine {
     Interval<T> value, slope, half_bend;  // s, (1+t^2)^-3/2, t (1+t^2)^-5/2 = -s''/3
@@ -83,27 +81,28 @@ Interval<T> sine_at(const Interval<T>& tangent) {
     return Sine<T>(tangent).value;
 }
 
-/// The tangent under the load R by Newton's method, from a start on a side from which it does not overshoot.
+/// Newton's method for the tangent under the load R, from a side from which it does not overshoot.
 template <class S>
 S tangent_from(S t, const S& stiffness, const S& turning, const S& R) {
     using std::abs;
     for (int round = 0; round < 100; ++round) {
-        const S cosine = cosine_at(t);
-        const S step = (R - stiffness * t - turning * t * cosine) / (stiffness + turning * cosine * cosine * cosine);
+        const S cosine = cosine_at(t), slope = stiffness + turning * cosine * cosine * cosine;
+        const S step = (R - stiffness * t - turning * t * cosine) / slope;
         t = t + step;
         if (!(abs(step) > S(4) * epsilon<S>() * abs(t))) break;
     }
     return t;
 }
 
-/// The tangent under the load R where the load grows with the tangent: stiffness + min(0, turning) > 0.
+/// The tangent under the load R, if stiffness + min(0, turning) > 0: the load grows with it.
 template <class S>
 S tangent_of(const S& stiffness, const S& turning, const S& R) {
     if (is_zero(turning)) return R / stiffness;
-    return tangent_from(S(R / (turning > S(0) ? stiffness + turning : stiffness)), stiffness, turning, R);
+    const S slope = turning > S(0) ? stiffness + turning : stiffness;
+    return tangent_from(S(R / slope), stiffness, turning, R);
 }
 
-/// The first of the numbers t, t + step, t + 3 step, t + 7 step, ... that passes a test; NaN if none of `tries` does.
+/// The first of t, t + step, t + 3 step, t + 7 step, ... that passes a test; NaN if `tries` fail.
 template <class T, class Test>
 T first_passing(T t, T step, int tries, const Test& passes) {
     for (int round = 0; round < tries; ++round, step = step * T(2)) {
@@ -119,8 +118,7 @@ T rounding_step(const T& t) {
     return T(2) * epsilon<T>() * abs(t) + std::numeric_limits<T>::denorm_min();
 }
 
-/// Encloses the tangents under the loads R; NaN where none is found. The stiffness may be a wide interval: |t| falls
-/// with it.
+/// Encloses the tangents under the loads R, for any width of the stiffness; NaN if none is found.
 template <Real T>
 Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
     if (is_zero(turning)) return R / stiffness;
@@ -136,5 +134,4 @@ Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning,
             first_passing(high, rounding_step(high), tries, [&](const T& t) { return load(t).low >= R.high; })};
 }
 
-}  // namespace detail
 }  // namespace revchain::finite

@@ -6,18 +6,17 @@
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/simd/interval_lanes.hpp"
 
-/// The equation of one link for several loads at once: what finite/balance/taylor.hpp needs of
-/// finite/balance/link_equation.hpp, for packs.
-namespace revchain::inline REVCHAIN_BUILD::finite::detail {
+/// The equation of one link for several loads at once, as packs; for finite/balance/taylor.hpp.
+namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// `any` and `if_less` for numbers, so that one text serves numbers and packs.
+/// `any` and `if_less` for numbers: templates can use numbers and packs alike.
 inline bool any(bool yes) { return yes; }
 template <Real T>
 const T& if_less(const T& x, const T& y, const T& a, const T& b) {
     return x < y ? a : b;
 }
 
-/// The link of each lane: the same in all.
+/// The link in every lane of a pack.
 template <class T>
 [[gnu::always_inline]] inline decltype(auto) in_lanes(const Link<Interval<Lane<T>>>& link) {
     if constexpr (IsPack<T>) {
@@ -52,14 +51,14 @@ struct Sine<V> {
     }
 };
 
-/// Encloses the tangents under the loads R: the first of t, t + step, t + 3 step, ... beyond where Newton's method ends
-/// whose load is for certain beyond that wanted. NaN where none of them is.
+/// Encloses the tangents under the loads R; NaN if none is found. Each end is the first of t, t +
+/// step, t + 3 step, ... from Newton's result whose load is certainly beyond the given one.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> tangent_of(const Interval<V>& stiffness, const Interval<V>& turning,
                                                      const Interval<V>& R) {
     using T = Lane<V>;
     const V zero(0), one(1), twist = turning.middle();
-    const std::array<V, 2> wanted{-R.low, R.high};  // the load is odd in t: each end as an upper one
+    const std::array<V, 2> wanted{-R.low, R.high};  // the load is odd in t: both are upper ends
     std::array<V, 2> above;
     for (std::size_t end = 0; end < 2; ++end) {
         const V k = if_less(wanted[end], zero, stiffness.high, stiffness.low);
@@ -83,4 +82,4 @@ template <IsPack V>
     return {-above[0], above[1]};
 }
 
-}  // namespace revchain::finite::detail
+}  // namespace revchain::finite

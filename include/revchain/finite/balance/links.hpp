@@ -9,11 +9,12 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its
-/// upper pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent
-/// and sine of its inclination, Greenhill (1908) §8 (6)-(12) is
-///     R = H_below + moment y_below,   lambda pull t + length cross s = R,   y = y_below - length s,   H = R + rest y,
-/// H the sum of weights times offsets of their centroids: lambda times the sideways pull at the pin.
+/// A link of steady motion at any inclination, lowest first in a chain. For offsets y, tangent t
+/// and sine s of the inclination, Greenhill (1908) §8 (6)-(12) reads
+///     R = H_below + moment y_below,  lambda pull t + length cross s = R,
+///     y = y_below - length s,        H = R + rest y.
+/// H, the sum of weights times offsets of centroids, is lambda times the sideways pull at the upper
+/// pin. R is its moment about that pin over the height of the link, if the link hung vertically.
 template <class S>
 struct Link {
     S length;  ///< a
@@ -23,16 +24,24 @@ struct Link {
     S rest;    ///< W (a - h)/a
 };
 
-/// The sine of a link that hangs (stands) is + (-) that of its tangent t, and its balance
+/// The sine of a hanging (standing) link is + (-) t/sqrt(1 + t^2), and its balance
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
 
-/// Links each of whose numbers lies within an interval.
+/// Links with every number enclosed by an interval.
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
-/// The arithmetic of proofs that double leaves open.
+/// The arithmetic of shapes: two doubles.
+using Fine = Wide<double>;
+/// The arithmetic of proofs that double leaves undecided.
 using Far = DoubleDouble;
+using Span = Interval<Far>;
+
+template <class S>
+double as_double(const S& x) {
+    return static_cast<double>(x);
+}
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
@@ -41,22 +50,21 @@ struct Links {
     ChainUnits units;
 };
 
-/// Every number within 1e-28 (double) of the exact function of those the chain stores, but where W h + a S cancels.
-/// Throws InvalidArgument where weights are more than 1e123 apart.
+/// The links of a chain, for T = double each number to 1e-28 unless W h + a S cancels.
+/// Throws InvalidArgument if weights differ by a factor of more than 1e123.
 template <Real T>
 Links<Wide<T>> links_of(const Chain<T>& chain) {
     using std::ldexp;
     using S = Wide<T>;
     using E = Narrow<S>;
     if (!chain.has_one_weight_unit())
-        revchain::detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
-                                        chain.total_weight());
+        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
     Links<S> result;
     result.units = chain.units();
     result.links.reserve(static_cast<std::size_t>(chain.size()));
     S below(T(0));
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % revchain::detail::segment_size == 0) below = chain.weight_below(m);
+        if (m % detail::segment_size == 0) below = chain.weight_below(m);
         const revchain::Link<T> link = chain.link(m);
         const S weight(E(ldexp(link.weight, -result.units.weight_exponent)));
         const S hung = ldexp(below, -result.units.weight_exponent);
@@ -69,7 +77,6 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     return result;
 }
 
-/// Links with every number x replaced by `to(x)`.
 template <class To, class From, class Convert>
 std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Convert& to) {
     std::vector<Link<To>> result;
@@ -83,19 +90,18 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
-/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is
-/// the narrower.
+/// Encloses in T a number known in S but for its last digits; a point if a narrower T holds it.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);
     if (near == T(0)) return Interval<T>(near);
     if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<S>::digits) {
         if (S(near) == x) return Interval<T>(near);
-        return Interval<T>(revchain::detail::down(near), revchain::detail::up(near));
+        return Interval<T>(detail::down(near), detail::up(near));
     } else {
         using std::abs;
         const T off = abs(near) * T(256) * T(operation_error<S>());
-        return Interval<T>(revchain::detail::down(T(near - off)), revchain::detail::up(T(near + off)));
+        return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
     }
 }
 template <class T, class S>
@@ -103,23 +109,19 @@ EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
 
-namespace detail {
-
-/// Whether the sine of the inclination of this tangent is 1 and its cosine 1/|tangent| to every digit.
+/// Whether the inclination of this tangent has sine 1 and cosine 1/|tangent| to every digit.
 template <class S>
 bool is_horizontal(const S& tangent) {
     using std::abs;
     return abs(tangent) > S(1e100);
 }
 
-/// Cosine of the inclination of a tangent, where its square overflows too.
+/// Cosine of the inclination of a tangent, even if the square of the tangent overflows.
 template <class S>
 S cosine_at(const S& tangent) {
     using std::abs;
     using std::sqrt;
     return S(1) / (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
 }
-
-}  // namespace detail
 
 }  // namespace revchain::finite

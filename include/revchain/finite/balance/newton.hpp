@@ -5,25 +5,22 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A steady shape as offsets of the pins, free end first, the support's 0 last.
+/// A steady shape as offsets of the pins, free end first, support last.
 template <class S>
 struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
-    bool converged = false;        ///< Newton's method, to the last digits of S
-    std::vector<S> tangent{};      ///< of the links, where they are too near the horizontal for offsets; else empty
+    bool converged = false;        ///< Newton's method reached the last digits of S
+    std::vector<S> tangent{};      ///< of links, if too near the horizontal for offsets; or empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
-    /// Turns the shape into its mirror image.
     void mirror() {
         for (S& y : offset) y = -y;
         for (S& t : tangent) t = -t;
     }
 };
 
-namespace detail {
-
-/// cos d of sin d = d/a, from (a - d)(a + d): the inclination may be all but a right angle.
+/// cos d from sin d = difference/length; accurate near a right angle.
 template <class S>
 S cosine_of(const S& length, const S& difference, bool stands = false) {
     using std::sqrt;
@@ -31,7 +28,6 @@ S cosine_of(const S& length, const S& difference, bool stands = false) {
     return stands ? -size : size;
 }
 
-/// cos d and tan d of link m.
 template <class S>
 S cosine_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
     if (shape.tangent.empty())
@@ -46,8 +42,8 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
     return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
 }
 
-/// Solves a symmetric tridiagonal system: `x` is its right side, then the solution. `upper[m]` couples rows m and
-/// m + 1; the last is not used. The diagonal becomes the pivots.
+/// Solves a symmetric tridiagonal system: `x` is the right side, then the solution. `upper[m]`
+/// couples rows m and m + 1; the last is not used. The diagonal becomes the pivots.
 inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
     for (std::size_t m = 0; m < x.size(); ++m) {
         if (m > 0) {
@@ -60,13 +56,10 @@ inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<d
         x[m] = (x[m] - (m + 1 < x.size() ? upper[m] * x[m + 1] : 0.0)) / diagonal[m];
 }
 
-}  // namespace detail
-
-/// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of
-/// forces at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the
-/// elements, in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N)
-/// a step. The iterations that free the height too (finite/branch) and that of the proof stay apart:
-/// one loop with the system as its argument took 26 lines more than it saved.
+/// Newton's method on all pins at once, from offsets near a steady shape with the given postures.
+/// The forces at the pins are computed in S; their derivative, the tridiagonal tangent stiffness
+/// lambda k sec^3 [1 -1; -1 1] - M of the elements, in double. Tips of 1e-100 and almost horizontal
+/// links keep their relative accuracy. Cost O(N) a step.
 template <class S, class End = OnAxis>
 Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start,
                     std::vector<Posture> posture = {}, const End& support = {}) {
@@ -76,45 +69,44 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
     support.place(y);
-    const std::size_t rows = n + (support.yields() ? 1 : 0);        // the topmost pin is unknown too
-    std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: first the forces, then what undoes them
+    const std::size_t rows = n + (support.yields() ? 1 : 0);        // with the topmost pin
+    std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: forces, then steps
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
-        S from_below(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
+        S from_below(0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
         double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
             if (!(abs(d) < link.length)) return result;
-            const S cosine = detail::cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
+            const S cosine = cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
-            // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
-            change[m] = -static_cast<double>(from_below + (pull + turn - at_lower));
-            const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
-            const double stiffness =
-                static_cast<double>(height * link.pull) / (a * c * c * c) + static_cast<double>(link.cross);
-            diagonal[m] = below_stiffness - below_mass + stiffness - static_cast<double>(link.moment);
+            // lambda times the force of the link on its lower pin; on the upper pin it is opposite
+            change[m] = -as_double(from_below + (pull + turn - at_lower));
+            const double c = as_double(cosine), a = as_double(link.length);
+            const double stiffness = as_double(height * link.pull) / (a * c * c * c) + as_double(link.cross);
+            diagonal[m] = below_stiffness - below_mass + stiffness - as_double(link.moment);
             upper[m] = -stiffness;
             from_below = -(pull + turn) - at_upper;
-            below_stiffness = stiffness, below_mass = static_cast<double>(link.rest);
+            below_stiffness = stiffness, below_mass = as_double(link.rest);
         }
         if constexpr (is_held<End>) {
             if (support.yields()) {
-                change[n] = -static_cast<double>(from_below + support.stiffness * (y[n] - support.radius) -
-                                                 support.carriage * y[n]);
-                diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
+                change[n] =
+                    -as_double(from_below + support.stiffness * (y[n] - support.radius) - support.carriage * y[n]);
+                diagonal[n] = below_stiffness - below_mass + as_double(support.stiffness - support.carriage);
             }
         }
-        detail::solve_tridiagonal(diagonal, upper, change);
+        solve_tridiagonal(diagonal, upper, change);
         double largest = 0;
         for (std::size_t m = 0; m < rows; ++m) {
-            const double share = static_cast<double>(abs(y[m]));
+            const double share = as_double(abs(y[m]));
             largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
             y[m] = y[m] + S(change[m]);
         }
         if (!(largest < std::numeric_limits<double>::infinity())) return result;
-        if (largest < 1e-14 && (largest > 0.25 * last || largest < static_cast<double>(epsilon<S>()))) {
+        if (largest < 1e-14 && (largest > 0.25 * last || largest < as_double(epsilon<S>()))) {
             result.converged = true;
             break;
         }

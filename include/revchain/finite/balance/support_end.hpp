@@ -7,27 +7,27 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What the upward sweep has to end in. A chain: its topmost pin is on the axis. All of it is known when compiling.
+/// The upper end of a chain: its topmost pin is on the axis, as known at compile time.
 struct OnAxis {
     static constexpr bool is_symmetric() { return true; }
     static constexpr bool yields() { return false; }
 
-    /// How far the topmost pin, at offset y under lambda times the pull `sum`, is from where it is held.
+    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
     template <class F>
     const F& miss(const F& y, const F&) const {
         return y;
     }
-    /// Puts the topmost pin, the last of `offset`, where it is held, if that does not depend on its load.
+    /// Puts the topmost pin, the last of `offset`, on its support if the position needs no load.
     template <class S>
     void place(std::vector<S>& offset) const {
         offset.back() = S(0);
     }
 };
 
-/// A rig: the topmost pin, in a carriage of weight W, is drawn by a spring of stiffness E to a place carried round the
-/// axis at a radius b, or is firm there:
+/// The upper end of a rig. A spring of stiffness E holds the topmost pin, in a carriage of weight
+/// W, to a point at radius b that turns with the rig; a firm support holds it there:
 ///     y = b + (H + W y)/(lambda E),
-/// H/lambda the pull of the chain on it. There is no straight chain but for b = 0, and no symmetry.
+/// with H/lambda the pull of the chain. Unless b = 0 there is no straight shape and no symmetry.
 template <class S>
 struct Held {
     S radius;        ///< b, of any sign; a double
@@ -53,19 +53,18 @@ struct Held {
 template <class End>
 inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
-/// The sweep needs four facts of a system. For a chain they are: the support, the posture in which all links hang, the
-/// links, and that not all links can stand, since nothing would bear the load. `RiggedLinks` has the same functions.
-inline OnAxis support_of(const Links<Wide<double>>&) { return {}; }
-inline std::vector<Posture> posture_of(const Links<Wide<double>>& chain) {
+/// What the sweep needs of a chain: its support, the posture in which all links hang, its links,
+/// and whether all links may stand (never: nothing would bear the load). See also `RiggedLinks`.
+inline OnAxis support_of(const Links<Fine>&) { return {}; }
+inline std::vector<Posture> posture_of(const Links<Fine>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);
 }
-inline bool may_all_stand(const Links<Wide<double>>&) { return false; }
+inline bool may_all_stand(const Links<Fine>&) { return false; }
 template <class T>
-EnclosedLinks<T> swept_links(const Links<Wide<double>>& chain) {
+EnclosedLinks<T> swept_links(const Links<Fine>& chain) {
     return enclosed<T>(chain.links);
 }
 
-/// Numbers about a support in which T is certain of them.
 template <class T>
 OnAxis enclosed(const OnAxis& end) {
     return end;

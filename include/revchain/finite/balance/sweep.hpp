@@ -6,20 +6,21 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Result of the upward sweep: the offset of the topmost pin, and H, which is lambda times the sideways pull on it.
+/// Result of the upward sweep: the offset of the topmost pin and H, lambda times the pull across.
 template <class F>
 struct SweepEnd {
     F offset{}, sum{};
     bool reached = true;  ///< false where no inclination of some link carries its load
 };
 
-/// The upward sweep of Greenhill (1908) §8 (4), (12): every link in balance, from the tangent t of the lowest one. All
-/// arithmetics share it: `S` are numbers or intervals, `F` too or Taylor series. `rules` holds what differs:
-///   propagate(m, R, t)   sets t to the tangent of link m under the load R; false where there is none;
+/// The upward sweep of Greenhill (1908) §8 (4), (12): every link in balance, from the tangent t of
+/// the lowest one. `S` are numbers or intervals, `F` these or Taylor series. `rules` holds what
+/// differs:
+///   propagate(m, R, t)  sets t to the tangent of link m under the load R; false if there is none;
 ///   sine(m, t)       the sine of the inclination of link m;
-///   upright(t)       lambda pull t, the load R of the lowest link less its part with the sine;
-///   tighten(f)       f, or an enclosure that is narrower;
-///   pass(m, t, y)    sees the tangent of link m and the offset of its lower pin.
+///   upright(t)       lambda pull t: the load of the lowest link without its term in the sine;
+///   tighten(f)       f, or a narrower enclosure;
+///   pass(m, t, y)    receives the tangent of link m and the offset of its lower pin.
 template <class S, class F, class Rules>
 SweepEnd<F> sweep_up(const std::vector<Link<S>>& links, F t, Rules& rules) {
     SweepEnd<F> end;
@@ -46,19 +47,19 @@ SweepEnd<F> sweep_up(const std::vector<Link<S>>& links, F t, Rules& rules) {
     return end;
 }
 
-/// The sweep in numbers or in intervals of them. Links hang.
+/// The sweep in numbers or intervals, for hanging links.
 template <class S>
 struct PlainSweep {
     const std::vector<Link<S>>& links;
     const S& height;
-    std::vector<S>*tangents = nullptr, *offsets = nullptr;  ///< where to put those of links and lower pins
+    std::vector<S>*tangents = nullptr, *offsets = nullptr;  ///< filled for links and lower pins
 
     const S& tighten(const S& x) const { return x; }
     bool propagate(std::size_t m, const S& R, S& t) const {
-        t = detail::tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
+        t = tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
         return true;
     }
-    S sine(std::size_t, const S& t) const { return detail::sine_at(t); }
+    S sine(std::size_t, const S& t) const { return sine_at(t); }
     S upright(const S& t) const { return height * links[0].pull * t; }
     void pass(std::size_t, const S& t, const S& y) const {
         if (tangents) tangents->push_back(t);
@@ -66,8 +67,8 @@ struct PlainSweep {
     }
 };
 
-/// Offsets of all pins, free end first, of the chain whose lowest link hangs at an inclination of given tangent and
-/// whose every link is in balance. The last is that of the support: 0 for a steady shape.
+/// Offsets of all pins, free end first, of links in balance from the tangent of the lowest link up.
+/// The last, of the support, is 0 for a steady shape.
 template <class S>
 std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S& lowest_tangent) {
     std::vector<S> y;
@@ -77,10 +78,8 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
     return y;
 }
 
-namespace detail {
-
-/// How far the topmost pin is from where the `support` holds it, for a tangent of the lowest link or for all of an
-/// interval; puts the tangents of all links into `tangents`.
+/// Distance of the topmost pin from its `support`, for a tangent of the lowest link or an interval
+/// of them. Puts the tangents of all links into `tangents`.
 template <class S, class End = OnAxis>
 S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lowest, const End& support = {},
                  std::vector<S>* tangents = nullptr) {
@@ -89,11 +88,10 @@ S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lo
     return support.miss(end.offset, end.sum);
 }
 
-/// Its sign at one tangent: 0 where rounding leaves it open.
+/// The sign of `support_offset` at one tangent; 0 if rounding leaves it undecided.
 template <Real T, class End = OnAxis>
 int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t, const End& support = {}) {
     return support_offset(links, height, Interval<T>(t), support).sign();
 }
 
-}  // namespace detail
 }  // namespace revchain::finite

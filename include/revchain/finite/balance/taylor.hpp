@@ -11,32 +11,32 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Derivatives to the second order of a function of D numbers: what they stay within over a cell of those numbers, and
-/// the slopes at the cell's centre. T is a number or a pack of numbers, of a cell in each lane.
+/// First and second derivatives of a function of D numbers: enclosures over a cell of them, and
+/// slopes at its centre. T is a number or a pack with one cell in each lane.
 template <class T, std::size_t D>
 struct Derivatives {
     static constexpr std::size_t pairs = D * (D + 1) / 2;
     std::array<Interval<T>, D> slope, centre_slope;
-    std::array<Interval<T>, pairs> bend;  ///< by the pairs of numbers (0, 0), ..., (0, D - 1), (1, 1), ...
+    std::array<Interval<T>, pairs> bend;  ///< for (0, 0), ..., (0, D - 1), (1, 1), ...
 
-    /// Sets each part to that of f and of g taken together.
     template <class Operation>
     [[gnu::always_inline]] void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
         for (std::size_t n = 0; n < 2 * D + pairs; ++n) part(*this, n) = of(part(f, n), part(g, n));
     }
 
    private:
-    /// Number n of all parts. With one loop over them in place of three the lanes compile in two thirds of the time.
+    /// Part n. One loop over all parts compiles in 2/3 of the time of three loops.
     template <class Any>
     [[gnu::always_inline]] static auto& part(Any& f, std::size_t n) {
         return n < D ? f.slope[n] : n < 2 * D ? f.centre_slope[n - D] : f.bend[n - 2 * D];
     }
 };
 
-/// The function as well: what it stays within over the cell, and its value at the centre.
+/// The function too: its enclosure over the cell, and its value at the centre.
 template <class T, std::size_t D>
 struct Taylor : Derivatives<T, D> {
-    Interval<T> value, centre_value;
+    using I = Interval<T>;
+    I value, centre_value;
 
     template <class Operation>
     [[gnu::always_inline]] static Taylor combined(const Taylor& f, const Taylor& g, const Operation& of) {
@@ -46,38 +46,36 @@ struct Taylor : Derivatives<T, D> {
         return r;
     }
     [[gnu::always_inline]] friend Taylor operator+(const Taylor& f, const Taylor& g) {
-        return combined(f, g, [](const Interval<T>& x, const Interval<T>& y) REVCHAIN_INLINED { return x + y; });
+        return combined(f, g, [](const I& x, const I& y) REVCHAIN_INLINED { return x + y; });
     }
     [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const Taylor& g) {
-        return combined(f, g, [](const Interval<T>& x, const Interval<T>& y) REVCHAIN_INLINED { return x - y; });
+        return combined(f, g, [](const I& x, const I& y) REVCHAIN_INLINED { return x - y; });
     }
-    [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const Interval<T>& constant) {
+    [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const I& constant) {
         Taylor r = f;  // a parameter by value of this alignment makes GCC print a note
         r.value = f.value - constant, r.centre_value = f.centre_value - constant;
         return r;
     }
-    [[gnu::always_inline]] friend Taylor operator*(const Interval<T>& k, const Taylor& f) {
-        return combined(f, f, [&](const Interval<T>& x, const Interval<T>&) REVCHAIN_INLINED { return k * x; });
+    [[gnu::always_inline]] friend Taylor operator*(const I& k, const Taylor& f) {
+        return combined(f, f, [&](const I& x, const I&) REVCHAIN_INLINED { return k * x; });
     }
-    [[gnu::always_inline]] friend Taylor operator/(const Taylor& f, const Interval<T>& k) {
-        return (Interval<T>(T(1)) / k) * f;
-    }
+    [[gnu::always_inline]] friend Taylor operator/(const Taylor& f, const I& k) { return (I(T(1)) / k) * f; }
 };
 
-/// Calls `each(k, i, j)` for every pair of numbers i <= j, k its place in `Taylor::bend`. Inlined by force: as a call,
-/// the proof of a diagram takes 1.15 times as long (GCC 12, -O3).
+/// Calls `each(k, i, j)` for all i <= j, k the index in `Taylor::bend`. Without forced inlining the
+/// proof of a diagram takes 1.15 times as long (GCC 12, -O3).
 template <std::size_t D, class Each>
 [[gnu::always_inline]] inline void each_pair(const Each& each) {
     std::size_t k = 0;
     for (std::size_t i = 0; i < D; ++i)
         for (std::size_t j = i; j < D; ++j) each(k++, i, j);
 }
-template <class T, std::size_t D>
-[[gnu::always_inline]] inline Interval<T> product(const std::array<Interval<T>, D>& x, std::size_t i, std::size_t j) {
+template <class I, std::size_t D>
+[[gnu::always_inline]] inline I product(const std::array<I, D>& x, std::size_t i, std::size_t j) {
     return i == j ? square(x[i]) : x[i] * x[j];
 }
 
-/// Ranges of D numbers, their centre, and what the mean value theorem and Taylor's formula about it need of them.
+/// Ranges of D numbers and their centre, for the mean value theorem and Taylor's formula.
 template <class T, std::size_t D>
 class Cell {
    public:
@@ -92,21 +90,21 @@ class Cell {
             off_[i] = {-reach, reach};
         }
         each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
-            using revchain::detail::up;
+            using detail::up;
             const T reach = off_[i].high;
-            product_[k] = i == j ? Interval<T>(T(0), up(T(up(T(reach * reach)) / T(2)))) : off_[i] * off_[j];
+            const Interval<T> half_square(T(0), up(T(up(T(reach * reach)) / T(2))));
+            product_[k] = i == j ? half_square : off_[i] * off_[j];
         });
     }
     const Interval<T>& range(std::size_t i) const { return range_[i]; }
     const Interval<T>& centre(std::size_t i) const { return centre_[i]; }
-    /// The first number itself.
     [[gnu::always_inline]] Taylor<T, D> first() const {
         Taylor<T, D> x;
         x.value = range_[0], x.centre_value = centre_[0];
         x.slope[0] = x.centre_slope[0] = Interval<T>(T(1));
         return x;
     }
-    /// A narrower enclosure of `f`, from Taylor's formula about the centre to first and to second order.
+    /// `f` enclosed more narrowly by Taylor's formula of first and second order about the centre.
     [[gnu::always_inline]] Taylor<T, D> centred(const Taylor<T, D>& given) const {
         Taylor<T, D> f = given;
         auto slope = f.centre_slope;
@@ -129,9 +127,6 @@ class Cell {
     std::array<Interval<T>, Taylor<T, D>::pairs> product_;
 };
 
-namespace detail {
-
-/// Sine of the inclination whose tangent is t.
 template <class T, std::size_t D>
 [[gnu::always_inline]] inline Taylor<T, D> sine_at(const Taylor<T, D>& t) {
     const Sine<T> over(t.value), centre(t.centre_value);
@@ -145,8 +140,8 @@ template <class T, std::size_t D>
     return s;
 }
 
-/// Sets the derivatives of the tangent t under the load R from its value and its centre's; false where the load may not
-/// grow with it.
+/// Sets the derivatives of the tangent t under the load R from its enclosure and its value at the
+/// centre. Returns false if the load may not grow with t.
 template <Real T>
 bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Taylor<T, 1>& R, Taylor<T, 1>& t) {
     Interval<T> growth = stiffness, centre_growth = stiffness, bend(T(0));
@@ -160,36 +155,33 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
     return !growth.may_vanish();
 }
 
-}  // namespace detail
-
-/// Momentum of the flywheels: that of each link over its length, and n sqrt(lambda), where n is the speed.
+/// Momentum of the flywheels: of each link over its length, and n sqrt(lambda), n the speed.
 template <class S>
 struct KeptMomentum {
     std::vector<S> spin;
     S speed;
 };
 
-/// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that and of lambda (D = 2).
-/// Each link but the lowest has one inclination under its load.
+/// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that
+/// tangent and lambda (D = 2). Each link but the lowest has one inclination under its load.
 ///
-/// Intervals that are handed on from link to link become wider at each, like boxes around a figure that turns and
-/// stretches. The offset y and the sum H are therefore kept relative to those at the cell's centre, in a frame:
-///     (y, H) - (y, H at the centre) = u p + v q.
-/// p and q are two solutions of the sweep with  s = k R, where k is a number for each link, close to ds/dR at the
-/// centre. The sweep conserves areas, so that p_y q_H - q_y p_H = 1, and from one link to the next, exactly,
+/// Plain intervals would grow at each link. The offset y and the sum H are therefore stored
+/// relative to those at the cell's centre, in a frame: (y, H) - (y, H at the centre) = u p + v q.
+/// Here p and q are two solutions of the sweep with s = k R, k a number for each link near ds/dR at
+/// the centre. The sweep conserves areas, so that p_y q_H - q_y p_H = 1, and from one link to the
+/// next, exactly,
 ///     u -= a R_q N,   v += a R_p N,   N = s - s at the centre - k (R - R at the centre),
-/// with R_p and R_q the loads of p and q. N is small where the links respond to their loads as at the centre.
-/// R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary initial and boundary value
-/// problems", in: Computational Ordinary Differential Equations (1992), uses such frames for differential equations.
-/// Intervals of the slopes that are handed on from link to link are computed as well: they are the narrower ones where
-/// links turn far within the cell.
-/// `spins` (with D = 2): flywheels keep momentum, and the pull of link m is  pull + n spin[m].
+/// with R_p and R_q the loads of p and q. N is small where links respond almost as at the centre.
+/// R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary initial and
+/// boundary value problems", in: Computational Ordinary Differential Equations (1992), uses such
+/// frames. Plain intervals of the slopes are computed too: they are narrower if links turn far
+/// within the cell. `spins` (with D = 2): the pull of link m is pull + n spin[m].
 template <class T, std::size_t D, bool spins = false>
 class CellSweep {
     using I = Interval<T>;
 
    public:
-    /// From the tangent `t` of the lowest link. `height` is lambda over the cell.
+    /// Sweeps from the tangent `t` of the lowest link. `height` is lambda over the cell.
     [[gnu::always_inline]] CellSweep(const EnclosedLinks<Lane<T>>& links, const Cell<T, D>& cell, const I& height,
                                      const I& centre_height, const Taylor<T, D>& t,
                                      const KeptMomentum<Interval<Lane<T>>>* kept = nullptr)
@@ -198,10 +190,9 @@ class CellSweep {
             const I speed = spread(kept->speed);
             speed_ = speed / sqrt(height), centre_speed_ = speed / sqrt(centre_height);
         }
-        start(detail::in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
-        for (std::size_t m = 1; m < links.size(); ++m) pass(m, detail::in_lanes<T>(links[m]), is_zero(links[m].cross));
+        start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
+        for (std::size_t m = 1; m < links.size(); ++m) pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
-    /// Offset of the topmost pin, and H there.
     [[gnu::always_inline]] Taylor<T, D> offset() const {
         return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_);
     }
@@ -220,8 +211,8 @@ class CellSweep {
         else
             return x;
     }
-    /// The pull of a link, `whole`; the derivative of lambda times it along lambda, `growing`, and the next, `bend`.
-    /// Over the cell, and at its centre.
+    /// The pull of a link, `whole`; first and second derivatives of lambda times it by lambda,
+    /// `growing` and `bend`. Over the cell, and at its centre.
     struct Pull {
         I whole, centre_whole, growing, centre_growing, bend;
     };
@@ -237,7 +228,7 @@ class CellSweep {
     }
 
     [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass, const Taylor<T, D>& t) {
-        const auto s = cell_.centred(detail::sine_at(t));
+        const auto s = cell_.centred(sine_at(t));
         const Pull pull = pull_of(0, link.pull);
         const I weight = D == 1 ? height_ * link.pull : pull.whole;
         Taylor<T, D> R;
@@ -265,7 +256,6 @@ class CellSweep {
         for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
         const auto R = narrowed(
             framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
-        // over the cell, and at its centre
         const Pull pull = pull_of(m, link.pull);
         const std::array<I, 2> heights{height_, centre_height_}, loads{R.value, R.centre_value},
             pulls{pull.whole, pull.centre_whole};
@@ -273,15 +263,16 @@ class CellSweep {
         I bend;
         for (std::size_t which = 2; which-- > 0;) {
             const I stiffness = heights[which] * pulls[which], turning = link.length * link.cross;
-            tangent[which] =
-                is_plummet ? loads[which] / stiffness : detail::tangent_of(stiffness, turning, loads[which]);
-            const detail::Sine<T> s(tangent[which]);
-            sine[which] = s.value, growth[which] = is_plummet ? stiffness : stiffness + turning * s.slope;
+            tangent[which] = is_plummet ? loads[which] / stiffness : tangent_of(stiffness, turning, loads[which]);
+            const Sine<T> s(tangent[which]);
+            sine[which] = s.value;
+            growth[which] = is_plummet ? stiffness : stiffness + turning * s.slope;
             along[which] = s.slope / growth[which];
-            if (which == 0) bend = I(T(-3)) * s.half_bend * (is_plummet ? I(T(1)) : stiffness / growth[which]);
+            if (which > 0) continue;
+            bend = I(T(-3)) * s.half_bend * (is_plummet ? I(T(1)) : stiffness / growth[which]);
         }
         const I &t = tangent[0], &centre_t = tangent[1], k(along[1].middle());
-        // derivatives of the load less those of lambda at a fixed t, of lambda pull t: with them the sine has
+        // derivatives of the load less those by lambda, at a fixed t, of lambda pull t: then
         // s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
         Derivatives<T, D> load = R, N;
         if constexpr (D == 2) {
@@ -322,13 +313,13 @@ class CellSweep {
         }
     }
 
-    /// Where q has come near the direction of p, subtracts from it the multiple of p that makes the two orthogonal. An
-    /// offset times `weight` counts as a sum.
+    /// Makes q orthogonal to p, by subtracting a multiple of p, if they are almost parallel.
+    /// `weight` scales offsets.
     [[gnu::always_inline]] void spread_frame(const T& weight) {
-        const T a = weight * p_.offset.middle(), b = p_.sum.middle(), c = weight * q_.offset.middle(),
-                d = q_.sum.middle(), share = (a * c + b * d) / (a * a + b * b);
+        const T a = weight * p_.offset.middle(), b = p_.sum.middle();
+        const T c = weight * q_.offset.middle(), d = q_.sum.middle();
+        const T share = (a * c + b * d) / (a * a + b * b);
         const T near = share * (a * c + b * d), far = T(0.9) * (c * c + d * d);
-        using detail::any, detail::if_less;
         if (!any(far < near)) return;
         const I of_p(if_less(far, near, share, T(0)));
         q_.offset = q_.offset - of_p * p_.offset, q_.sum = q_.sum - of_p * p_.sum;
@@ -342,7 +333,6 @@ class CellSweep {
         return f;
     }
 
-    /// `given`, with the narrower of its slopes and those given.
     [[gnu::always_inline]] Taylor<T, D> narrowed(const Taylor<T, D>& given, const std::array<I, D>& slope) const {
         Taylor<T, D> f = given;
         for (std::size_t i = 0; i < D; ++i) f.slope[i] = common(f.slope[i], slope[i]);
@@ -359,8 +349,8 @@ class CellSweep {
     std::array<I, D> offset_slope_, sum_slope_;
 };
 
-/// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
-/// Where the support yields or is carried round, the result is its distance from the place where it is held.
+/// Distance of the topmost pin from its support over a cell of tangents of the lowest link: 0 for
+/// steady shapes.
 template <Real T, class End = OnAxis>
 Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height, const Cell<T, 1>& cell,
                             const End& support = {}) {
@@ -369,13 +359,14 @@ Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& he
     return sweep.offset();
 }
 
-/// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for
-/// every steady shape. NaN where a link may have several inclinations. T: a number or a pack of them.
+/// The sweep over a cell of x = lambda t, t the tangent of the lowest link, and heights lambda; the
+/// offset of the support is 0 for every steady shape. NaN if a link may have several.
 template <class T, bool spins = false>
 [[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(const EnclosedLinks<Lane<T>>& links,
                                                                 const Cell<T, 2>& cell,
                                                                 const KeptMomentum<Interval<Lane<T>>>* kept = nullptr) {
-    const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {  // x/lambda and its slopes
+    const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {
+        // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
         return std::array{value, slope, -(value * slope)};
     };

@@ -8,19 +8,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A link at a tau: tangent, sine, secant; the slope of the sine along tau, and of the tangent along the sine.
+/// A link at a tau: derivatives of the sine by tau (`slope`) and of the tangent by the sine.
 struct Inclined {
     double tangent, sine, secant, slope, steepening;
 };
 
-/// The links of a chain or a rig as the branches see them, lowest first. A link's tau is given by
-/// sin(inclination) = tanh tau: one that stands obeys the equations of one that hangs with the opposite pull. A spring
-/// at the support is one link more, whose upper end is firm at the radius. Its stretch over `length`, the total length
-/// of the links, is sinh tau, for both tangent and sine, and `pull` is stiffness times `length`.
+/// The links of a chain or a rig for branches, lowest first. sin(inclination) = tanh tau defines
+/// the tau of a link; a standing link obeys the equations of a hanging one with the opposite pull.
+/// A spring at the support is one more link, its upper end firm at the radius: its stretch over the
+/// total length of the links, `length`, is sinh tau; `pull` is stiffness times `length`.
 template <class S>
 struct BranchLinks {
     std::vector<Link<S>> links;  ///< `pull` without what flywheels add
-    std::vector<S> spin{};       ///< momentum over length, signed as `pull`; empty where no link keeps any
+    std::vector<S> spin{};       ///< momentum over length, signed as `pull`; empty if all are 0
     S speed{0.0};                ///< n sqrt(lambda), signed
     S radius{0.0};               ///< of the support
     bool spring = false;
@@ -34,47 +34,46 @@ struct BranchLinks {
     bool is_spring(std::size_t m) const { return spring && m + 1 == links.size(); }
     bool is_symmetric() const { return is_zero(radius); }
 
-    /// n at a height; 0 where it does not matter.
+    /// n at a height; 0 without flywheels.
     S speed_at(const S& height) const {
         using std::sqrt;
         return spin.empty() ? S(0.0) : S(speed / sqrt(height));
     }
-    /// The effective pull of link m at a speed n.
     S pull(std::size_t m, const S& n) const { return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]); }
-    /// The derivative of lambda times that along log lambda, over lambda.
+    /// The derivative of lambda times the pull by log lambda, over lambda.
     S growing_pull(std::size_t m, const S& n) const { return pull(m, S(n * S(0.5))); }
 
     Inclined inclined(std::size_t m, double tau) const {
         if (is_spring(m)) return {std::sinh(tau), std::sinh(tau), 1, std::cosh(tau), 1};
-        // sinh and cosh from e^|tau| - 1: small inclinations keep their digits
+        // from e^|tau| - 1, accurate at small inclinations
         const double e = std::expm1(std::abs(tau)), inverse = 0.5 / (1 + e), secant = 1 + e * e * inverse,
                      tangent = std::copysign(e * (e + 2) * inverse, tau);
         return {tangent, tangent / secant, secant, 1 / (secant * secant), secant * secant * secant};
     }
-    /// tau of a link whose pins are so far apart across the axis.
+    /// tau of a link with a given distance between its pins across the axis.
     double tau_of_reach(std::size_t m, double reach) const {
-        const double share = reach / static_cast<double>(links[m].length);
+        const double share = reach / as_double(links[m].length);
         return is_spring(m) ? std::asinh(share) : std::atanh(share);
     }
 };
 
-inline BranchLinks<double> rounded(const BranchLinks<Wide<double>>& from) {
+inline BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
     BranchLinks<double> to(rounded<double>(from.links));
-    for (const Wide<double>& x : from.spin) to.spin.push_back(static_cast<double>(x));
-    to.speed = static_cast<double>(from.speed), to.radius = static_cast<double>(from.radius);
+    for (const Fine& x : from.spin) to.spin.push_back(as_double(x));
+    to.speed = as_double(from.speed), to.radius = as_double(from.radius);
     to.spring = from.spring, to.plain = from.plain;
     return to;
 }
 
-/// A chain or a rig, and its numbers that do not depend on the speed.
+/// A chain or a rig, with its numbers that do not depend on the speed.
 struct BranchSystem {
-    using S = Wide<double>;
+    using S = Fine;
     Links<S> chain;          ///< of a chain
     std::optional<Rig> rig;  ///< else
     BranchLinks<S> links;
     ChainUnits units;
-    S bearing{0.0};    ///< weight that bears on the topmost pin, in the unit of weights
-    double axial = 0;  ///< moment of inertia of what turns with the links about their own axes
+    S bearing{0.0};    ///< the weight on the topmost pin, in the unit of weights
+    double axial = 0;  ///< moment of inertia of flywheels that turn with the links, about the links
     double gravity = conical_pendulum::standard_gravity;
     Rotation direction = Rotation::forward;
 
@@ -84,7 +83,7 @@ struct BranchSystem {
     BranchSystem(const Rig& of, double g, Rotation sense)
         : rig(of), units(of.chain().units()), gravity(g), direction(sense) {
         using std::sqrt;
-        for (const revchain::detail::RigLink& link : revchain::detail::rig_links(of)) {
+        for (const detail::RigLink& link : detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
             links.links.push_back(
                 {link.length, stands ? -link.tension : link.tension, link.cross, link.moment, link.rest});
@@ -108,7 +107,6 @@ struct BranchSystem {
         links.spring = true;
     }
     bool stands(std::size_t m) const { return rig && rig->stands(static_cast<Index>(m)); }
-    /// The rig at a height in the unit of its links.
     RiggedLinks rigged_at(const S& height) const {
         using std::sqrt;
         const S whole = ldexp(height, units.length_exponent), n = sqrt(S(gravity) / whole);
@@ -116,11 +114,11 @@ struct BranchSystem {
     }
 };
 
-/// The links of a rig as `verified` takes them: all hang, those that stand with the opposite pull.
+/// The links of a rig for `verified`: standing links are hanging links with the opposite pull.
 inline EnclosedLinks<Far> folded_links(const RiggedLinks& rig) {
     EnclosedLinks<Far> result = enclosed<Far>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
-        result[m].pull = detail::effective_tension<Far>(rig.given[m], rig.speed);
+        result[m].pull = effective_tension<Far>(rig.given[m], rig.speed);
         if (rig.posture[m] == Posture::stands) result[m].pull = -result[m].pull;
     }
     return result;

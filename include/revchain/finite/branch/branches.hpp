@@ -11,14 +11,12 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
-    if (point >= size())
-        detail::throw_invalid("Branch::shape", "there are so many points: " + std::to_string(size()), point);
+    const auto reject = [&](std::string_view what) { detail::throw_invalid("Branch::shape", what, point); };
+    if (point >= size()) reject("point must be below " + std::to_string(size()) + ", the number of points");
     const finite::BranchPoint& at = trace_.points[point];
-    if (trace_.onset && finite::largest_rise(at.state) == 0)
-        detail::throw_invalid("Branch::shape", "this point is the straight chain", point);
-    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace<Wide<double>>(at));
-    if (!found)
-        detail::throw_invalid("Branch::shape", "the shape at this point did not balance in double-double", point);
+    if (trace_.onset && finite::largest_rise(at.state) == 0) reject("this point is the straight chain");
+    const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace(at));
+    if (!found) reject("the shape at this point did not balance in double-double");
     return *found;
 }
 
@@ -31,9 +29,9 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 
 namespace finite {
 
-/// The branch from rest: from a tenth of the slower of the first critical speed and the speed given.
-inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_points,
-                        double max_step) {
+/// Follows the branch from rest, from a tenth of the first critical or a slower given speed.
+template <class Options>
+Branch from_rest(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
     result.mode = 1, result.birth = BranchBirth::rest, result.end = BranchEnd::stuck;
     trace_of(result).system = root.system;
@@ -41,53 +39,47 @@ inline Branch from_rest(BranchRoot root, double conical_height, std::size_t max_
     const auto start = root.at_rest(std::log(100 * std::max(conical_height, root.height) * unit));
     if (!start) return result;
     append(result, *start);
-    BranchWalk walk(root.corrector, *start, max_step);
-    walk.longest = max_step;
-    result.end = follow(result, walk, std::log(conical_height * unit), max_points, start->state.log_height + 1);
+    BranchWalk walk(root.corrector, *start, options.max_step, options.max_step);
+    const double log_end = std::log(conical_height * unit), log_top = start->state.log_height + 1;
+    result.end = follow(result, walk, log_end, options.max_points, log_top);
     return result;
 }
 
-/// The branch of a mode.
-inline Branch from_vertical(BranchRoot root, Index mode, double conical_height,
-                            std::size_t max_points, double max_step) {
+template <class Options>
+Branch from_vertical(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
-    result.mode = mode;
+    result.mode = options.mode;
     trace_of(result).system = root.system;
-    const double unit = std::ldexp(1.0, -trace_of(result).system->units.length_exponent);
+    const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
     const double log_end = std::log(conical_height * unit);
     trace_of(result).onset = std::make_shared<const BranchOnset>(std::move(*root.onset));
     const BranchOnset& onset = *trace_of(result).onset;
-    BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
-    vertical.half_waves = onset.half_waves;
-    // the direction there: along the mode
-    const double small = 1e-7 / onset.steepest;
-    vertical.tangent = onset.point(root.corrector.links(), small).tangent;
-    vertical.tangent.log_height = 0;
+    BranchPoint vertical = onset.point(root.corrector.links(), 1e-7 / onset.steepest);
+    vertical.state = {std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)};
+    vertical.tangent.log_height = 0, vertical.arc = 0;
     append(result, vertical);
     result.conical_height.front() = root.height;  // no logarithm's rounding
-    if (result.size() >= max_points) return result;
+    if (result.size() >= options.max_points) return result;
     const double steepness = onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
     if (steepness < 1e-3) {
-        const auto only = near_vertical(*trace_of(result).system, onset, Wide<double>(conical_height * unit));
+        const auto only = near_vertical(*trace_of(result).system, onset, Fine(conical_height * unit));
         result.end = only ? BranchEnd::height : BranchEnd::stuck;
         if (only) append(result, *only), result.conical_height.back() = conical_height;
         return result;
     }
     const double log_top = std::log(100 * std::max(conical_height, root.height) * unit);
-    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the
-    // vertical
+    // if modes almost coincide the first step may miss the branch: start closer to the vertical
     const Branch only_vertical = result;
     for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
         const auto start = onset.start(root.corrector, from);
         if (!start) break;
         Branch attempt = only_vertical;
         append(attempt, *start);
-        BranchWalk walk(root.corrector, *start, start->arc);
-        walk.longest = max_step;
-        attempt.end = follow(attempt, walk, log_end, max_points, log_top);
-        const bool kept = attempt.end != BranchEnd::stuck;
-        if (kept || attempt.size() > result.size()) result = std::move(attempt);
-        if (kept) return result;
+        BranchWalk walk(root.corrector, *start, start->arc, options.max_step);
+        attempt.end = follow(attempt, walk, log_end, options.max_points, log_top);
+        const bool followed = attempt.end != BranchEnd::stuck;
+        if (followed || attempt.size() > result.size()) result = std::move(attempt);
+        if (followed) return result;
     }
     result.end = BranchEnd::stuck;
     return result;
@@ -97,14 +89,13 @@ template <class System, class Options>
 Branch followed(const System& system, const Options& options) {
     const double conical_height = lowest_height("branch", options);
     BranchRoot root = BranchRoot::of("branch", system, options);
-    if (!root.onset) return from_rest(std::move(root), conical_height, options.max_points, options.max_step);
+    if (!root.onset) return from_rest(std::move(root), conical_height, options);
     if (!root.onset->rises() && !(conical_height < root.height))
-        revchain::detail::throw_invalid(
-            "branch",
-            "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
-                revchain::detail::in_digits(root.height) + ": the height to follow it to must be less",
-            conical_height);
-    return from_vertical(std::move(root), options.mode, conical_height, options.max_points, options.max_step);
+        detail::throw_invalid("branch",
+                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                                  detail::in_digits(root.height) + ": the height to follow it to must be less",
+                              conical_height);
+    return from_vertical(std::move(root), conical_height, options);
 }
 
 }  // namespace finite
@@ -122,11 +113,11 @@ template <class System, class Options>
 SteadyShape first_on_branch(const System& system, const Options& options) {
     ShapesOnBranch found = search_branch<ShapesOnBranch>(system, options, 1);
     if (found.shapes.empty())
-        revchain::detail::throw_invalid(
+        detail::throw_invalid(
             "steady_shape",
             "what is given is not met on the branch " +
                 (found.from_rest ? std::string("from rest") : "of mode " + std::to_string(options.mode)) +
-                "; looked down to the conical height, got " + revchain::detail::in_digits(found.searched_to) +
+                "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
                 (found.end == BranchEnd::loose    ? "; there the spring at the support no longer holds the whole"
                  : found.end != BranchEnd::height ? "; it could not be followed farther"
                  : options.conical_height || options.angular_speed ? "; the state there did not pass every check"
@@ -137,8 +128,7 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
-                                                const OnBranchOptions& options,
+REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
@@ -146,8 +136,7 @@ REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranc
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain,
-                                         const OnBranchOptions& options) {
+REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options) {
     return finite::first_on_branch(chain, options);
 }
 REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {

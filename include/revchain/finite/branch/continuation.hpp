@@ -8,18 +8,17 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Follows one branch of steady shapes by its arc, through folds.
 ///
-/// A step goes along the tangent and is corrected across it. It is kept only if Newton's method contracts at once, the
-/// direction turns by less than 26 degrees, the state half way, predicted from both ends, is on the branch too (a jump
-/// to a neighbour fails here: the curve through both ends with their tangents is then none), the half waves are the
-/// same (where l <= a for all links) and the chain has not come to the vertical. Else half the step is tried. This is a
-/// check, not a proof. Cost: 4 to 7 Newton steps of O(N) a step kept.
+/// A step goes along the tangent and is corrected across it. It is accepted if Newton's method
+/// contracts at once, the direction turns by less than 26 degrees, the state half way, predicted
+/// from both ends, is on the branch too (after a jump to a neighbour it is not), the half waves are
+/// the same (if l <= a for all links) and the chain is not vertical. Otherwise half the step is
+/// tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
 class BranchWalk {
    public:
-    /// From a point on the branch, its tangent the way to go.
-    BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05)
-        : corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
+    BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05, double longest = 0.5)
+        : longest_(longest), corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
 
-    /// The step between two neighbouring points that were walked before.
+    /// A walk whose last step joins two neighbouring points.
     static BranchWalk between(Corrector& corrector, const BranchPoint& before, const BranchPoint& here) {
         BranchWalk walk(corrector, here);
         walk.before_ = before;
@@ -29,58 +28,50 @@ class BranchWalk {
     const BranchLinks<double>& links() const { return corrector_->links(); }
     const BranchPoint& before() const { return before_; }
     const BranchPoint& here() const { return here_; }
-    double longest = 0.5;    ///< along the arc
-    double max_rise = 0.75;  ///< change of any link's tau in a step
 
-    /// One step on; false if none down to 1e-9 of arc passes.
+    /// Takes one step; returns false if no step above 1e-9 of arc is accepted.
     bool advance() {
-        revchain::detail::look();
+        detail::look();
+        constexpr double least = 1e-9, max_rise = 0.75;
+        step_ = std::min({step_, longest_, max_rise / (largest_rise(here_.tangent) + 1e-300)});
         for (; step_ > least; step_ /= 2) {
-            const double reach = std::min({step_, longest, max_rise / (largest_rise(here_.tangent) + 1e-300)});
-            step_ = reach;
-            auto next = at(here_, reach);
+            auto next = at(here_, step_);
             if (!next) continue;
             const double cosine = inner(next->tangent, here_.tangent);
             if (!(cosine > 0.9) || !on_the_way(*next)) continue;
             if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves) continue;
             before_ = std::move(here_);
             here_ = std::move(*next);
-            step_ = reach * (cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8);
+            step_ *= (cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8);
             return true;
         }
         return false;
     }
 
-    /// The point of the branch at an arc beyond one of its points, in the plane across the direction there.
+    /// The point at distance `reach` of arc from another, in the plane across its direction.
     std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
-        auto next =
-            corrector_->corrected(moved(from.state, reach, from.tangent), from.tangent, 0.3 * std::abs(reach) + 1e-9);
+        BranchState there = moved(from.state, reach, from.tangent);
+        auto next = corrector_->corrected(std::move(there), from.tangent, 0.3 * std::abs(reach) + 1e-9);
         if (!next) return next;
         next->arc = from.arc + reach;
         if (next->half_waves == 0) next->half_waves = from.half_waves;
         return next;
     }
 
-    /// The point at `share` of the step from before() to here().
     std::optional<BranchPoint> within(double share) const { return at(before_, share * (here_.arc - before_.arc)); }
 
    private:
-    static constexpr double least = 1e-9;
-
-    /// The middle of the cubic through both ends and their tangents lies on the branch.
+    /// Whether the middle of the cubic through both ends and their tangents lies on the branch.
     bool on_the_way(const BranchPoint& next) const {
         const double reach = next.arc - here_.arc;
         BranchState middle = moved(here_.state, reach / 8, here_.tangent);
-        for (std::size_t m = 0; m < middle.rise.size(); ++m)
-            middle.rise[m] += (next.state.rise[m] - here_.state.rise[m]) / 2 - reach / 8 * next.tangent.rise[m];
-        middle.log_height += (next.state.log_height - here_.state.log_height) / 2 - reach / 8 * next.tangent.log_height;
-        BranchState across = moved(here_.tangent, 1, next.tangent);
-        const auto change = corrector_->step(middle, across);
-        const double off =
-            std::max(std::sqrt(inner(change.correction, change.correction)), largest_rise(change.correction) / 4);
-        return off <= 0.02 * reach + 1e-9;
+        middle = moved(std::move(middle), 0.5, moved(next.state, -1, here_.state));
+        middle = moved(std::move(middle), -reach / 8, next.tangent);
+        const auto change = corrector_->step(middle, moved(here_.tangent, 1, next.tangent));
+        return size_of(change.correction) <= 0.02 * reach + 1e-9;
     }
 
+    double longest_;  ///< step along the arc
     Corrector* corrector_;
     BranchPoint before_, here_;
     double step_;

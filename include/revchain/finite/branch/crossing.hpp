@@ -6,18 +6,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A number told of every point of a branch, less what it is to be, and its slope along the arc.
+/// A number at a point of a branch, less the wanted value, and its slope along the arc.
 struct Measured {
     double value, slope;
 };
 
-/// log lambda.
 struct HeightMeasure {
     double wanted;
     Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
 };
 
-/// tau of the lowest link: outwards, or of either sign.
+/// tau of the lowest link; with `either` its absolute value.
 struct TipInclinationMeasure {
     double wanted;
     bool either;
@@ -27,7 +26,6 @@ struct TipInclinationMeasure {
     }
 };
 
-/// The free end's offset, of either sign.
 struct TipRadiusMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -43,7 +41,7 @@ struct TipRadiusMeasure {
     }
 };
 
-/// The sideways reaction at the topmost pin, of either sign.
+/// The size of the sideways reaction at the topmost pin.
 struct TopPullMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -61,15 +59,12 @@ struct TopPullMeasure {
     }
 };
 
-/// A point inside a step, at a share of its arc.
 struct WithinStep {
     double share;
     BranchPoint point;
 };
 
-namespace detail {
-
-/// Where f(measured) vanishes between two points of the step at which its signs differ.
+/// The zero of f(measured) between two points of the step at which its signs differ.
 template <class Measure, class F>
 std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
                                     double at_low, double at_high, double tolerance) {
@@ -84,36 +79,34 @@ std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measu
     if (at_high == 0)
         value_at(high);
     else
-        zero_between(revchain::detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
+        zero_between(detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
                      {.width = 2e-16, .value = tolerance});
-    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end is near enough
+    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end will do
     return best;
 }
 
-}  // namespace detail
-
-/// Where in the last step the number turns, if its slopes at both ends differ in sign.
+/// The extremum of the number in the last step, if its slopes at both ends differ in sign.
 template <class Measure>
 std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& measure) {
     const Measured a = measure(walk.before()), b = measure(walk.here());
     if (!(a.slope * b.slope < 0)) return std::nullopt;
-    return detail::vanishing(
+    return vanishing(
         walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
 }
 
-/// Points of the last step at which the number is as wanted, in order: at most one on either side of where it turns.
+/// Points of the last step with the wanted number, in order, around at most one extremum.
 template <class Measure>
 std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& measure) {
     std::vector<WithinStep> found;
     const Measured a = measure(walk.before()), b = measure(walk.here());
     const auto between = [&](double low, double high, double at_low, double at_high) {
         if (!(at_low * at_high < 0) && at_high != 0) return;
-        auto point = detail::vanishing(
+        auto point = vanishing(
             walk, measure, [](const Measured& x) { return x.value; }, low, high, at_low, at_high,
             1e-10 * std::max(std::abs(at_low), std::abs(at_high)));
         if (point) found.push_back(std::move(*point));
     };
-    // it may turn between and come back; if it turns far from the number wanted that does not matter
+    // an extremum matters only if the number may reach the wanted value and return
     const double reach = walk.here().arc - walk.before().arc;
     const bool may_return = a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
                                                          reach * std::max(std::abs(a.slope), std::abs(b.slope));

@@ -12,27 +12,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
-/// it comes back or down to `log_end`.
-inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
-                          int half_waves, double log_end, double log_top, std::size_t max_points, double max_step) {
-    Branch result;
-    trace_of(result).system = std::move(system), result.birth = BranchBirth::fold;
-    Corrector corrector(rounded(trace_of(result).system->links));
-    auto start = corrector.corrected(at, across, 0.1);
-    if (!start) {
-        result.end = BranchEnd::stuck;
-        return result;
-    }
-    if (start->half_waves == 0) start->half_waves = half_waves;
-    append(result, *start);
-    BranchWalk walk(corrector, *start, 0.02);
-    walk.longest = max_step;
-    result.end = follow(result, walk, log_end, max_points, log_top);
-    return result;
-}
-
-/// Lists, modes and conditions of a proof that a diagram needs, of a chain.
+/// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
@@ -55,14 +35,14 @@ class ChainQuestions {
         std::vector<double> found;
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
-            const double each = revchain::detail::one_mode(chain_, mode, false).conical_height;
-            if (each > height) found.push_back(each);  // at the very height of a mode, as rounded, it has no branch yet
+            const double each = detail::one_mode(chain_, mode, false).conical_height;
+            if (each > height) found.push_back(each);  // at its height it has no branch
         }
         return found;
     }
     bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
-    /// Above the first mode there is no shape: see steady_shapes.
-    std::optional<double> settled_above() const { return revchain::detail::one_mode(chain_, 1, false).conical_height; }
+    /// The first mode; above it there is no shape (see steady_shapes).
+    std::optional<double> settled_above() const { return detail::one_mode(chain_, 1, false).conical_height; }
     std::string not_provable(double lowest) const {
         const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
         return single ? "" : "links hang at several inclinations";
@@ -73,7 +53,6 @@ class ChainQuestions {
     const DiagramOptions& options_;
 };
 
-/// The same of a rig.
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const RigDiagramOptions& options)
@@ -105,10 +84,11 @@ class RigQuestions {
             if (mode.conical_height > height) found.push_back(mode.conical_height);
         return found;
     }
-    /// The first mode, if it is proved that slower there is one shape, or where the support is in the axis none: all
-    /// links hang in tension. In the sines s of the inclinations the energy in the turning frame, times lambda, has the
-    /// second derivative  lambda diag(pull a sec^3) - M  (and the spring's), not less than that of the straight chain.
-    /// That matrix is positive definite at rest, and it is not singular below the first critical speed.
+    /// The first mode, if it is proved that at slower speeds there is one shape, or none with the
+    /// support on the axis: all links hang in tension. In the sines s of the inclinations the
+    /// energy in the turning frame, times lambda, has the second derivative lambda diag(pull a
+    /// sec^3) - M (plus the spring's), which is at least that of the straight chain. That matrix is
+    /// positive definite at rest and regular below the first critical speed.
     std::optional<double> settled_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;
@@ -120,31 +100,31 @@ class RigQuestions {
     std::string not_provable(double lowest) const {
         if (!settled_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
-        if (!single_valued(swept_links<double>(system->rigged_at(Wide<double>(lowest))), Interval<double>(lowest)))
+        if (!single_valued(swept_links<double>(system->rigged_at(Fine(lowest))), Interval<double>(lowest)))
             return "links hang at several inclinations";
         return "";
     }
 
    private:
-    /// From rest up to the speed at a height; the pulls are linear in the speed.
+    /// Checks the speeds from rest to that of a height; the pulls are linear in the speed.
     bool hangs_in_tension(double height) const {
-        const Wide<double> fastest = system->links.speed_at(Wide<double>(height));
+        const Fine fastest = system->links.speed_at(Fine(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
             if (rig_.stands(static_cast<Index>(m)) || !enclosed<Far>(system->links.links[m].moment).positive())
                 return false;
-            for (const Wide<double>& n : {Wide<double>(0.0), fastest})
-                if (!(system->links.pull(m, n) > system->bearing * Wide<double>(1e-20))) return false;
+            for (const Fine& n : {Fine(0.0), fastest})
+                if (!(system->links.pull(m, n) > system->bearing * Fine(1e-20))) return false;
         }
         return true;
     }
 
     const Rig& rig_;
     const RigDiagramOptions& options_;
-    revchain::detail::ModesOfOneSense modes_;
-    std::vector<revchain::detail::ModesOfOneSense::Mode> found_;
+    detail::ModesOfOneSense modes_;
+    std::vector<detail::ModesOfOneSense::Mode> found_;
 };
 
-/// Branches and proved lists of shapes brought together.
+/// Combines branches with proved lists of shapes.
 template <class Questions, class Options>
 class Diagram {
    public:
@@ -163,7 +143,8 @@ class Diagram {
         const double lowest = result_.conical_height;
         const bool from_rest = !ask_.system->links.is_symmetric();
         const auto settled = ask_.settled_above();
-        const std::vector<double> heights = from_rest ? std::vector<double>{} : ask_.modes_above(lowest);
+        std::vector<double> heights;
+        if (!from_rest) heights = ask_.modes_above(lowest);
         const double top = settled.value_or(of_length());
         log_top_ = std::log(100 * std::max(lowest, top) * unit_);
         if (!from_rest && settled && heights.empty()) {
@@ -172,15 +153,18 @@ class Diagram {
             return std::move(result_);
         }
         const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
-        for (Index mode = 1; mode <= roots; ++mode) follow_from(mode);
-        // from the end upwards: an isolated branch is met first where most of it is to be seen
+        for (Index mode = 1; mode <= roots; ++mode) {
+            result_.branches.push_back(ask_.followed(mode, lowest));
+            settle(result_.branches.back().end);
+        }
+        // from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
         for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
         prove(settled);
         std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
-        std::stable_sort(result_.branches.begin() + roots, result_.branches.end(),
-                         [](const auto& x, const auto& y) { return highest(x) > highest(y); });
+        const auto before = [](const Branch& x, const Branch& y) { return highest(x) > highest(y); };
+        std::stable_sort(result_.branches.begin() + roots, result_.branches.end(), before);
         return std::move(result_);
     }
 
@@ -188,23 +172,30 @@ class Diagram {
     double of_length() const {
         double reach = 0;
         for (std::size_t m = 0; m < ask_.system->links.bodies(); ++m)
-            reach += static_cast<double>(ask_.system->links.links[m].length);
+            reach += as_double(ask_.system->links.links[m].length);
         return reach / unit_;
     }
     static double highest(const Branch& branch) {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }
-    void follow_from(Index mode) {
-        result_.branches.push_back(ask_.followed(mode, result_.conical_height));
-        settle(result_.branches.back().end);
-    }
     void settle(BranchEnd end) {
-        result_.consistent = result_.consistent && (end == BranchEnd::height || end == BranchEnd::closed ||
-                                                    end == BranchEnd::slow || end == BranchEnd::loose);
+        using enum BranchEnd;
+        result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
-    Branch from_here(const BranchState& at, const BranchState& across, int half_waves) const {
-        return branch_from(ask_.system, at, across, half_waves, log_end_, log_top_, options_.max_points,
-                           options_.max_step);
+    /// The branch through a state, followed on the side of `across` (not orthogonal to it).
+    Branch from_here(const BranchState& at, const BranchState& across, int half_waves) {
+        Branch result;
+        trace_of(result).system = ask_.system, result.birth = BranchBirth::fold;
+        auto start = corrector_.corrected(at, across, 0.1);
+        if (!start) {
+            result.end = BranchEnd::stuck;
+            return result;
+        }
+        if (start->half_waves == 0) start->half_waves = half_waves;
+        append(result, *start);
+        BranchWalk walk(corrector_, *start, 0.02, options_.max_step);
+        result.end = follow(result, walk, log_end_, options_.max_points, log_top_);
+        return result;
     }
     BranchState state_of(const SteadyShape& shape, double height) const {
         const auto& links = ask_.system->links;
@@ -213,17 +204,18 @@ class Diagram {
             const double tangent = std::tan(shape.inclination[m]);
             at.rise.push_back(std::asinh(ask_.system->stands(at.rise.size()) ? -tangent : tangent));
         }
-        if (links.spring)
-            at.rise.push_back(links.tau_of_reach(
-                at.rise.size(), shape.offset[shape.offset.size() - 1] * unit_ - static_cast<double>(links.radius)));
+        if (links.spring) {
+            const double end = shape.offset[shape.offset.size() - 1] * unit_;
+            at.rise.push_back(links.tau_of_reach(at.rise.size(), end - as_double(links.radius)));
+        }
         at.log_height = std::log(height * unit_);
         return at;
     }
-    /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
+    /// Checks that every shape at a height is on one branch; follows branches of those on none.
     void look(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
-        result_.consistent = result_.consistent && list.complete;
+        result_.consistent &= list.complete;
         std::vector<int> met(list.shapes.size(), 0);
         std::size_t crossings = 0;
         const auto meet = [&](const Branch& branch) {
@@ -247,11 +239,11 @@ class Diagram {
             meet(loop);
             result_.branches.push_back(std::move(loop));
         }
-        result_.consistent = result_.consistent && crossings == list.shapes.size() &&
-                             std::all_of(met.begin(), met.end(), [](int each) { return each == 1; });
+        const bool each_once = std::count(met.begin(), met.end(), 1) == std::ssize(met);
+        result_.consistent &= crossings == list.shapes.size() && each_once;
     }
 
-    /// Proves that no loop is missing between the heights looked at; loops met on the way are added.
+    /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
     void prove(const std::optional<double>& settled) {
         result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
         const double lowest = result_.conical_height * unit_;
@@ -275,53 +267,46 @@ class Diagram {
         else if (!result_.consistent)
             result_.remark = "a loop was found that lists of all shapes do not agree with";
         else
-            result_.remark += ", between the heights " + revchain::detail::in_digits(proof.open_low / unit_) + " and " +
-                              revchain::detail::in_digits(proof.open_high / unit_);
+            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) + " and " +
+                              detail::in_digits(proof.open_high / unit_);
     }
-    /// Off the axis for both signs of the lowest link's tangent.
+    /// Proves both signs of the lowest link's tangent if the support is off the axis.
     DiagramProof proved_between(double lowest, double first) {
         DiagramProof whole;
         for (const int side : {1, -1}) {
             const EnclosedDiagram diagram(*ask_.system, side);
             const double tight = std::max(lowest, 1.001 * diagram.loosest_height());
-            const auto note = [&](double low, double high) {
-                whole.open_low = whole.complete ? low : std::min(whole.open_low, low);
-                whole.open_high = std::max(whole.open_high, high);
-                whole.complete = false;
-            };
-            if (tight > lowest) note(lowest, std::min(tight, first));
+            if (tight > lowest) whole.leave_open(lowest, std::min(tight, first));
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
-            const auto proof =
-                prover.run(tight, first, diagram.last(tight) * (1 + 1e-12),
-                           [&](const DiagramPoint& at, const Rectangle& within) { return known(diagram, at, within); });
-            if (!proof.complete) note(proof.open_low, proof.open_high);
+            const auto is_known = [&](const auto& at, const auto& within) { return known(diagram, at, within); };
+            const auto proof = prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
+            if (!proof.complete) whole.leave_open(proof.open_low, proof.open_high);
             if (diagram.is_symmetric()) break;
         }
         return whole;
     }
     bool known(const EnclosedDiagram& diagram, const DiagramPoint& at, const Rectangle& within) {
-        if (std::any_of(result_.branches.begin(), result_.branches.end(),
-                        [&](const Branch& each) { return goes_through(each, corrector_, at, within, diagram.side()); }))
-            return true;
+        for (const Branch& each : result_.branches)
+            if (goes_through(each, corrector_, at, within, diagram.side())) return true;
         if (stuck_ >= 20) return false;
         const BranchState state = diagram.state_at(at);
         BranchState across;
         across.rise.assign(state.rise.size(), 0.0);
-        across.rise[0] = std::sqrt(static_cast<double>(state.rise.size()));
+        across.rise[0] = std::sqrt(as_double(state.rise.size()));
         Branch found = from_here(state, across, 1);
-        // one that comes to the vertical is that of a mode; one that comes to the lowest height is in the list there,
-        // and one that comes to slow speeds is the one from rest
+        // a branch to the vertical is that of a mode, one to the lowest height is in the list
+        // there, one to slow speeds is the one from rest
         if (found.end == BranchEnd::vertical || found.end == BranchEnd::height || found.end == BranchEnd::slow)
             return true;
         if (found.end != BranchEnd::closed && found.end != BranchEnd::loose) {
             ++stuck_;
             return false;
         }
-        const double top = highest(found),
-                     bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
+        const double top = highest(found);
+        const double bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
         result_.branches.push_back(std::move(found));
-        look(std::sqrt(top * bottom));  // must agree
+        look(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;
     }
 
@@ -329,14 +314,14 @@ class Diagram {
     Questions ask_;
     double unit_, log_end_, log_top_ = std::numeric_limits<double>::infinity();
     Corrector corrector_;
-    int stuck_ = 0;  ///< traces that came to nothing
+    int stuck_ = 0;  ///< branches that could not be followed
     Branches result_;
 };
 
 template <class Questions, class System, class Options>
 Branches diagram_of(const System& system, const Options& options) {
     const double lowest = lowest_height("branches", options);
-    if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     return Diagram<Questions, Options>(system, lowest, options).run();
 }
 

@@ -10,7 +10,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A cell of such points.
 struct Rectangle {
     double low, high, height_low, height_high;
 
@@ -18,37 +17,44 @@ struct Rectangle {
     Interval<double> height() const { return {height_low, height_high}; }
 };
 
-/// x of a point of a branch, lambda sinh tau of the lowest link, seen from a side; its size where `side` is 0.
+/// x of a point of a branch, lambda sinh tau of the lowest link, times `side`; |x| if `side` is 0.
 struct XMeasure {
     double wanted;
     int side = 0;
     Measured operator()(const BranchPoint& p) const {
-        const double height = std::exp(p.state.log_height), rise = p.state.rise[0],
-                     turned = side != 0 ? side : std::copysign(1.0, rise), x = turned * height * std::sinh(rise);
-        return {x - wanted, x * p.tangent.log_height + turned * height * std::cosh(rise) * p.tangent.rise[0]};
+        const double rise = p.state.rise[0], turned = side != 0 ? side : std::copysign(1.0, rise);
+        const double height = turned * std::exp(p.state.log_height), x = height * std::sinh(rise);
+        return {x - wanted, x * p.tangent.log_height + height * std::cosh(rise) * p.tangent.rise[0]};
     }
 };
 
-/// How far it is proved that every branch is known.
+/// The heights at which every branch is proved to be known.
 struct DiagramProof {
     bool complete = true;
-    double open_low = 0, open_high = 0;  ///< heights between which a loop may be missing
-    long rectangles = 0;                 ///< looked at
+    double open_low = 0, open_high = 0;  ///< a loop may be missing between these heights
+    long rectangles = 0;                 ///< examined
+
+    void leave_open(double low, double high) {
+        open_low = complete ? low : std::min(open_low, low);
+        open_high = std::max(open_high, high);
+        complete = false;
+    }
 };
 
-/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support,
-/// with x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a
-/// list there. A rig: y is the function of EnclosedDiagram, and off the axis each sign of x is shown by itself.
+/// Proves that every connected piece of the diagram is known: of the zeros of y(x, lambda), the
+/// offset of the support, with x = lambda tan(inclination of the lowest link) > 0. Pieces that
+/// reach the lowest height are left to a list there. For a rig, y is the function of
+/// EnclosedDiagram, and off the axis each sign of x has its own proof.
 ///
-/// Any other piece goes to the vertical (off the axis: up to rest) or has a highest point, and there y = y_x = 0.
-/// Above the highest height there is no shape, or off the axis the one from rest alone. Rectangles of (x, lambda)
-/// are split until in each
-///   y or y_x keeps its sign, so that no such point is in it; or
-///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
-///   width: all zeros in it lie on one graph lambda(x) over its whole width; if there are any, one is at its middle.
-///   That one is on a branch that is known, or a branch that was not is found.
-/// Next to x = 0, y = x f(x, lambda), and by the mean value theorem f, f_x and f_lambda are within y_x, y_xx times
-/// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.
+/// Any other piece reaches the vertical (off the axis: rest) or has a highest point, where y = y_x
+/// = 0. Above the highest height there is no shape, or off the axis only the one from rest.
+/// Rectangles of (x, lambda) are split until in each
+///   y or y_x does not change sign, so that no such point is in it; or
+///   y_lambda does not change sign in it and beyond it as far as the slope |y_x/y_lambda| can lead
+///   within its width: all zeros in it lie on one graph lambda(x) over its width. If there are any,
+///   one is at the middle; it is on a known branch, or its branch is followed.
+/// Next to x = 0, y = x f(x, lambda), and f, f_x and f_lambda lie within y_x, y_xx times 0 ... 1,
+/// and y_x lambda over 0 ... x (mean value theorem): the graph continues to the vertical.
 class DiagramProver {
    public:
     DiagramProver(EnclosedDiagram diagram, long budget)
@@ -56,13 +62,13 @@ class DiagramProver {
     DiagramProver(EnclosedLinks<double> chain, long budget)
         : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
-    /// From the highest height down to the lowest, x from 0 to `last`. `known(point, rectangle)`: whether a branch that
-    /// is known goes through the rectangle, or, if not, one is found through that point, where there is a shape.
+    /// Covers heights from the highest to the lowest and x from 0 to `last`. `known(point,
+    /// rectangle)` returns whether a branch through the rectangle is known or found.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
         const auto spent = [&] { return proof.rectangles >= budget_; };
-        const auto open = [&](const Rectangle& part) { leave_open(proof, part); };
+        const auto open = [&](const Rectangle& part) { proof.leave_open(part.height_low, part.height_high); };
         const auto visit = [&](const std::vector<Rectangle>& parts, const auto& wait) {
             const auto y = offsets_over(parts);
             for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -72,10 +78,10 @@ class DiagramProver {
         };
         const int slabs = std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
         for (int i = 0; i < slabs; ++i) {
-            const double share = 1.0 / slabs, high = highest * std::pow(lowest / highest, i * share),
-                         low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
+            const auto cut = [&](int k) { return highest * std::pow(lowest / highest, k * (1.0 / slabs)); };
+            const double high = cut(i), low = i + 1 == slabs ? lowest : cut(i + 1);
             const Rectangle slab{0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)};
-            detail::each_cell<batch>(std::deque{slab}, spent, visit, open);
+            each_cell<batch>(std::deque{slab}, spent, visit, open);
         }
         return proof;
     }
@@ -83,13 +89,7 @@ class DiagramProver {
    private:
     static constexpr std::size_t batch = 8;
 
-    static void leave_open(DiagramProof& proof, const Rectangle& part) {
-        proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
-        proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
-        proof.complete = false;
-    }
-
-    /// Whether nothing is left to show there.
+    /// Whether nothing remains to be proved in a part.
     template <class Known>
     bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
@@ -106,8 +106,8 @@ class DiagramProver {
         }
         return false;
     }
-    /// Over several rectangles, side by side in registers; those of the compiler's flags, as `over` is not inlined: in
-    /// a portable build code for AVX-512 or AVX2 at run time took 4 times as long.
+    /// The function over several rectangles, in lanes of the registers that the compiler flags
+    /// allow: code for AVX2 or AVX-512 chosen at run time, not inlined, took 4 times as long.
     std::array<Taylor<double, 2>, batch> offsets_over(const std::vector<Rectangle>& parts) const {
         const std::size_t count = parts.size();
         if (diagram_.spins()) {
@@ -116,19 +116,17 @@ class DiagramProver {
                 result[i] = diagram_.spinning_over(Cell<double, 2>(parts[i].x(), parts[i].height()));
             return result;
         }
-        return revchain::detail::for_own([&]<class Registers>(Registers) {
+        return detail::for_own([&]<class Registers>(Registers) {
             using V = Pack<double, Registers::doubles>;
             std::array<Taylor<double, 2>, batch> result;
             for (std::size_t first = 0; first < count; first += V::size) {
-                const auto lanes = [&](const auto& number) REVCHAIN_INLINED {
+                const auto lanes = [&](double Rectangle::*number) REVCHAIN_INLINED {
                     V x;
-                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, number(parts[std::min(first + i, count - 1)]));
+                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, parts[std::min(first + i, count - 1)].*number);
                     return x;
                 };
-                const Interval<V> x(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.low; }),
-                                    lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.high; })),
-                    height(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_low; }),
-                           lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_high; }));
+                const Interval<V> x(lanes(&Rectangle::low), lanes(&Rectangle::high)),
+                    height(lanes(&Rectangle::height_low), lanes(&Rectangle::height_high));
                 const auto y = diagram_.over(Cell<V, 2>(x, height));
                 for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
                     const auto lane = [&](const Interval<V>& of)
@@ -143,10 +141,9 @@ class DiagramProver {
             return result;
         });
     }
-    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}).front(); }
     bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
-    /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
+    /// The part extended up and down, if its zeros lie on one graph lambda(x) inside.
     std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
         const bool from_zero = goes_to_vertical(part);
         const auto rise = [&](const Taylor<double, 2>& f) {
@@ -160,25 +157,25 @@ class DiagramProver {
         if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low)))) return std::nullopt;
         const Rectangle beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
         ++proof.rectangles;
-        if (!(rise(offset_over(beyond)) <
+        if (!(rise(offsets_over({beyond}).front()) <
               std::min(part.height_low - beyond.height_low, beyond.height_high - part.height_high)))
             return std::nullopt;
         return beyond;
     }
 
-    /// Where on the line through x the offset vanishes, to rounding.
+    /// The zero of the offset on the line through x, to rounding.
     DiagramPoint zero_at(double x, const Rectangle& within, const Interval<double>& at_low,
                          const Interval<double>& at_high) const {
         const auto value = [&](double height) {
             const Interval<double> y = diagram_.at(x, height);
             return y.may_vanish() ? 0.0 : y.middle();
         };
-        const revchain::detail::SignChange<double> ends{{within.height_low, at_low.middle()},
-                                                        {within.height_high, at_high.middle()}};
+        const detail::SignChange<double> ends{{within.height_low, at_low.middle()},
+                                              {within.height_high, at_high.middle()}};
         return {x, zero_between(ends, value)};
     }
 
-    /// Across the direction in which y_x varies the more; false where that would show no more.
+    /// Splits across the direction in which y_x varies more; false if a split would show no more.
     template <class Wait>
     bool split(const Rectangle& part, const Taylor<double, 2>& y, const Wait& wait) {
         const bool from_zero = goes_to_vertical(part), at_zero = part.low == 0;
@@ -189,7 +186,7 @@ class DiagramProver {
             by_height = std::log(part.height_high / part.height_low);
         const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
         if ((thin && low) || (at_zero && part.high < 1e-30) ||
-            detail::rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
+            rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
             return false;
         Rectangle first = part, second = part;
         if (low || (!thin && by_x >= by_height))
@@ -203,25 +200,26 @@ class DiagramProver {
 
     EnclosedDiagram diagram_;
     long budget_;
-    detail::Cutting<double> cutting_;
+    Cutting<double> cutting_;
 };
 
-/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
-/// point of it is in the rectangle, or it crosses there the x of `at`. `side`: see EnclosedDiagram.
+/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x) through
+/// `at`: a point of it is in the rectangle, or it crosses the x of `at` there.
 template <class Branch>
 bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within,
                   int side = 0) {
     const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
-    const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
+    const auto inside = [&](const BranchState& state) {  // by more than the error of points
         const double height = std::exp(state.log_height), x = height * std::sinh(turned(state.rise[0]));
         constexpr double off = 1e-10;
-        return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
-               height < within.height_high * (1 - off);
+        const double low = within.height_low * (1 + off), high = within.height_high * (1 - off);
+        return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height && height < high;
     };
     const auto& points = trace_of(branch).points;
-    if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return inside(p.state); })) return true;
+    for (const BranchPoint& point : points)
+        if (inside(point.state)) return true;
     const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
-                 links = static_cast<double>(corrector.size());
+                 links = as_double(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
         const BranchPoint &before = points[i], &here = points[i + 1];
         const double reach = 2 * (here.arc - before.arc);
@@ -229,11 +227,10 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
             std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))
             continue;
         const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});
-        if (std::any_of(crossings.begin(), crossings.end(), [&](const WithinStep& each) {
-                const double height = std::exp(each.point.state.log_height);
-                return within.height_low < height && height < within.height_high;
-            }))
-            return true;
+        for (const WithinStep& each : crossings) {
+            const double height = std::exp(each.point.state.log_height);
+            if (within.height_low < height && height < within.height_high) return true;
+        }
     }
     return false;
 }

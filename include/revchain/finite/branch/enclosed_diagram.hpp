@@ -13,17 +13,17 @@ struct DiagramPoint {
     double x, height;
 };
 
-/// The function whose zeros are the diagram: of x and lambda, how far the topmost pin is from where it is held. Where a
-/// spring of stiffness E with a carriage W holds it, that times lambda E,  lambda E (y - b) - H - W y,  which is finite
-/// at any height. Off the axis x has both signs: `side` -1 is the mirror image, seen at positive x.
+/// The function of x and lambda whose zeros are the diagram: the distance of the topmost pin from
+/// its support. With a spring of stiffness E and a carriage W it is lambda E (y - b) - H - W y,
+/// finite at any height. Off the axis x has both signs: `side` -1 is the mirror image.
 class EnclosedDiagram {
    public:
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
     EnclosedDiagram(const BranchSystem& system, int side) : side_(system.links.is_symmetric() ? 0 : side) {
         const auto& from = system.links;
-        links_ = enclosed<double>(std::vector<Link<Wide<double>>>(
+        links_ = enclosed<double>(std::vector<Link<Fine>>(
             from.links.begin(), from.links.begin() + static_cast<std::ptrdiff_t>(from.bodies())));
-        for (const Wide<double>& spin : from.spin) kept_.spin.push_back(enclosed<double>(spin));
+        for (const Fine& spin : from.spin) kept_.spin.push_back(enclosed<double>(spin));
         kept_.speed = enclosed<double>(from.speed);
         radius_ = enclosed<double>(side < 0 ? -from.radius : from.radius);
         if (!from.spring) return;
@@ -36,15 +36,15 @@ class EnclosedDiagram {
     bool is_symmetric() const { return side_ == 0; }
     int side() const { return side_; }
 
-    /// The height at which the spring's stiffness times it is all the weight that moves: pins may be at any distance.
-    /// 0 of a firm support.
+    /// The height at which the spring's stiffness times the height is all the moving weight, so
+    /// that pins may be at any distance; 0 for a firm support.
     double loosest_height() const {
         if (firm_) return 0;
         Interval<double> moving = carriage_;
         for (const auto& link : links_) moving = moving + link.moment + link.rest;
         return (moving / stiffness_).high;
     }
-    /// An upper end for x at a height and above, which must be above the one at which the spring is loose.
+    /// An upper bound of x at a height, which must exceed `loosest_height`, and above.
     double last(double height) const {
         const Interval<double> lambda(height);
         EnclosedLinks<double> slackest = links_at(lambda);
@@ -52,19 +52,16 @@ class EnclosedDiagram {
             slackest[m].pull.low = std::min(slackest[m].pull.low, links_[m].pull.low);
         return height * farthest_tangent(slackest, lambda, false, held_at(lambda));
     }
-    /// The function at a point.
     Interval<double> at(double x, double height) const {
         const Interval<double> lambda(height);
         if (kept_.spin.empty()) return offset(links_, x, lambda);
         return offset(links_at(lambda), x, lambda);
     }
-    /// The state of a shape at a point.
     BranchState state_at(const DiagramPoint& at) const {
         const Interval<double> lambda(at.height);
         const double turned = side_ < 0 ? -1 : 1;
         std::vector<Interval<double>> tangents;
-        const auto y =
-            detail::support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda, OnAxis{}, &tangents);
+        const auto y = support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda, OnAxis{}, &tangents);
         BranchState state;
         double reach = 0;
         for (const auto& t : tangents) state.rise.push_back(turned * std::asinh(t.middle()));
@@ -73,13 +70,13 @@ class EnclosedDiagram {
         state.log_height = std::log(at.height);
         return state;
     }
-    /// The function and its derivatives over a cell. T: a number or a pack of them.
+    /// The function and its derivatives over a cell. T: a number or a pack.
     template <class T>
     [[gnu::always_inline]] Taylor<T, 2> over(const Cell<T, 2>& cell) const {
         return ended(swept_cell<T>(links_, cell), cell);
     }
     bool spins() const { return !kept_.spin.empty(); }
-    /// The same with flywheels. One cell at a time: only the function without flywheels is compiled for packs.
+    /// `over` for rigs with flywheels, one cell at a time, not compiled for packs.
     Taylor<double, 2> spinning_over(const Cell<double, 2>& cell) const {
         return ended(swept_cell<double, true>(links_, cell, &kept_), cell);
     }
@@ -99,7 +96,7 @@ class EnclosedDiagram {
                 is_symmetric(), firm_};
     }
     Interval<double> offset(const EnclosedLinks<double>& links, double x, const Interval<double>& lambda) const {
-        return detail::support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
+        return support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
     }
     template <class T>
     [[gnu::always_inline]] static Interval<T> spread(const Interval<double>& x) {

@@ -5,16 +5,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The conical height down to which to follow branches, given as it is or as a speed.
+/// The conical height at which branches end, given directly or as a speed.
 template <class Options>
 double lowest_height(std::string_view place, const Options& options) {
     if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())
-        revchain::detail::throw_invalid(place, "give either min_conical_height or max_angular_speed");
+        detail::throw_invalid(place, "give either min_conical_height or max_angular_speed");
     const double height = options.min_conical_height
                               ? *options.min_conical_height
                               : conical_pendulum::height(*options.max_angular_speed, options.gravity);
-    revchain::detail::require_positive(
-        place, options.min_conical_height ? "min_conical_height" : "gravity / max_angular_speed^2", height);
+    detail::require_positive(place, options.min_conical_height ? "min_conical_height" : "gravity / max_angular_speed^2",
+                             height);
     return height;
 }
 

@@ -10,13 +10,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The branch near the vertical, to leading order in its amplitude: with phi the mode, lambda_k its height,
-///     y = A phi,   lambda = lambda_k/(1 + A^2 curvature),   curvature = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
-/// sigma is the effective pull; in the lower sum, its derivative along log lambda with it. The spring at a support is a
-/// link in the lower sum alone. Where links stand or lean against their loads the curvature may be negative: the branch
-/// then begins towards slower speeds.
+/// The branch near the vertical, to leading order in its amplitude A, for a mode phi at height
+/// lambda_k:
+///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
+/// sigma is the effective pull; the lower sum includes its derivative by log lambda and the spring
+/// at a support as one more link. With standing links or links that lean against their loads the
+/// curvature may be negative: the branch then begins towards slower speeds.
 struct BranchOnset {
-    std::vector<double> reach;  ///< a sin delta of each link over A: differences of the mode
+    std::vector<double> reach;  ///< a sin delta of each link over A
     double height = 0;          ///< lambda_k
     double curvature = 0;
     double steepest = 0;  ///< largest |sin delta|/A
@@ -24,12 +25,13 @@ struct BranchOnset {
 
     /// `mode`: offsets of the N + 1 pins, free end first.
     template <class Offsets>
-    BranchOnset(const BranchLinks<double>& links, const Offsets& mode, double height_of_mode) : height(height_of_mode) {
+    BranchOnset(const BranchLinks<double>& links, const Offsets& mode, double at) : height(at) {
         const double speed = links.speed_at(height);
         double second = 0, fourth = 0, last = 0;
         for (std::size_t m = 0; m < links.size(); ++m) {
             const auto i = static_cast<Index>(m);
-            const double d = links.is_spring(m) ? mode[i] : mode[i] - mode[i + 1], s = d / links.links[m].length;
+            const double d = links.is_spring(m) ? mode[i] : mode[i] - mode[i + 1];
+            const double s = d / links.links[m].length;
             reach.push_back(d);
             second += links.growing_pull(m, speed) * d * s;
             if (!links.is_spring(m)) fourth += links.pull(m, speed) * d * s * s * s;
@@ -39,7 +41,7 @@ struct BranchOnset {
         }
         curvature = fourth / (2 * second);
     }
-    /// Whether the branch begins towards greater heights than that of the mode.
+    /// Whether the branch begins above the height of the mode.
     bool rises() const { return curvature < 0; }
     double amplitude_at(double conical_height) const {
         return std::sqrt((height - conical_height) / (conical_height * curvature));
@@ -51,7 +53,7 @@ struct BranchOnset {
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
-    /// A state near the vertical by this law as a point: tangent and arc, from the vertical, to second order.
+    /// The point of a state near the vertical, with tangent and arc to second order.
     BranchPoint point(BranchState state, double amplitude) const {
         BranchPoint result{state, std::move(state), 0, half_waves};
         result.tangent.log_height = -2 * curvature * amplitude * amplitude;
@@ -61,103 +63,98 @@ struct BranchOnset {
     BranchPoint point(const BranchLinks<double>& links, double amplitude) const {
         return point(state(links, amplitude), amplitude);
     }
-    /// A point of the branch with the largest inclination about `steepness`; smaller where that does not do.
+    /// A point of the branch with largest inclination about `steepness`, or less if that fails.
     std::optional<BranchPoint> start(Corrector& corrector, double steepness) const {
         for (; steepness > 1e-7; steepness /= 4) {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
             auto found = corrector.corrected(near.state, near.tangent, 0.1 * near.arc);
             if (!found || (found->state.log_height >= std::log(height)) != rises()) continue;
-            // modes close to one another: the neighbour's branch
-            if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
             if (inner(found->tangent, near.tangent) < 0.8) continue;
             found->arc = near.arc;
             if (found->half_waves == 0) found->half_waves = half_waves;
+            if (corrector.half_waves_are_kept() && found->half_waves != half_waves) continue;
             return found;
         }
         return std::nullopt;
     }
 };
 
-/// The amplitude at a conical height, to leading order; 0 where there is no such state. Next to that of the mode the
-/// difference of the two takes more than double: the mode's height is then told in double-double, from a state inclined
-/// by 1e-6 balanced with the height free (to 1e-24 relative).
-inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Wide<double>& height) {
-    using S = Wide<double>;
-    const double narrow = static_cast<double>(height);
+/// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
+/// mode's height, that is computed in double-double (1e-24 relative) from a state inclined by 1e-6.
+inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
+    const double narrow = as_double(height);
     if (std::abs(onset.height - narrow) > 1e-6 * onset.height)
         return (narrow > onset.height) == onset.rises() ? onset.amplitude_at(narrow) : 0.0;
     const double small = 1e-6 / onset.steepest;
     const BranchPoint at = onset.point(rounded(system.links), small);
-    const auto found = polished(system.links, at.state, GivenPlace<S>(at));
-    S critical(onset.height);
-    if (found.shape.converged) critical = found.height + found.height * S(small * small * onset.curvature);
-    const double gap = static_cast<double>((critical - height) / height);
+    const auto found = polished(system.links, at.state, GivenPlace(at));
+    Fine critical(onset.height);
+    if (found.shape.converged) critical = found.height + found.height * Fine(small * small * onset.curvature);
+    const double gap = as_double((critical - height) / height);
     return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
 
-/// The state at a height so near that of the mode that double tells it badly from the vertical: from the onset's law,
-/// balanced in double-double. None where that does not lead to it.
+/// The state at a height so close to the mode's that double hardly resolves it: from the law of the
+/// onset, balanced in double-double. None if that fails.
 inline std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
-                                                const Wide<double>& height) {
-    using S = Wide<double>;
+                                                const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
     BranchState state = onset.state(rounded(system.links), amplitude);
-    const auto found = polished(system.links, state, GivenHeight<S>(height));
+    const auto found = polished(system.links, state, GivenHeight(height));
     if (!found.shape.converged) return std::nullopt;
     double along = 0, whole = 0;
     for (std::size_t m = 0; m < system.links.size(); ++m) {
-        const S d = found.shape.offset[m] - found.shape.offset[m + 1];
-        const double rise = system.links.tau_of_reach(m, static_cast<double>(d));
+        const Fine d = found.shape.offset[m] - found.shape.offset[m + 1];
+        const double rise = system.links.tau_of_reach(m, as_double(d));
         along += rise * state.rise[m], whole += state.rise[m] * state.rise[m];
         state.rise[m] = rise;
     }
     if (!(std::abs(along - whole) <= 0.3 * whole)) return std::nullopt;
-    state.log_height = std::log(static_cast<double>(height));
+    state.log_height = std::log(as_double(height));
     return onset.point(std::move(state), amplitude);
 }
 
-/// Where a branch starts: at a mode or, where the support is off the axis, from rest.
+/// The start of a branch: a mode or, with the support off the axis, rest.
 struct BranchRoot {
     std::shared_ptr<const BranchSystem> system;
     Corrector corrector;
     std::optional<BranchOnset> onset;  ///< none from rest
-    double height;                     ///< of the mode (from rest: of the first one in the axis), in the chain's unit
+    double height;                     ///< of the mode, or from rest of the first mode
 
     template <class Options>
     static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
         require_mode(place, options.mode, chain.mode_count());
-        const auto found = revchain::detail::one_mode(chain, options.mode);
-        return from(std::make_shared<const BranchSystem>(chain), found.conical_height, &found.shape);
+        const auto found = detail::one_mode(chain, options.mode);
+        return from(BranchSystem(chain), found.conical_height, &found.shape);
     }
     template <class Options>
     static BranchRoot of(std::string_view place, const Rig& rig, const Options& options) {
         const Index mode = options.mode;
         const double gravity = options.gravity;
         const Rotation direction = options.direction;
-        revchain::detail::require_positive(place, "gravity", gravity);
+        detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
-                revchain::detail::throw_invalid(place,
-                                                "with a support off the axis mode must be 1, the branch from rest; "
-                                                "branches lists those born in folds",
-                                                mode);
-            return from(std::make_shared<const BranchSystem>(rig, gravity, direction),
-                        first_height(place, rig, gravity, direction), nullptr);
+                detail::throw_invalid(place,
+                                      "with a support off the axis mode must be 1, the branch from rest; "
+                                      "branches lists those born in folds",
+                                      mode);
+            return from(BranchSystem(rig, gravity, direction), first_height(place, rig, gravity, direction));
         }
-        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         require_mode(place, mode, modes.count());
         const auto found = modes.found(mode, 1).front();
         const Vector<double> shape = modes.shape(found);
-        return from(std::make_shared<const BranchSystem>(rig, gravity, direction), found.conical_height, &shape);
+        return from(BranchSystem(rig, gravity, direction), found.conical_height, &shape);
     }
-    /// Conical height of the slowest mode of a rig whose support is in the axis; its length where it has none.
+    /// Conical height of the slowest mode of a rig; its length if it has none.
     static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
-        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
     }
 
-    /// The state of the slowly turning rig, which hangs almost straight from its arm, at a log of height or above it.
+    /// The state of the slowly turning rig, almost straight, at a log of height or above.
     std::optional<BranchPoint> at_rest(double log_height) {
         const double unit = std::ldexp(1.0, -system->units.length_exponent);
         log_height = std::max(log_height, std::log(height * unit));
@@ -173,14 +170,14 @@ struct BranchRoot {
    private:
     static void require_mode(std::string_view place, Index mode, Index count) {
         if (mode < 1 || mode > count)
-            revchain::detail::throw_invalid(
-                place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
+            detail::throw_invalid(place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
     }
-    static BranchRoot from(std::shared_ptr<const BranchSystem> system, double height, const Vector<double>* mode) {
-        auto narrow = rounded(system->links);
+    static BranchRoot from(BranchSystem system, double height, const Vector<double>* mode = nullptr) {
+        auto narrow = rounded(system.links);
         std::optional<BranchOnset> onset;
-        if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system->units.length_exponent));
-        return {std::move(system), Corrector(std::move(narrow)), std::move(onset), height};
+        if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system.units.length_exponent));
+        auto shared = std::make_shared<const BranchSystem>(std::move(system));
+        return {std::move(shared), Corrector(std::move(narrow)), std::move(onset), height};
     }
 };
 

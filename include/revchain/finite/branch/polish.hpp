@@ -4,138 +4,124 @@
 #include "revchain/finite/balance/newton.hpp"
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/corrector.hpp"
+#include "revchain/finite/shapes/verification.hpp"
+#include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// One condition on the shape and the height, in double-double, that is solved together with the balance of forces. It
-/// knows its derivatives along the links' reaches a sin delta and along log lambda.
-template <class S>
+/// A condition on shape and height, in double-double, solved together with the balance of forces.
 struct Condition {
     virtual ~Condition() = default;
-    /// What is left of it, given minus there, at offsets of the pins; fills `row`, returns its share of log lambda too.
-    virtual std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& offset, const S& height,
-                                      std::vector<double>& row) const = 0;
-    /// What a relative change 1 of the number given leaves of it; 0 where none is given.
-    virtual double size(const S& height) const = 0;
+    /// Given minus actual value at offsets of the pins, and its derivative by log lambda. Fills
+    /// `row` with the derivatives by the reaches a sin delta.
+    virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& offset,
+                                         const Fine& height, std::vector<double>& row) const = 0;
+    /// The change of the condition for a relative change 1 of the given number; 0 without one.
+    virtual double size(const Fine& height) const = 0;
     virtual bool gives_height() const { return false; }
 };
 
-/// The conical height.
-template <class S>
-struct GivenHeight : Condition<S> {
-    S wanted;
-    explicit GivenHeight(S height) : wanted(std::move(height)) {}
-    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>&, const S& height,
-                              std::vector<double>& row) const override {
+struct GivenHeight : Condition {
+    Fine wanted;
+    explicit GivenHeight(Fine height) : wanted(std::move(height)) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>&, const Fine& height,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        return {(wanted - height) / wanted, static_cast<double>(height / wanted)};
+        return {(wanted - height) / wanted, as_double(height / wanted)};
     }
-    double size(const S&) const override { return 1; }
+    double size(const Fine&) const override { return 1; }
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere. The sign is that of
-/// the link there.
-template <class S>
-struct GivenTipInclination : Condition<S> {
-    S sine, cosine;
+/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too, with the
+/// link's sign.
+struct GivenTipInclination : Condition {
+    Fine sine, cosine;
     double angle;
     explicit GivenTipInclination(double wanted)
-        : sine(words(std::sin(static_cast<long double>(wanted)))),
-          cosine(words(std::cos(static_cast<long double>(wanted)))),
+        : sine(DoubleDouble(std::sin(static_cast<long double>(wanted))).word()),
+          cosine(DoubleDouble(std::cos(static_cast<long double>(wanted))).word()),
           angle(wanted) {}
-    static S words(long double x) {
-        const double high = static_cast<double>(x);
-        return S(high) + S(static_cast<double>(x - static_cast<long double>(high)));
-    }
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S&,
-                              std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine&,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = detail::cosine_of(a, d);
-        const S signed_sine = d < S(0) ? -sine : sine;
-        row[0] = static_cast<double>((cosine + s * signed_sine / c) / a);
+        const Fine &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
+        const Fine signed_sine = d < Fine(0) ? -sine : sine;
+        row[0] = as_double((cosine + s * signed_sine / c) / a);
         return {signed_sine * c - s * cosine, 0.0};
     }
-    double size(const S&) const override { return angle; }
+    double size(const Fine&) const override { return angle; }
 };
 
-/// The free end's distance from the axis, on the side where it is.
-template <class S>
-struct GivenTipRadius : Condition<S> {
-    S wanted;
-    explicit GivenTipRadius(S radius) : wanted(std::move(radius)) {}
-    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>& y, const S&,
-                              std::vector<double>& row) const override {
+/// The free end's distance from the axis, on its current side.
+struct GivenTipRadius : Condition {
+    Fine wanted;
+    explicit GivenTipRadius(Fine radius) : wanted(std::move(radius)) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>& y, const Fine&,
+                                 std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 1.0);
-        return {(y[0] < S(0) ? -wanted : wanted) - y[0], 0.0};
+        return {(y[0] < Fine(0) ? -wanted : wanted) - y[0], 0.0};
     }
-    double size(const S&) const override { return static_cast<double>(wanted); }
+    double size(const Fine&) const override { return as_double(wanted); }
 };
 
-/// The size of the reaction at the topmost pin: sum of weights times centroids' offsets = lambda sqrt(T^2 - W^2), of
-/// either sign.
-template <class S>
-struct GivenTopTension : Condition<S> {
-    S across;      ///< the sideways part, positive
-    double share;  ///< its relative change for one of the whole
-    GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
-                              std::vector<double>& row) const override {
-        S sum(0);
+/// The reaction at the topmost pin: |sum of weights times offsets| = lambda sqrt(T^2 - W^2).
+struct GivenTopTension : Condition {
+    Fine across;   ///< the sideways part of T, positive
+    double share;  ///< its relative change for one of T
+    GivenTopTension(Fine sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
+                                 std::vector<double>& row) const override {
+        Fine sum(0);
         double weights = 0;
         for (std::size_t m = 0; m < links.bodies(); ++m) {
-            const Link<S>& link = links.links[m];
+            const Link<Fine>& link = links.links[m];
             sum = sum + link.moment * y[m] + link.rest * y[m + 1];
-            row[m] = weights + static_cast<double>(link.moment);
-            weights = row[m] + static_cast<double>(link.rest);
+            row[m] = weights + as_double(link.moment);
+            weights = row[m] + as_double(link.rest);
         }
         if (links.spring) row.back() = weights;
-        const S pull = sum < S(0) ? -(height * across) : height * across;
-        return {pull - sum, -static_cast<double>(pull)};
+        const Fine pull = sum < Fine(0) ? -(height * across) : height * across;
+        return {pull - sum, -as_double(pull)};
     }
-    double size(const S& height) const override { return share * std::abs(static_cast<double>(height * across)); }
+    double size(const Fine& height) const override { return share * std::abs(as_double(height * across)); }
 };
 
-/// A plane across the branch at a point of it: for points that are to stay where they are along the arc, folds too.
-template <class S>
-struct GivenPlace : Condition<S> {
+/// The plane across the branch at one of its points: fixes the point along the arc, even at folds.
+struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
-    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
-                              std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
+                                 std::vector<double>& row) const override {
         double sum = 0;
-        const double share = 1 / static_cast<double>(links.size());
+        const double share = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
-            const S &a = links.links[m].length, d = y[m] - y[m + 1],
-                    c = links.is_spring(m) ? S(1) : detail::cosine_of(a, d);
-            const double tangent = static_cast<double>(d / (a * c)), length = static_cast<double>(a),
-                         slope = links.is_spring(m) ? std::hypot(1, tangent) : static_cast<double>(c * c);
+            const Fine &a = links.links[m].length, d = y[m] - y[m + 1],
+                       c = links.is_spring(m) ? Fine(1) : cosine_of(a, d);
+            const double tangent = as_double(d / (a * c)), length = as_double(a),
+                         slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c);
             row[m] = share * point->tangent.rise[m] / (length * slope);
             sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
         }
-        const double log_off = point->state.log_height - std::log(static_cast<double>(height));
-        return {S(sum + point->tangent.log_height * log_off), point->tangent.log_height};
+        const double log_off = point->state.log_height - std::log(as_double(height));
+        return {Fine(sum + point->tangent.log_height * log_off), point->tangent.log_height};
     }
-    double size(const S&) const override { return 0; }
+    double size(const Fine&) const override { return 0; }
 };
 
-/// A shape and its height.
-template <class S>
 struct Polished {
-    Balanced<S> shape;
-    S height;
-    double residual = 0;  ///< largest force left over at a pin, over the sum of sizes of its terms
-    /// Largest change of an inclination, rad, where each force changes by its own size, times it, in a few patterns of
-    /// signs; or where the number given does. The height being free, the inverse has a third vector beside the two of
-    /// `verified`, and the worst pattern would cost O(N^2).
+    Balanced<Fine> shape;
+    Fine height;
+    double residual = 0;  ///< largest residual force at a pin over the sum of sizes of its terms
+    /// Largest change of an inclination (rad) for relative changes 1 of all forces, in a few
+    /// patterns of signs, or of the given number. The exact maximum would cost O(N^2).
     double condition = 0;
 };
 
-/// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a
-/// relative change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
-template <class S>
-double condition_of(const BranchLinks<S>& links, BorderedChain& border, const std::vector<double>& size,
-                    const std::vector<double>& growth, double given) {
+/// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
+/// condition's change for that of the number, `growth` 1/(a cos^2) of links.
+inline double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
+                           const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
     double worst = 0;
@@ -147,98 +133,123 @@ double condition_of(const BranchLinks<S>& links, BorderedChain& border, const st
             total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
             left[m] = pattern < 4 ? total : 0.0;
         }
-        border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : given, reach);
-        for (std::size_t m = 0; m < links.bodies(); ++m)
-            worst =
-                std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links.links[m].length)));
+        border.solve(left, pattern < 4 ? 0.0 : given, reach);
+        for (std::size_t m = 0; m < links.bodies(); ++m) {
+            const double turn = reach[m] * std::sqrt(growth[m] / as_double(links.links[m].length));
+            worst = std::max(worst, std::abs(turn));
+        }
     }
     return worst;
 }
 
-/// Offsets of the pins of a state, the firm end of the support last.
-template <class S>
-std::vector<S> offsets_of(const BranchLinks<S>& links, const BranchState& state) {
-    std::vector<S> y(links.size() + 1);
+/// Offsets of the pins of a state; the firm end of the support is last.
+inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
+    std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
-    for (std::size_t m = links.size();
-         m-- > 0;) {  // a - a sin, not a sin, told in double: it may be all but horizontal
+    for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
         const double tau = state.rise[m];
-        const S &a = links.links[m].length, d = a * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
+        const Fine &a = links.links[m].length,
+                   d = a * (Fine(1) - Fine(2) / (Fine(1) + Fine(std::exp(2 * std::abs(tau)))));
         const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
-        y[m] = y[m + 1] + (small ? a * S(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
+        y[m] = y[m + 1] + (small ? a * Fine(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
     }
     return y;
 }
 
-/// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`,
-/// beside which the height is free and one condition given. Cost O(N) a step.
-template <class S>
-Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, const Condition<S>& condition) {
+/// Newton's method on all pins and the height, as `balance`, with one condition. Cost O(N) a step.
+inline Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
-    Polished<S> result{{offsets_of(links, start), {}}, S(std::exp(start.log_height))};
-    std::vector<S>& y = result.shape.offset;
-    S& height = result.height;
+    Polished result{{offsets_of(links, start), {}}, Fine(std::exp(start.log_height))};
+    std::vector<Fine>& y = result.shape.offset;
+    Fine& height = result.height;
     BorderedChain border(n);
     std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n), growth(n);
     double last = 1;
     for (int round = 0; round < 40; ++round) {
-        S sum(0), before(0);
-        const S speed = links.speed_at(height);
+        Fine sum(0), before(0);
+        const Fine speed = links.speed_at(height);
         double below_size = 0;
         result.residual = 0;
         for (std::size_t m = 0; m < n; ++m) {
-            const Link<S>& link = links.links[m];
-            const S d = y[m] - y[m + 1];
+            const Link<Fine>& link = links.links[m];
+            const Fine d = y[m] - y[m + 1];
             if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
-            const S cosine = links.is_spring(m) ? S(1) : detail::cosine_of(link.length, d),
-                    factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
-                    pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
-                    at_upper = link.rest * y[m + 1];
-            const S whole = sum + at_lower - pulled - turn;
-            const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
-            left[m] = static_cast<double>(whole), pull[m] = along[m] = static_cast<double>(pulled);
-            if (!links.spin.empty()) along[m] = static_cast<double>(height * links.growing_pull(m, speed) * tangent);
+            const Fine cosine = links.is_spring(m) ? Fine(1) : cosine_of(link.length, d),
+                       factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
+                       pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
+                       at_upper = link.rest * y[m + 1];
+            const Fine whole = sum + at_lower - pulled - turn;
+            const double c = as_double(cosine), a = as_double(link.length);
+            left[m] = as_double(whole), pull[m] = along[m] = as_double(pulled);
+            if (!links.spin.empty()) along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
             growth[m] = 1 / (a * c * c);
-            stiffness[m] = static_cast<double>(factor) / (a * c * c * c) + static_cast<double>(link.cross);
-            const double parts = std::abs(pull[m]) + static_cast<double>(abs(turn));
-            size[m] = below_size + parts + static_cast<double>(abs(at_lower));
-            below_size = parts + static_cast<double>(abs(at_upper));
-            const double force = std::abs(static_cast<double>(whole - before));
+            stiffness[m] = as_double(factor) / (a * c * c * c) + as_double(link.cross);
+            const double parts = std::abs(pull[m]) + as_double(abs(turn));
+            size[m] = below_size + parts + as_double(abs(at_lower));
+            below_size = parts + as_double(abs(at_upper));
+            const double force = std::abs(as_double(whole - before));
             if (size[m] > 0) result.residual = std::max(result.residual, force / size[m]);
             before = whole;
             sum = sum + at_lower + at_upper;
         }
         const auto [open, row_height] = condition.left(links, y, height, row);
-        border.factor([&](std::size_t m) { return stiffness[m]; }, links.links, [&](std::size_t m) { return along[m]; },
-                      [&](std::size_t m) { return row[m]; }, row_height);
-        if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
-        const double log_change =
-            border.solve([&](std::size_t m) { return left[m]; }, static_cast<double>(open), reach);
-        // Largest change of a link over its own inclination, and over the steepest one's. The start comes from numbers
-        // that were summed in double: of links all but vertical next to others it has rounding alone, 1e-18 for 1e-40,
-        // say. That goes by a factor of 1e-16 a step, and does no harm to the rest.
+        border.factor(stiffness, links.links, along, row, row_height);
+        if (result.shape.converged) break;  // the factors are now those of the result
+        const double log_change = border.solve(left, as_double(open), reach);
+        // Changes are relative to a link's own inclination and to the steepest one. The start was
+        // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
+        // It does no harm.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of a link that is vertical by accident only what double-double offsets of its pins can tell
-            const double lower = std::abs(static_cast<double>(y[m])), upper = std::abs(static_cast<double>(y[m + 1])),
-                         there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
+            // of an accidentally vertical link, only what double-double offsets resolve
+            const double lower = std::abs(as_double(y[m])), upper = std::abs(as_double(y[m + 1])),
+                         there = std::abs(as_double(y[m] - y[m + 1])) * growth[m],
                          told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
                          change = std::abs(reach[m]) * growth[m];
             largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
             steepest = std::max(steepest, there), farthest = std::max(farthest, change);
             x += reach[m];
-            y[m] = y[m] + S(x);
+            y[m] = y[m] + Fine(x);
         }
         if (!(std::abs(log_change) < 1) || !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0))) return result;
-        height = height + height * S(log_change);
-        // what the next step would be, as this one was to the last
+        height = height + height * Fine(log_change);
+        // the size of the next step if convergence continues at this rate
         const double next = largest * std::min(1.0, largest / std::min(1.0, last));
         result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
         last = largest;
     }
     if (result.shape.converged) result.condition = condition_of(links, border, size, growth, condition.size(height));
     return result;
+}
+
+/// A shape found at a height by Newton's method, `verified` at heights in `within`.
+inline SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
+                                  Balanced<Fine> found, bool height_is_given) {
+    if (!system.rig)
+        return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
+                              height_is_given);
+    const RiggedLinks rig = system.rigged_at(height);
+    found.offset.resize(rig.links.size() + 1);  // without the firm end of a spring
+    found.posture = rig.posture;
+    return verified_shape(rig, folded_links(rig), height, within, std::move(found), height_is_given);
+}
+
+/// The shape near a point of a branch that satisfies a condition. At a given height its bound is
+/// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
+/// the condition number; where nothing is proved, as at a fold, it is that alone.
+inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
+                                           const Condition& condition) {
+    auto found = polished(system.links, near, condition);
+    if (!found.shape.converged) return std::nullopt;
+    const bool given = condition.gives_height();
+    const auto height = given ? enclosed<Far>(found.height) : Span(Far(found.height));
+    SteadyShape shape = verified_shape(system, found.height, height, std::move(found.shape), given);
+    const bool proved = shape.error_bound < 1;
+    if (given && proved) return shape;
+    shape.condition = found.condition;
+    shape.error_bound = (proved ? shape.error_bound : 0x1p-52) + found.condition * (found.residual + 1e-30);
+    return shape;
 }
 
 }  // namespace revchain::finite

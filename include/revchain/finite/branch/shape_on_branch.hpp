@@ -5,21 +5,20 @@
 
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 #include "revchain/finite/branch/trace.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Looks along a branch for a number measured there.
+/// Searches a branch for states with a wanted number.
 template <class Found, class Measure>
 class BranchSearch {
    public:
     using End = decltype(Found::end);
-    using S = Wide<double>;
-    BranchSearch(BranchRoot& root, const Measure& measure, const Condition<S>& condition, double amplitude)
+    using S = Fine;
+    BranchSearch(BranchRoot& root, const Measure& measure, const Condition& condition, double amplitude)
         : root_(root), measure_(measure), condition_(condition), amplitude_(amplitude) {}
 
-    /// Down to a log of conical height, at most `max_shapes` states.
+    /// Searches down to a log of conical height, for at most `max_shapes` states.
     Found run(double log_end, std::size_t max_shapes, double log_wanted) {
         Found result;
         result.searched_to = root_.height;
@@ -28,22 +27,21 @@ class BranchSearch {
         const BranchOnset& onset = *root_.onset;
         constexpr double small = 0.02;
         double from = 0.1;
-        const bool beside = amplitude_ > 0 || !onset.rises();  // on the side of the mode on which the branch begins
-        if (beside && amplitude_ * onset.steepest < small) {   // so near the vertical that the onset is known to 1e-3
+        const bool beside = amplitude_ > 0 || !onset.rises();  // where the branch begins
+        if (beside && amplitude_ * onset.steepest < small) {   // the onset's law is good to 1e-3
             const BranchState near = onset.state(root_.corrector.links(), amplitude_);
             if (auto shape = close(near, amplitude_ * onset.steepest)) {
                 result.shapes.push_back(std::move(*shape));
                 result.searched_to = result.shapes.back().conical_height;
                 if (result.shapes.size() >= max_shapes) return result;
             }
-            // past the state; farther out where double tells the branch from the vertical, what is wanted growing all
-            // along
+            // start past the state, or, for a number that grows, where double resolves the branch
             from = result.shapes.empty() ? 0.1 * amplitude_ * onset.steepest
                                          : std::max(1e-5, 4 * amplitude_ * onset.steepest);
         } else if (beside) {
             from = std::min(from, 0.25 * amplitude_ * onset.steepest);
         }
-        // from nearer to the vertical where nothing is met before no step passes: see `branch`
+        // start closer to the vertical if no step is accepted before a state is found: see `branch`
         for (;; from /= 16) {
             const auto start = onset.start(root_.corrector, from);
             if (!start) {
@@ -58,9 +56,9 @@ class BranchSearch {
 
    private:
     static constexpr int max_steps = 100'000;
-    static constexpr double slow = 18.4;  ///< log of heights over that of the mode: a ten-thousandth of its speed
+    static constexpr double slow = 18.4;  ///< log height above the mode's: 1e-4 of its speed
 
-    /// From a state slower than the one wanted.
+    /// Starts from a state slower than the wanted one.
     Found run_from_rest(Found result, double log_end, std::size_t max_shapes, double log_wanted) {
         const double top = std::log(std::ldexp(root_.height, -root_.system->units.length_exponent)) + slow;
         const auto start = root_.at_rest(std::max(top, log_wanted + 1));
@@ -94,23 +92,28 @@ class BranchSearch {
 
     Found stopped(Found& result, const BranchWalk& walk, End end) const {
         result.end = end;
-        result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.system->units.length_exponent);
+        const double height = std::exp(walk.here().state.log_height);
+        result.searched_to = std::ldexp(height, root_.system->units.length_exponent);
         return std::move(result);
     }
-    /// The state of the condition next to one of the branch: no link farther from it than `farthest`, rad.
+    /// The state that satisfies the condition, with links at most `farthest` (rad) from `near`.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
         const auto& links = root_.corrector.links();
         auto shape = shape_at(*root_.system, near, condition_);
-        // next to the vertical the height is rounded to that of the mode, itself rounded
-        if (!shape || (links.plain && !(shape->conical_height <= root_.height * (1 + 0x1p-50)))) return std::nullopt;
-        if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset->half_waves) return std::nullopt;
-        double same = 0, mirrored = 0;  // in the axis the shape is given with its free end at a positive offset
+        // near the vertical the height is rounded to that of the mode, itself rounded
+        if (!shape) return shape;
+        const bool in_reach = shape->conical_height <= root_.height * (1 + 0x1p-50);
+        if (links.plain && !in_reach) return std::nullopt;
+        const bool kept = root_.corrector.half_waves_are_kept();
+        if (kept && shape->half_waves != root_.onset->half_waves) return std::nullopt;
+        double same = 0, mirrored = 0;  // a symmetric shape has its free end at a positive offset
         for (std::size_t m = 0; m < links.bodies(); ++m) {
             const auto i = static_cast<Index>(m);
             const bool stands = root_.system->stands(m);
             const double inclination = shape->inclination[i], there = std::atan(std::sinh(near.rise[m])),
                          here = stands ? -std::remainder(inclination, std::numbers::pi) : inclination;
-            same = std::max(same, std::abs(here - there)), mirrored = std::max(mirrored, std::abs(here + there));
+            same = std::max(same, std::abs(here - there));
+            mirrored = std::max(mirrored, std::abs(here + there));
         }
         const double off = links.is_symmetric() ? std::min(same, mirrored) : same;
         if (!(off <= 0.3 * farthest)) return std::nullopt;
@@ -119,11 +122,11 @@ class BranchSearch {
 
     BranchRoot& root_;
     const Measure& measure_;
-    const Condition<S>& condition_;
+    const Condition& condition_;
     double amplitude_;
 };
 
-/// The amplitude at which, to leading order, a number that grows with it in proportion is as wanted.
+/// The amplitude, to leading order, at which a number proportional to it has the wanted value.
 template <class Measure>
 double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     if (!root.onset) return 0;
@@ -132,34 +135,32 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-/// The reach of a system: its free end cannot be farther from the axis.
+/// The largest possible distance of the free end from the axis.
 inline double reach_of(const Chain<double>& chain) { return chain.total_length(); }
 inline double reach_of(const Rig& rig) {
     return rig.support().is_firm() ? rig.support().radius + rig.chain().total_length()
                                    : std::numeric_limits<double>::infinity();
 }
 
-/// The height given, as it is or as a speed.
 template <class Options>
-Wide<double> height_given(std::string_view place, const Options& given) {
-    using revchain::detail::require_positive;
+Fine height_given(std::string_view place, const Options& given) {
+    using detail::require_positive;
     if (given.conical_height) {
         require_positive(place, "conical height", *given.conical_height);
-        return Wide<double>(*given.conical_height);
+        return Fine(*given.conical_height);
     }
     require_positive(place, "angular speed", *given.angular_speed);
     require_positive(place, "gravity", given.gravity);
-    const Wide<double> height = height_at_speed(*given.angular_speed, given.gravity);
-    require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
+    const Fine height = height_at_speed(*given.angular_speed, given.gravity);
+    require_positive(place, "gravity / angular speed^2", as_double(height));
     return height;
 }
 
-/// The states on the branch at which a number that is not the height is met.
+/// The states on a branch with a given number other than the height.
 template <class Search, class System, class Options>
 auto search_by_number(std::string_view place, const System& system, const BranchRoot& root, const Options& given,
                       const Search& search) {
-    using revchain::detail::require_positive, revchain::detail::throw_invalid;
-    using S = Wide<double>;
+    using detail::require_positive, detail::throw_invalid;
     const ChainUnits& units = root.system->units;
     const double unit = std::ldexp(1.0, -units.length_exponent);
     const auto* links = &root.corrector.links();
@@ -173,7 +174,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                           *given.tip_inclination);
         const double rise = std::asinh(std::tan(angle));
         const TipInclinationMeasure measure{rise, links->is_symmetric()};
-        return search(measure, GivenTipInclination<S>(angle), amplitude_of(root, measure, rise));
+        return search(measure, GivenTipInclination(angle), amplitude_of(root, measure, rise));
     }
     if (given.tip_radius) {
         require_positive(place, "tip radius", *given.tip_radius);
@@ -183,31 +184,30 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                                            : "tip radius must be less than the length of the chain",
                           *given.tip_radius);
         const TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return search(measure, GivenTipRadius<S>(S(*given.tip_radius * unit)),
+        return search(measure, GivenTipRadius(Fine(*given.tip_radius * unit)),
                       amplitude_of(root, measure, measure.wanted));
     }
     using std::sqrt;
     const double tension = *given.top_tension;
-    const S size = ldexp(S(tension), -units.weight_exponent), bearing = root.system->bearing;
+    const Fine size = ldexp(Fine(tension), -units.weight_exponent), bearing = root.system->bearing;
     if (!(size > bearing && size > -bearing) || !std::isfinite(tension))
         throw_invalid(place,
                       root.system->rig
                           ? "top tension must be finite and more than the weight that the topmost pin bears"
                           : "top tension must be finite and more than the weight of the chain",
                       tension);
-    const S pull = sqrt((size - bearing) * (size + bearing));
-    const double narrow = static_cast<double>(pull);
+    const Fine pull = sqrt((size - bearing) * (size + bearing));
+    const double narrow = as_double(pull);
     const TopPullMeasure measure{links, narrow};
-    const double share = std::pow(static_cast<double>(size) / narrow, 2);
-    return search(measure, GivenTopTension<S>(pull, share), amplitude_of(root, measure, narrow));
+    const double share = std::pow(as_double(size) / narrow, 2);
+    return search(measure, GivenTopTension(pull, share), amplitude_of(root, measure, narrow));
 }
 
-/// The states on the branch at which the number given is met.
+/// The states on a branch with the given number.
 template <class Found, class System, class Options>
 Found search_branch(const System& system, const Options& given, std::size_t max_shapes) {
-    using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
+    using detail::in_digits, detail::require_positive, detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
-    using S = Wide<double>;
     const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                       given.tip_inclination.has_value() + given.tip_radius.has_value() + given.top_tension.has_value();
     if (count != 1)
@@ -233,12 +233,12 @@ Found search_branch(const System& system, const Options& given, std::size_t max_
                                     const double lowest = given.min_conical_height.value_or(1e-6 * root.height);
                                     return run(measure, condition, amplitude, std::log(lowest * unit), -1e300);
                                 });
-    const S height = height_given(place, given);
-    const double near = static_cast<double>(height);
-    if (falls && !(near < root.height)) revchain::detail::throw_too_slow(place, given.mode, root.height, near, given);
+    const Fine height = height_given(place, given);
+    const double near = as_double(height);
+    if (falls && !(near < root.height)) detail::throw_too_slow(place, given.mode, root.height, near, given);
     const double wanted = std::log(near * unit);
-    return run(HeightMeasure{wanted}, GivenHeight<S>(height * S(unit)),
-               root.onset ? amplitude_at(*root.system, *root.onset, height * S(unit)) : 0.0,
+    return run(HeightMeasure{wanted}, GivenHeight(height * Fine(unit)),
+               root.onset ? amplitude_at(*root.system, *root.onset, height * Fine(unit)) : 0.0,
                std::min(wanted, std::log(given.min_conical_height.value_or(near / 2) * unit)), wanted);
 }
 

@@ -4,11 +4,10 @@
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Appends a point, with what is told of it, to a branch. Numbers are those of `described`.
+/// Appends a point and the numbers of `described` to a branch.
 template <class Branch>
 void append(Branch& branch, const BranchPoint& point) {
     const BranchSystem& system = *trace_of(branch).system;
@@ -16,35 +15,34 @@ void append(Branch& branch, const BranchPoint& point) {
     const auto length = [&](double x) { return std::ldexp(x, system.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, system.units.weight_exponent); };
     const double height = std::exp(point.state.log_height);
-    const Wide<double> speed = links.speed_at(Wide<double>(height));
-    double y = static_cast<double>(links.radius), sideways = 0, inertia = system.axial, energy = 0;
+    const Fine speed = links.speed_at(Fine(height));
+    double y = as_double(links.radius), sideways = 0, inertia = system.axial, energy = 0;
     for (std::size_t m = links.size(); m-- > 0;) {
         const auto& link = links.links[m];
         const Inclined at = links.inclined(m, point.state.rise[m]);
-        const double a = static_cast<double>(link.length), moment = static_cast<double>(link.moment),
-                     rest = static_cast<double>(link.rest), pull = static_cast<double>(links.pull(m, speed)),
-                     d = a * at.sine, upper = y;
+        const double a = as_double(link.length), moment = as_double(link.moment), rest = as_double(link.rest),
+                     pull = as_double(links.pull(m, speed)), d = a * at.sine, upper = y;
         y += d;
-        inertia += moment * y * y + rest * upper * upper - static_cast<double>(link.cross) * d * d;
+        inertia += moment * y * y + rest * upper * upper - as_double(link.cross) * d * d;
         if (!links.is_spring(m)) sideways += moment * y + rest * upper;
         energy += links.is_spring(m) ? pull * a * at.sine * at.sine / 2 : -pull * a / at.secant;
     }
     branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
     const double inclination = std::atan(std::sinh(point.state.rise[0]));
-    branch.tip_inclination.push_back(system.stands(0) ? detail::beyond(-inclination, inclination < 0) : inclination);
+    branch.tip_inclination.push_back(system.stands(0) ? beyond(-inclination, inclination < 0) : inclination);
     branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
-    branch.top_tension.push_back(weight(std::hypot(static_cast<double>(system.bearing), sideways / height)));
+    branch.top_tension.push_back(weight(std::hypot(as_double(system.bearing), sideways / height)));
     branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * system.units.length_exponent)));
     branch.effective_energy.push_back(weight(length(energy - inertia / (2 * height))));
     trace_of(branch).points.push_back(point);
 }
 
-/// Whether a point lies beyond another one next to it, in the direction of the branch.
+/// Whether a point lies beyond a neighbouring one in the direction of the branch.
 inline bool is_past(const BranchPoint& here, const BranchPoint& there) {
     return inner(moved(here.state, -1, there.state), here.tangent) > 0;
 }
 
-/// Whether a step passes the point where a loop began, going the same way.
+/// Whether a step passes the start of a loop in the same direction.
 inline bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
     const double reach = here.arc - before.arc;
     if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
@@ -59,7 +57,7 @@ inline bool mirrored(const BranchPoint& before, const BranchPoint& here) {
     return sum < 0;
 }
 
-/// Whether flywheels all but take the effective tension from a link.
+/// Whether flywheels cancel all but 1e-5 of the tension of a link.
 inline bool is_slack(const BranchLinks<double>& links, double log_height) {
     const double speed = links.speed_at(std::exp(log_height));
     for (std::size_t m = 0; m < links.bodies(); ++m)
@@ -67,14 +65,13 @@ inline bool is_slack(const BranchLinks<double>& links, double log_height) {
     return false;
 }
 
-/// Whether the spring at the support is drawn out by a thousand lengths.
+/// Whether the spring at the support is stretched by more than a thousand lengths.
 template <class S>
 bool is_loose(const BranchLinks<S>& links, const BranchState& at) {
     return links.spring && std::abs(at.rise.back()) > 7.6;  // arsinh 1000
 }
 
-/// Goes on with a branch until it first comes down to `log_end`, or up to `log_top` where that is finite; folds are put
-/// in where they lie.
+/// Follows a branch until it comes down to `log_end` or up to `log_top`, if finite. Inserts folds.
 template <class Branch>
 auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points,
             double log_top = std::numeric_limits<double>::infinity()) {
@@ -113,23 +110,23 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     return End::budget;
 }
 
-/// The states of a branch at one height, in the order of the arc. Between the vertical and the next point the law of
-/// the onset leads to it: the height hardly changes there.
+/// The states of a branch at one height, in the order of the arc. Between the vertical and the next
+/// point, where the height hardly changes, they come from the law of the onset.
 template <class Branch>
 std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
     std::vector<SteadyShape> found;
     if (branch.size() == 0) return found;
     const auto& trace = trace_of(branch);
     const BranchSystem& system = *trace.system;
-    const Wide<double> height = ldexp(Wide<double>(conical_height), -system.units.length_exponent);
-    const HeightMeasure measure{std::log(static_cast<double>(height))};
-    const GivenHeight<Wide<double>> condition(height);
+    const Fine height = ldexp(Fine(conical_height), -system.units.length_exponent);
+    const HeightMeasure measure{std::log(as_double(height))};
+    const GivenHeight condition(height);
     const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
     const auto take = [&](const BranchState& near) {
         if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));
     };
     const bool from_vertical = trace.onset && largest_rise(trace.points[0].state) == 0;
-    const double side = from_vertical && trace.onset->rises() ? -1 : 1;  // where the branch lies of its mode
+    const double side = from_vertical && trace.onset->rises() ? -1 : 1;  // of the mode's height
     const bool within = from_vertical && side * off(0) > 0;
     if (from_vertical && !within && branch.size() < 2) return found;
     const double there = within ? std::min(1e-9, 0.01 * side * off(0)) : 1e-9;

@@ -6,13 +6,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Moment of inertia and potential energy of a path up to the support, by parts: with the axis at the support,
-///     sum of weight times eta^2 = integral of u^2/T,   sum of weight times height above the support = - that of V^2/T.
+/// Moment of inertia and potential energy of a path, integrated by parts with the axis at the
+/// support:
+///     sum of weight eta^2 = integral of u^2/T,   sum of weight height = - integral of V^2/T.
 class PathEnergies {
    public:
     explicit PathEnergies(const PathKind& kind, double tip_offset) : kind_(kind) {
         if (kind.density == nullptr) return;
-        // below where the path starts the inclination is that of the free end
+        // below the start of the path the inclination is that of the free end
         const double s = Path::first_arc(kind), below = kind.weight_below(s);
         const double moment = kind.density->first_moment(s * kind.unit), cosine = 1 / std::hypot(1.0, tip_offset);
         const double carried = s * below - moment * (below - kind.tip) * s;
@@ -20,7 +21,7 @@ class PathEnergies {
     }
     template <class Series>
     void operator()(const Series& series, double duration) {
-        static const auto rule = revchain::detail::gauss_rule(16);
+        static const auto rule = detail::gauss_rule(16);
         for (const auto& [t, weight] : rule) {
             const PathState x = series.state(duration * t);
             const double below = kind_.weight_below(x.arc), step = duration * weight;
@@ -42,7 +43,7 @@ class PathEnergies {
     double inertia_ = 0, potential_ = 0;
 };
 
-/// A place of the plane in which a branch of a cord is a line: tau, where sinh(tau) is the tangent of the inclination
+/// A point of the plane of branches of a cord: tau, with sinh(tau) the tangent of the inclination
 /// of the free end, and the logarithm of the conical height.
 struct BranchPlace {
     double bend = 0, log_height = 0;
@@ -57,11 +58,11 @@ inline BranchPlace operator*(double s, const BranchPlace& x) { return {s * x.ben
 inline double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
 inline double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
-/// The line on which crossing number `crossing` of the paths of a cord is at the support: f = log(arc lambda / length)
-/// is 0. As u and eta cannot both be 0, each branch of half waves j lies on the line of crossing j, from end to end.
+/// The line on which crossing number `crossing` of the paths of a cord is at the support: f =
+/// log(arc lambda / length) = 0. A branch of j half waves lies on the line of crossing j.
 class BranchLine {
    public:
-    /// A place on the line; its direction (of unit length); how f changes with the bend at one height: 0 at a fold.
+    /// A point on the line, its unit direction, the derivative of f by the bend, and f.
     struct Point {
         BranchPlace at, direction;
         double rate = 0, off = 0;
@@ -73,8 +74,8 @@ class BranchLine {
     int crossing() const { return crossing_; }
     PathKind kind(double log_height) const { return kind_of(chain_, std::exp(log_height), 1); }
 
-    /// The point of the line next to a place, across `direction`; nothing where Newton's method does not get there at
-    /// once. The direction of the point is on the same side as `direction`.
+    /// The point of the line near `from`, across `direction`, with its direction on the same side;
+    /// none if Newton's method does not converge at once.
     std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction, double reach) const {
         BranchPlace at = from;
         double last = std::numeric_limits<double>::infinity();
@@ -98,8 +99,8 @@ class BranchLine {
         }
         return found;
     }
-    /// f and its slopes. By the height: 1 for a uniform cord without a tip, else a difference of two paths, known to
-    /// 1e-7 and needed for the direction and for steps alone.
+    /// f and its slopes. The slope by height is 1 for a uniform cord without a tip, else a
+    /// difference of two paths, accurate to 1e-7; only directions and steps use it.
     std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at, bool fine = true) const {
         const double tolerance = fine ? PathSeries::rounding : 1e-13;
         const auto path = [&](double log_height, bool with_change) {
@@ -120,11 +121,11 @@ class BranchLine {
         return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
                          BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
     }
-    /// The point between two at which `value`, of a point, is 0: it has different signs at both.
+    /// The point between two at which `value` of a point, with different signs at both, is 0.
     template <class F>
     std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
         const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
-        const revchain::detail::SignChange<double> ends{{0, value(a)}, {1, value(b)}};
+        const detail::SignChange<double> ends{{0, value(a)}, {1, value(b)}};
         double least = std::min(std::abs(ends.low.value), std::abs(ends.high.value));
         std::optional<Point> best = std::abs(ends.low.value) == least ? a : b;
         const auto at = [&](double along) {
@@ -134,7 +135,7 @@ class BranchLine {
             if (std::abs(now) <= least) least = std::abs(now), best = point;
             return now;
         };
-        const double share = revchain::detail::zero_between(ends, at, {.width = 4e-16});
+        const double share = detail::zero_between(ends, at, {.width = 4e-16});
         if (std::isnan(share)) return std::nullopt;
         return best;
     }
@@ -144,18 +145,16 @@ class BranchLine {
     int crossing_;
 };
 
-/// A line followed from a point: predictor along the direction, corrector across it. A step is kept only where Newton's
-/// method contracts, the direction turns by less than 0.2 and the correction is below a third of the step.
+/// Follows a line: predictor along the direction, corrector across it. Accepts a step if Newton's
+/// method contracts, the direction turns by less than 0.2 and the correction is below step/3.
 class BranchLineWalk {
    public:
-    double longest = 0.1;  ///< step
-
-    BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double first)
-        : line_(line), at_(start), step_(first) {}
+    BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double longest)
+        : line_(line), at_(start), step_(std::min(0.02, longest)), longest_(longest) {}
 
     const BranchLine::Point& at() const { return at_; }
     bool advance() {
-        for (double step = std::min(step_, longest); step > 1e-9; step /= 2) {
+        for (double step = std::min(step_, longest_); step > 1e-9; step /= 2) {
             const BranchPlace guess = at_.at + step * at_.direction;
             const auto next = line_.next_to(guess, at_.direction, step);
             if (!next) continue;
@@ -171,7 +170,7 @@ class BranchLineWalk {
    private:
     const BranchLine& line_;
     BranchLine::Point at_;
-    double step_;
+    double step_, longest_;
 };
 
 }  // namespace revchain::finite

@@ -31,11 +31,11 @@ REVCHAIN_INLINE std::vector<CordShape> CordBranch::shapes_at(double height) cons
     return shapes;
 }
 
-REVCHAIN_INLINE CordShape finite::shape_near(const Cord& cord, double height, int half_waves,
-                                             double tip_offset, bool at_fold) {
+REVCHAIN_INLINE CordShape finite::shape_near(const Cord& cord, double height, int half_waves, double tip_offset,
+                                             bool at_fold) {
     const BranchLine line(cord, half_waves);
     auto shape = shape_at(line, {{std::asinh(tip_offset / height), std::log(height)}, {}, 0, 0}, at_fold);
-    if (!shape) revchain::detail::throw_invalid("CordShape", "the shape could not be followed", height);
+    if (!shape) detail::throw_invalid("CordShape", "the shape could not be followed", height);
     return *std::move(shape);
 }
 

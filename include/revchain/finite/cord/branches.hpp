@@ -9,24 +9,24 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// A branch of steady shapes of a cord, point by point along its arc s, in the units of the cord:
 /// ds^2 = dtau^2 + d(log conical height)^2, where tan(inclination of the free end) = sinh(tau).
 struct CordBranch {
-    Index mode = 0;  ///< the mode at which it leaves the vertical; 0: an isolated one
-    /// For each point. `tip_inclination`: of the free end, rad; `tip_radius`: its offset; `top_tension`: at the
-    /// support; the others as of `Branch`.
+    Index mode = 0;  ///< the mode at which it leaves the vertical; 0 for an isolated branch
+    /// For each point. `tip_inclination`: of the free end, rad; `tip_radius`: its offset;
+    /// `top_tension`: at the support; the others as in `Branch`.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
         effective_energy;
-    std::vector<int> half_waves;     ///< the same along a branch
-    std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme
+    std::vector<int> half_waves;     ///< constant along a branch
+    std::vector<std::size_t> folds;  ///< indices of points with a local extreme of conical height
     BranchEnd end = BranchEnd::budget;
 
     std::size_t size() const { return arc.size(); }
     double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
-    /// The shape at a point. Throws InvalidArgument for the straight cord (point 0 on the branch of a mode), for a
-    /// number past the end, and for a shape that could not be followed.
+    /// The shape at a point. Throws InvalidArgument for the straight cord (point 0 on the branch of
+    /// a mode), an index past the end, and a shape that could not be followed.
     CordShape shape(std::size_t point) const;
-    /// The shapes at which the branch, as far as it was followed, passes a conical height, in the order of the arc.
-    /// Throws InvalidArgument for a height that is not positive and finite.
+    /// The shapes of the branch at a conical height, in the order of the arc. Throws
+    /// InvalidArgument for a height that is not positive and finite.
     std::vector<CordShape> shapes_at(double conical_height) const;
 
     // Data of `shape` and `shapes_at`.
@@ -35,25 +35,26 @@ struct CordBranch {
 };
 
 namespace finite {
-/// The shape of a cord at one conical height whose free end is near an offset, at a fold of its branch or not. Throws
-/// InvalidArgument for one that could not be followed.
+/// The shape of a cord at a conical height with its free end near an offset, at a fold or not.
+/// Throws InvalidArgument if it could not be followed.
 CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset, bool at_fold);
 }  // namespace finite
 
-/// All branches found above one conical height. `complete` where a theorem counts the shapes (see `steady_shapes` of a
-/// cord). Elsewhere `consistent` says whether, at every height in `looked_at`, each shape found by a scan is met once.
+/// All branches found above a conical height. `complete` if a theorem counts the shapes (see
+/// `steady_shapes` of a cord). Else `consistent`: at each height in `looked_at` each scanned shape
+/// is on one.
 struct CordBranches {
-    std::vector<CordBranch> branches;  ///< those of the modes, slowest first, then isolated ones by where they are born
+    std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones, highest first
     double conical_height = 0;         ///< lowest conical height of the diagram
     bool consistent = false, complete = false;
-    std::vector<double> looked_at;  ///< conical heights of those lists, descending
+    std::vector<double> looked_at;  ///< conical heights of scanned lists, descending
     std::string remark;             ///< what may be missing
 };
 
 namespace finite {
 
-/// The shape at a point of a line; nothing where no path could be followed that far. At a fold its error is estimated
-/// from that of the place of the fold.
+/// The shape at a point of a line; none if no path could be followed that far. At a fold the error
+/// is that of its position.
 inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
     constexpr double of_fold = 1e-7;
     const double height = std::exp(point.at.log_height);
@@ -72,7 +73,7 @@ inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLin
     return shape;
 }
 
-/// Adds the straight cord, from which a mode departs.
+/// Adds the straight cord where the branch of a mode begins.
 inline void append_vertical(CordBranch& branch, double height) {
     const ContinuousChain& chain = branch.line->chain();
     const PathKind kind = kind_of(chain, height, 0);
@@ -86,7 +87,7 @@ inline void append_vertical(CordBranch& branch, double height) {
     branch.points.push_back({{0, std::log(height)}, {1, 0}});
 }
 
-/// Adds a point of its line; whether its path could be followed.
+/// Adds a point of the line; false if its path could not be followed.
 inline bool append(CordBranch& branch, const BranchLine::Point& point) {
     const BranchLine& line = *branch.line;
     const double height = std::exp(point.at.log_height), tip = std::sinh(point.at.bend);
@@ -113,16 +114,14 @@ inline bool append(CordBranch& branch, const BranchLine::Point& point) {
     return true;
 }
 
-/// Follows a line from a point of it until `stop(last, now)`, which may change `now`, says that it is the last, or it
-/// ends. Folds are points of their own.
+/// Follows a line from a point until it ends or `stop(last, now)` gives a reason. Folds are points.
 template <class Stop>
 BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
                  const Stop& stop) {
     const BranchLine& line = *branch.line;
-    BranchLineWalk walk(line, start, std::min(0.02, longest));
-    walk.longest = longest;
+    BranchLineWalk walk(line, start, longest);
     while (branch.size() < most) {
-        revchain::detail::look();
+        detail::look();
         const BranchLine::Point last = walk.at();
         if (!walk.advance())
             return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;
@@ -145,7 +144,7 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
     return BranchEnd::budget;
 }
 
-/// Where a line first comes down to a height.
+/// Stops where a line first comes down to a height.
 inline auto down_to(const BranchLine& line, double log_end) {
     return [&line, log_end](const BranchLine::Point& last, BranchLine::Point& now) -> std::optional<BranchEnd> {
         if (!(now.at.log_height <= log_end)) return std::nullopt;
@@ -156,20 +155,20 @@ inline auto down_to(const BranchLine& line, double log_end) {
     };
 }
 
-/// The branch of a mode, whose height of small amplitude is given, down to another height.
+/// The branch of a mode of given height, down to another height.
 inline CordBranch branch_of_mode(const Cord& cord, double critical, double height, const BranchOptions& options) {
     CordBranch result;
     result.mode = options.mode;
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(options.mode));
     result.line = line;
     append_vertical(result, critical);
-    result.end =
-        follow(result, result.points.front(), options.max_step, options.max_points, down_to(*line, std::log(height)));
+    const auto down = down_to(*line, std::log(height));
+    result.end = follow(result, result.points.front(), options.max_step, options.max_points, down);
     if (result.end == BranchEnd::height) result.conical_height.back() = height;
     return result;
 }
 
-/// Adds the point between two neighbouring points of a branch at which `value` of a point is 0, if there is one.
+/// Adds the point between two neighbouring points at which `value` of a point is 0, if any.
 template <class F>
 void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, const BranchLine::Point& last,
                  const BranchLine::Point& now, const F& value) {

@@ -8,38 +8,37 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A place on a whirling chain, in the units of the chain.
+/// A point of a whirling cord, in the units of the cord.
 struct CordPlace {
     double arc_length;   ///< from the free end
     double offset;       ///< from the axis
-    double height;       ///< above the support: negative where it hangs
-    double inclination;  ///< to the vertical, rad; positive where the chain leads towards the axis going up, as it does
-                         ///< at the free end
+    double height;       ///< above the support; negative if it hangs
+    double inclination;  ///< to the vertical, rad; positive where the cord rises towards the axis
     double tension;
 };
 
-/// One steady shape of a whirling chain without links. The places are dense where it turns sharply: eight to a step.
+/// A steady shape of a whirling cord. Eight points a step: dense where it turns sharply.
 struct CordShape {
     Vector<double> arc_length;   ///< (n) from the free end, 0 ... length
-    Vector<double> offset;       ///< (n) from the axis; the free end's first, the support's 0 last
+    Vector<double> offset;       ///< (n) from the axis; 0 at the support, the last point
     Vector<double> height;       ///< (n) above the support
     Vector<double> inclination;  ///< (n) to the vertical, rad
     Vector<double> tension;      ///< (n)
     int half_waves = 1;          ///< crossings of the axis, the support among them
     double length = 0;
     double conical_height = 0;  ///< of the speed
-    double residual = 0;        ///< of the first integral at the support, over the largest tension; see `steady_shapes`
-    double error_bound = 0;     ///< of every inclination, rad, and of every offset and height over the length
-    double condition = 0;       ///< largest change of an inclination for a relative change 1 of the length alone
+    double residual = 0;        ///< of the first integral at the support, over the largest tension
+    double error_bound = 0;     ///< of inclinations (rad), and of offsets and heights over length
+    double condition = 0;       ///< largest change of an inclination per relative change of the length
 
-    /// The place at an arc length from the free end. Cost: 1 microsecond.
-    /// Throws InvalidArgument outside 0 ... length.
+    /// The point at an arc length from the free end. Cost: 1 microsecond. Throws InvalidArgument
+    /// outside 0 ... length.
     CordPlace operator()(double arc) const;
     double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
 
-    // `operator()` needs the scaled steps of the path, and the density to which `kind` points.
+    // For `operator()`: scaled steps of the path, and the density to which `kind` points.
     std::shared_ptr<const LineDensity> density;
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;
@@ -50,27 +49,27 @@ namespace finite {
 
 inline CordPlace place_of(const CordShape& shape, const PathState& x) {
     const double below = shape.kind.weight_below(x.arc), lambda = shape.conical_height;
-    const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);  // the free end's limit
+    const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);
     return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, inclination,
             std::hypot(x.pull, below) * lambda * shape.kind.line_weight};
 }
 
-/// The place of a path at an arc length, from its steps.
+/// The state of a path at an arc length, from its steps.
 inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset, double arc) {
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), arc,
                                         [](double x, const Path::Step& step) { return x < step.start.arc; });
     const Path::Step& step = *(after - 1);
     if (kind.is_bare() && &step == &steps.front()) return TipSeries(step.start.offset, kind.bend).state(arc);
-    if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);  // below where the path starts
+    if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);
     const PathSeries series(kind, step.start);
-    return series.state(time_at(series, arc, 1.05 * step.duration));  // a step that was moved may end a little later
+    return series.state(time_at(series, arc, 1.05 * step.duration));  // a moved step may end later
 }
 
-/// Places, residual, error and condition of the path that ends at the support, gathered as it is followed.
+/// Collects points, residual, error and condition of a path as it is followed to the support.
 class ShapeSamples {
    public:
     static constexpr int per_step = 8;
-    static constexpr double close = 1 - 1e-7;  // of places: nearer than that, the support stands for both
+    static constexpr double close = 1 - 1e-7;  // points nearer to the support are left out
 
     ShapeSamples(const PathKind& kind, double tip_offset) : kind_(kind), tip_offset_(tip_offset) {}
 
@@ -86,8 +85,8 @@ class ShapeSamples {
         }
     }
 
-    /// The shape: the path, moved in first order by what its last crossing misses the support. At a fold that does not
-    /// depend on the offset of the free end, and the path is left as it is.
+    /// The shape: the path, moved to first order by the miss of its last crossing. At a fold the
+    /// crossing does not depend on the free end, and the path is not moved.
     CordShape finish(const Path& path, int half_waves, double length, double conical_height, bool at_fold = false) {
         const Path::Crossing& support = path.crossings().back();
         const double scaled = length / conical_height, by = at_fold ? 0 : (scaled - support.arc) / support.rate;
@@ -125,7 +124,6 @@ class ShapeSamples {
         PathChange change;
     };
     using Row = std::array<double, per_step>;
-    /// A series at all samples of a step, side by side.
     static Row at(const PathSeries::Coefficients& c, const Row& t) {
         Row sum;
         sum.fill(c[PathSeries::order]);
@@ -148,7 +146,7 @@ class ShapeSamples {
         x.arc += change.arc * by, x.offset += change.offset * by;
         x.pull += change.pull * by, x.height += change.height * by;
     }
-    /// The end: it stays on the axis as the path moves, which takes time -offset change/u.
+    /// Adds the support. It stays on the axis as the path moves, after time -offset change/u.
     void add_support() {
         PathState x = last_.state(last_duration_);
         PathChange change = last_.change(last_duration_);
@@ -157,7 +155,7 @@ class ShapeSamples {
         x.offset = 0;
         samples_.push_back({x, change});
     }
-    /// A piece of the density may end at the support but for rounding: the step beyond is none.
+    /// Drops a step beyond the support, where a piece of the density ends there but for rounding.
     void drop_repeated() {
         const double last = samples_.back().place.arc * close;
         auto from = samples_.end() - 1;
@@ -171,8 +169,7 @@ class ShapeSamples {
         const double sum = kind_.tip * std::hypot(1.0, tip_offset_) + end.height + 0.5 * tip_offset_ * tip_offset_;
         return std::abs(tension - sum) / std::max(tension, sum);
     }
-    /// Error and condition from what a change of the free end's offset, and of the place, do to inclinations and
-    /// offsets.
+    /// Error and condition, from derivatives of inclinations and offsets.
     void judge(CordShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
         for (const auto& [x, change] : samples_) {
@@ -181,20 +178,19 @@ class ShapeSamples {
                 turned = std::max(turned, 1 / (1 + x.offset * x.offset)), moved = std::max(moved, 1.0);
                 continue;
             }
-            // at a fixed place: what the change of arc does is taken out
+            // at fixed arc
             const double density = kind_.density_at(x.arc);
             turned = std::max(turned, std::abs(change.pull + density * x.offset * change.arc) * below / squared);
             moved = std::max(moved, std::abs(change.offset - x.pull / std::sqrt(squared) * change.arc));
             steepest = std::max(steepest, density * std::abs(x.offset * below + x.pull) / squared);
         }
         shape.condition = turned * length / rate;
-        // Places, and the length, to a rounding or two of the length, and what a density loses as polynomials:
+        // Points and length are rounded once or twice, and a density loses accuracy as polynomials:
         // calibrated in tests/cpp/finite/cord/continuous_chain.cpp, where errors reach 0.6 of this.
         double data = epsilon<double>();
         if (kind_.density != nullptr)
             data = std::max(4 * data, 2 * kind_.density->error(std::min(1.0, length) * kind_.unit));
-        shape.error_bound =
-            data * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
+        shape.error_bound = data * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
     }
 
     PathKind kind_;

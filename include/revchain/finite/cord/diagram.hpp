@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Branches of a cord and scanned lists of its shapes brought together.
+/// Combines branches of a cord with scanned lists of its shapes.
 template <class Options>
 class CordDiagram {
    public:
@@ -19,9 +19,9 @@ class CordDiagram {
         const double lowest = result_.conical_height;
         bool ended = true;
         for (Index j = 0; j < critical_.size(); ++j) {
-            result_.branches.push_back(
-                branch_of_mode(cord_, critical_[j], lowest,
-                               {.mode = j + 1, .max_points = options_.max_points, .max_step = options_.max_step}));
+            const BranchOptions of_mode{
+                .mode = j + 1, .max_points = options_.max_points, .max_step = options_.max_step};
+            result_.branches.push_back(branch_of_mode(cord_, critical_[j], lowest, of_mode));
             ended = ended && result_.branches.back().end == BranchEnd::height;
         }
         result_.consistent = ended;
@@ -33,10 +33,11 @@ class CordDiagram {
         }
         std::reverse(result_.looked_at.begin(), result_.looked_at.end());
         const auto isolated = result_.branches.begin() + critical_.size();
-        std::stable_sort(isolated, result_.branches.end(), [](const CordBranch& x, const CordBranch& y) {
-            const auto born = [](const auto& all) { return *std::max_element(all.begin(), all.end()); };
-            return born(x.conical_height) > born(y.conical_height);
-        });
+        const auto born = [](const CordBranch& branch) {
+            return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
+        };
+        const auto before = [&](const CordBranch& x, const CordBranch& y) { return born(x) > born(y); };
+        std::stable_sort(isolated, result_.branches.end(), before);
         result_.remark = critical_.size() == 0 ? "no shape leaves the vertical at this height or above"
                          : result_.complete    ? "a theorem counts the shapes: there are no others"
                          : !ended              ? "a branch could not be followed to the end"
@@ -48,7 +49,7 @@ class CordDiagram {
     }
 
    private:
-    static constexpr double alike = 1e-6;  // of the free end's offset: two shapes are one
+    static constexpr double alike = 1e-6;  // relative difference of tip offsets of one shape
 
     void compare(double height) {
         result_.looked_at.push_back(height);
@@ -63,7 +64,7 @@ class CordDiagram {
             if (met[i] != 1) result_.consistent = false;
         }
     }
-    /// Shapes of a branch that the list lacks are found by the branch: the scan has missed them.
+    /// Shapes of a branch that the scan missed do not count.
     void count_met(const CordShapes& list, const CordBranch& branch, double height, std::vector<int>& met) const {
         for (const CordShape& shape : branch.shapes_at(height))
             for (std::size_t i = 0; i < met.size(); ++i)
@@ -72,8 +73,7 @@ class CordDiagram {
                     ++met[i];
     }
 
-    /// The isolated branch through a shape: to where it comes down to the height, and from there to the other end; or
-    /// round.
+    /// The isolated branch through a shape: closed, or from the lowest height to its other end.
     CordBranch through(const CordShape& shape) const {
         CordBranch result;
         auto line = std::make_shared<const BranchLine>(cord_, shape.half_waves);

@@ -9,16 +9,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A path from the free end upwards, whose offset there is given: where it crosses the axis, and how that changes with
-/// the offset. Two crossings have one turn (u = 0) between them, and (eta, u) passes through the four quadrants in one
-/// order only, so the crossings within a step are told by the quadrants at its ends as long as it cannot pass four: by
-/// a Prüfer angle, if step times sqrt(largest T) < 3 pi/2. A step is cut until that holds and there is at most one
-/// crossing.
+/// A path up from the free end at a given offset, with its crossings of the axis and their
+/// derivatives by that offset. Between two crossings there is one turn (u = 0), and (eta, u) passes
+/// the four quadrants in one order. The quadrants at the ends of a step thus tell its crossings if
+/// it passes fewer than four: if step times sqrt(largest T) < 3 pi/2 (Prüfer angle). Steps are cut
+/// until this holds.
 class Path {
    public:
     struct Step {
         PathState start;
-        double duration;  ///< of the series' own time; of the first step of a chain without tip weight: of sigma
+        double duration;  ///< in the time of the series; of a first `TipSeries` in sigma
     };
     struct Crossing {
         double arc, rate;  ///< rate: change of arc with the tip's offset
@@ -30,11 +30,11 @@ class Path {
         int crossings = std::numeric_limits<int>::max();
         double farthest = std::numeric_limits<double>::infinity();
         double tolerance = PathSeries::rounding;  ///< of a step
-        bool with_change = true;                  ///< whether crossings have rates, and visited series their change
+        bool with_change = true;                  ///< compute derivatives by the free end's offset
     };
 
-    /// As far as crossing number `crossings`, or the first step that ends beyond `farthest`, whichever is first;
-    /// `visit(series, duration)` sees every step.
+    /// Follows the path to crossing number `crossings` or the first step that ends beyond
+    /// `farthest`. `visit(series, duration)` receives every step.
     template <class Visit>
     Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit) : kind_(kind) {
         PathState state{0, tip_offset, -kind.tip * tip_offset, 0};
@@ -46,13 +46,13 @@ class Path {
             state = series.state(series.reach), change = series.change(series.reach);
         } else if (kind.density != nullptr) {
             state = near_tip(kind, tip_offset, first_arc(kind));
-            // without a tip the change is in proportion, but for what 2^-40 of the length does to it
+            // without a tip the change is proportional, but for the first 2^-40 of the length
             change = kind.tip > 0 ? change_near_tip(kind, tip_offset, state.arc)
                                   : PathChange{0, 1, state.pull / tip_offset, 0};
         }
         PathSeries series;
         while (!ended(options, state)) {
-            revchain::detail::look();
+            detail::look();
             series.start(kind, state, options.with_change ? &change : nullptr);
             double duration = within_piece(series, series.reach(options.tolerance));
             PathSeries::Reached next = series.reached(duration);
@@ -85,15 +85,15 @@ class Path {
     const std::vector<Step>& steps() const { return steps_; }
     /// Arc length at which the last step ended.
     double end() const { return end_; }
-    /// Tension carried by its own series against that of u and V, over the largest.
+    /// Difference of the tension's own series from sqrt(u^2 + V^2), over the largest tension.
     double discrepancy() const { return discrepancy_ / largest_tension_; }
 
-    /// Where the path of a chain with a density begins: below, `near_tip`.
+    /// The arc at which a path with a density begins; below it `near_tip` applies.
     static double first_arc(const PathKind& kind) {
         const double little = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
         return std::max(little, kind.density->end_of_power() / kind.unit);
     }
-    /// A place of a chain whose density goes like s^p near its free end: the error is of second order in s.
+    /// The state near the free end for a density like s^p; the error is of second order in s.
     static PathState near_tip(const PathKind& kind, double tip_offset, double s) {
         const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset);
         if (s == 0) return {0, tip_offset, -kind.tip * tip_offset, 0};
@@ -102,7 +102,7 @@ class Path {
                 -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant), s / secant};
     }
 
-    /// The change of that place with the offset of the free end.
+    /// The derivative of that state by the offset of the free end.
     static PathChange change_near_tip(const PathKind& kind, double tip_offset, double s) {
         const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset), turn = s / (secant * secant * secant);
         const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
@@ -110,8 +110,7 @@ class Path {
     }
 
    private:
-    /// The change at a fixed place instead of a fixed time: with it a path goes through a jump of the density
-    /// unchanged.
+    /// The derivative at fixed arc instead of fixed time; a jump of the density does not change it.
     static PathChange at_place(const PathKind& kind, const PathState& x, const PathChange& change,
                                const PathSeries& series, double duration) {
         const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);
@@ -129,7 +128,7 @@ class Path {
         return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
                steps_.size() >= max_steps;
     }
-    /// eta > 0 > u: 0, then in the order in which they are passed.
+    /// 0 for eta > 0 > u, then in the order in which quadrants are passed.
     static int quadrant(const PathState& x) {
         if (x.offset > 0) return x.pull <= 0 ? 0 : 3;
         if (x.offset < 0) return x.pull >= 0 ? 2 : 1;

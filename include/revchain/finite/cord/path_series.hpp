@@ -11,26 +11,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A place of a whirling chain, lengths over the conical height lambda: sigma the distance from the free end, eta the
-/// offset from the axis, xi the height above the free end; and u, the pull across the axis over that of a length lambda
-/// of chain,
+/// A state of a path, lengths over the conical height lambda: sigma the distance from the free end,
+/// eta the offset from the axis, xi the height above the free end, u the pull across the axis over
+/// the weight of a length lambda,
 ///     u' = -rho eta,   V' = rho,   eta' = u/T,   xi' = V/T,   T = sqrt(u^2 + V^2)   (' by sigma),
-/// V what hangs below, rho the line density. As paths run upwards, -u/V is the tangent of the inclination.
+/// V the weight below and rho the line density. Going up, -u/V is the tangent of the inclination.
 struct PathState {
     double arc = 0, offset = 1, pull = 0, height = 0;
 };
 
-/// How a path changes with the offset of its free end.
+/// The derivative of a path by the offset of its free end.
 using PathChange = PathState;
 
-/// What a path is one of.
 struct PathKind {
     double tip = 0;                        ///< weight at the free end
     double unit = 1;                       ///< conical height in the unit of length of `density`
-    double per_length = 1;                 ///< its values are over this
-    const LineDensity* density = nullptr;  ///< uniform, rho = 1, where there is none
+    double per_length = 1;                 ///< unit of the values of `density`
+    const LineDensity* density = nullptr;  ///< null: uniform, rho = 1
     double bend = 1;                       ///< 0: small amplitude, T = V
-    double line_weight = 1;                ///< mean weight per length of the cord: tensions are in its unit
+    double line_weight = 1;                ///< mean weight per length, the unit of tensions
 
     double weight_below(double arc) const {
         return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
@@ -43,55 +42,51 @@ struct PathKind {
     bool is_bare() const { return density == nullptr && tip == 0; }
 };
 
-/// The power series of a path about one of its places, in a time t that makes the equations polynomials:
-///     dsigma = T dt:   eta' = u,   u' = -rho T eta,   V' = rho T,   xi' = V,   T' = rho (V - u eta)    (' by t).
-/// For the uniform chain the last has the integral T = C + xi - eta^2/2, coefficient by coefficient. Where the chain
-/// turns sharply (high speed), T goes like a hyperbolic cosine of t: a step of this time spans most of such a corner,
-/// however sharp, where a step of sigma would have to stay within its radius.
+/// The power series of a path about one of its points, in a time t that makes the equations
+/// polynomials:
+///     dsigma = T dt:  eta' = u,  u' = -rho T eta,  V' = rho T,  xi' = V,  T' = rho (V - u eta).
+/// For the uniform chain the last has the integral T = C + xi - eta^2/2. At a sharp turn T goes
+/// like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
-    static constexpr double rounding = 1e-17;  ///< a tolerance below it
+    static constexpr double rounding = 1e-17;  ///< a tolerance below rounding
     using Coefficients = std::array<double, order + 1>;
 
     PathSeries() = default;
     PathSeries(const PathKind& kind, const PathState& state) { start(kind, state); }
 
-    /// With `change`, the series of the change too.
+    /// With `change`, also the series of the derivatives.
     void start(const PathKind& kind, const PathState& state, const PathChange* change = nullptr) {
-        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
-        below[0] = kind.weight_below(state.arc);
+        set(state, kind.weight_below(state.arc), change);
         tension[0] = kind.tension(state.pull, below[0]);
-        has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
+        is_dense_ = kind.density != nullptr, pace = 1;
         latest_ = std::numeric_limits<double>::infinity();
-        if (has_change_) set_change(*change);
         if (is_dense_)
             dense(kind);
         else
             uniform<true>({kind.bend});
     }
-    /// The uniform chain with other constants in the equations, its weight below and the change of that given.
+    /// The uniform chain with other constants, a given weight below and its change.
     struct Constants {
         double bend = 1, weight = 1;  ///< V' = weight T,  T' = weight V - bend u eta
-        double weight_change = 0;     ///< how `weight` itself changes
+        double weight_change = 0;     ///< derivative of `weight`
     };
     void start(const Constants& constants, const PathState& state, double weight_below, const PathChange* change,
                double change_below) {
-        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
-        below[0] = weight_below, below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
-        has_change_ = change != nullptr;
-        if (has_change_) set_change(*change);
+        set(state, weight_below, change);
+        below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
         uniform<false>(constants);
     }
 
-    /// The longest time for which the first terms left out stay below `tolerance`.
+    /// The longest time for which the first omitted terms stay below `tolerance`.
     double reach(double tolerance) const {
         const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
         return std::min(latest_, reach(tolerance, [&](std::size_t k) {
                             return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
                         }));
     }
-    /// The reach where `largest(k)` is the size of the coefficients k.
+    /// The reach if `largest(k)` is the size of the coefficients k.
     template <class Largest>
     static double reach(double tolerance, const Largest& largest) {
         const auto of = [&](std::size_t k) { return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k)); };
@@ -103,13 +98,13 @@ class PathSeries {
         for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
         return sum;
     }
-    /// The place at a time; its tension by its own series, and a number the Prüfer angle from then to
-    /// now does not exceed: dtheta/dt <= pace sqrt(largest rho T).
+    /// The state at a time, the tension by its own series, and a bound of the Prüfer angle:
+    /// dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
         double tension, max_phase;
     };
-    Reached reached(double t) const {  // side by side, as each sum waits for itself
+    Reached reached(double t) const {  // all sums at once, since each waits for itself
         const Coefficients& pulled = is_dense_ ? mass : tension;
         Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(pulled[order])};
         for (std::size_t k = order; k-- > 0;) {
@@ -124,7 +119,6 @@ class PathSeries {
         return x;
     }
     PathState state(double t) const { return reached(t).state; }
-    /// The density, for a chain that has one; at the end of this series it is still that of its piece.
     double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
         PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
@@ -139,15 +133,19 @@ class PathSeries {
 
     Coefficients arc{}, offset, pull, height, tension, below;
     double pace = 1;  ///< dsigma = pace T dt
-    Coefficients arc_change, offset_change, pull_change, height_change, tension_change, below_change;
+    Coefficients arc_change, offset_change, pull_change, height_change;
+    Coefficients tension_change, below_change;
 
    private:
-    void set_change(const PathChange& change) {
-        offset_change[0] = change.offset, pull_change[0] = change.pull;
-        arc_change[0] = change.arc, height_change[0] = change.height;
+    void set(const PathState& state, double weight_below, const PathChange* change) {
+        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull, height[0] = state.height;
+        below[0] = weight_below, has_change_ = change != nullptr;
+        if (!has_change_) return;
+        arc_change[0] = change->arc, offset_change[0] = change->offset;
+        pull_change[0] = change->pull, height_change[0] = change->height;
     }
-    /// The weight is known to be 1 when a path is compiled: two products in a row less for each coefficient, 5 % of the
-    /// time of a path (bench/continuous.cpp).
+    /// Unit weight is known at compile time: fewer products in a row save 5 %
+    /// (bench/continuous.cpp).
     template <bool unit_weight>
     void uniform(const Constants& constants) {
         if (has_change_)
@@ -174,8 +172,8 @@ class PathSeries {
         return 2 * sum + (n % 2 == 0 ? a[last / 2] * a[last / 2] : 0.0);
     }
 
-    /// Every new coefficient is at once multiplied into the sums it belongs to, for later: loops without sums across,
-    /// which compilers turn into SIMD code. What is not yet known is 0, so that no pair counts twice.
+    /// Each new coefficient is added at once to the later sums it belongs to: loops without sums
+    /// across, which compilers vectorise. Unknown coefficients are 0, so no pair counts twice.
     template <bool unit_weight, bool change>
     void uniform(const Constants& constants) {
         const double bend = constants.bend, weight = unit_weight ? 1.0 : constants.weight;
@@ -238,29 +236,26 @@ class PathSeries {
         }
     }
 
-    /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of all lines at a
-    /// time. The time runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the
-    /// chain is here, and however heavy its tip.
+    /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of
+    /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
-        std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
+        const double at = arc[0] * kind.unit;
+        std::array<double, degree + 1> c = kind.density->about(at);
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
-        std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
+        std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + sigma line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
-        int last = degree;  // powers that no longer count within the piece are left out
-        const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
-        if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a tip that outweighs what is near
-        while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
+        std::size_t last = degree;  // higher powers are negligible within the piece
+        const double span = std::min(kind.density->end_of_piece(at) / kind.unit - arc[0], 1e300);
+        if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a heavy tip
+        while (last > 0 && std::abs(c[last]) * std::pow(span, last) < 1e-17 * c[0]) --last;
         const auto extend = [&](int n) {
             const auto k = static_cast<std::size_t>(n);
-            line[static_cast<std::size_t>(last)][k] = n == 0 ? c[static_cast<std::size_t>(last)] : 0.0;
-            for (int i = last; i-- > 0;) {
-                const auto& above = line[static_cast<std::size_t>(i) + 1];
-                line[static_cast<std::size_t>(i)][k] =
-                    n == 0 ? c[static_cast<std::size_t>(i)] : product(arc.data() + 1, above.data(), n - 1);
-            }
+            line[last][k] = n == 0 ? c[last] : 0.0;
+            for (std::size_t i = last; i-- > 0;)
+                line[i][k] = n == 0 ? c[i] : product(arc.data() + 1, line[i + 1].data(), n - 1);
             density[k] = line[0][k];
         };
         extend(0);
@@ -295,19 +290,16 @@ class PathSeries {
         }
         mass[order] = product(density, tension, order);
     }
-    double state_arc(const PathKind& kind) const { return arc[0] * kind.unit; }
-
     Coefficients density{}, mass{};  // rho, rho T: with a density
     bool has_change_ = false, is_dense_ = false;
-    double latest_ = std::numeric_limits<double>::infinity();  ///< time, beyond a piece that is short
+    double latest_ = std::numeric_limits<double>::infinity();  ///< latest time within a short piece
 };
 
-/// The time at which, within a step of a series, a function that grows through 0 once between 0 and
-/// `latest` does so, to 2^-51 of itself: the rounding of a series of 25 terms does not give the last
-/// digit. `value_and_slope(t)` returns a pair.
+/// The zero, between 0 and `latest`, of an increasing function within a step of a series, to 2^-51:
+/// the rounding of 25 terms spoils the last digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
-    return revchain::detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
+    return detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
 }
 
 /// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
@@ -317,7 +309,8 @@ inline double time_at(const PathSeries& series, double arc, double latest) {
     });
 }
 
-/// The series of a uniform chain without a tip weight about its free end, in sigma, where T = 0: with u = sigma q,
+/// The series of a uniform chain without a tip weight about its free end, where T = 0, in sigma:
+/// with u = sigma q,
 ///     (sigma q)' = -eta,   eta' = q/sqrt(1 + q^2),   xi' = 1/sqrt(1 + q^2),   q(0) = -eta(0).
 class TipSeries {
    public:
@@ -326,7 +319,7 @@ class TipSeries {
 
     TipSeries(double tip_offset, double bend, double tolerance = PathSeries::rounding) {
         offset[0] = tip_offset, offset_change[0] = 1, height[0] = 0;
-        Coefficients size{}, cosine{}, cube{}, turn{};  // 1 + q^2, its powers -1/2 and -3/2; change of the sine
+        Coefficients size{}, cosine{}, cube{}, turn{};  // 1 + q^2, its powers -1/2, -3/2
         height_change[0] = 0;
         for (std::size_t n = 0; n <= order; ++n) {
             const double inverse = 1.0 / static_cast<double>(n + 1);
@@ -347,7 +340,7 @@ class TipSeries {
             height_change[n + 1] = sink * inverse;
             height[n + 1] = cosine[n] * inverse;
         }
-        // No zero of eta before max(1.4458, eta_0), j_{0,1}^2/4 the least: a chain bends less than its small theory.
+        // no zero of eta before max(1.4458, eta_0): it bends less than at small amplitude
         const double within = PathSeries::reach(
             tolerance, [&](std::size_t k) { return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k])); });
         reach = std::min(0.9 * std::max(1.4458, tip_offset), within);
@@ -365,7 +358,7 @@ class TipSeries {
     double reach;
 
    private:
-    /// Coefficient n of a power of a series, from those before: J. C. P. Miller's recurrence.
+    /// Coefficient n of a power of a series by J. C. P. Miller's recurrence.
     static double power(const Coefficients& of, const Coefficients& result, std::size_t n, double exponent) {
         if (n == 0) return std::pow(of[0], exponent);
         double sum = 0;

@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Shapes of one branch of a cord at which a number is as given, in the order of the arc.
+/// Shapes of a branch of a cord with a given number, in the order of the arc.
 struct CordShapesOnBranch {
     std::vector<CordShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 points
@@ -14,14 +14,14 @@ struct CordShapesOnBranch {
 
 namespace finite {
 
-/// The number wanted on a branch, less that of a point: 0 where it is met.
+/// The difference of a number at a point of a branch from the wanted one.
 class WantedOnLine {
    public:
     enum class Kind { height, tip_inclination, tip_radius, top_tension };
 
     /// Throws InvalidArgument unless exactly one number is given, within its range.
     WantedOnLine(const BranchLine& line, double critical, const OnBranchOptions& given) : line_(line) {
-        using revchain::detail::require_positive, revchain::detail::throw_invalid;
+        using detail::require_positive, detail::throw_invalid;
         constexpr std::string_view place = "steady_shape";
         const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                           given.tip_inclination.has_value() + given.tip_radius.has_value() +
@@ -36,8 +36,7 @@ class WantedOnLine {
             height_ = given.conical_height ? *given.conical_height
                                            : conical_pendulum::height(*given.angular_speed, given.gravity);
             require_positive(place, given.conical_height ? "conical height" : "gravity / angular speed^2", height_);
-            if (!(height_ < critical))
-                revchain::detail::throw_too_slow(place, line.crossing(), critical, height_, given);
+            if (!(height_ < critical)) detail::throw_too_slow(place, line.crossing(), critical, height_, given);
             kind_ = Kind::height, wanted_ = std::log(height_);
         } else if (given.tip_inclination) {
             if (!(*given.tip_inclination > 0 && *given.tip_inclination < std::numbers::pi / 2))
@@ -77,21 +76,21 @@ class WantedOnLine {
     double wanted_ = 0, height_ = 0;
 };
 
-/// All shapes on the branch of a mode at which a number is as given; `critical` is the height of the mode.
-inline CordShapesOnBranch search_branch(const Cord& cord, double critical,
-                                        const OnBranchOptions& given, std::size_t max_shapes) {
+/// All shapes with a given number on the branch of a mode of height `critical`.
+inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
+                                        std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));
     const WantedOnLine wanted(*line, critical, given);
     double lowest = wanted.kind() == WantedOnLine::Kind::height ? wanted.height() / 2 : 1e-6 * critical;
     if (given.min_conical_height) {
         lowest = *given.min_conical_height;
-        revchain::detail::require_positive(place, "min_conical_height", lowest);
+        detail::require_positive(place, "min_conical_height", lowest);
         if (!(lowest < critical))
-            revchain::detail::throw_invalid(place,
-                                            "min_conical_height must be less than the conical height of the mode, " +
-                                                revchain::detail::in_digits(critical),
-                                            lowest);
+            detail::throw_invalid(
+                place,
+                "min_conical_height must be less than the conical height of the mode, " + detail::in_digits(critical),
+                lowest);
     }
     const double log_end = std::log(std::max(lowest, 1.0001e-6 * cord.length()));
     CordShapesOnBranch result;

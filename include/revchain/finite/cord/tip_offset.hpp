@@ -5,25 +5,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What is known of how the place s of one crossing depends on the offset eta_0 of the free end: s(0), and elsewhere
-/// s - s(0) = c eta_0^2/(1 + b eta_0), which is quadratic and then linear, as the chain is.
+/// A model of the arc s of one crossing by the free end's offset eta_0: s - s(0) = c eta_0^2/(1 + b
+/// eta_0).
 struct CrossingLaw {
     double quadratic, bend;
 
-    /// The uniform chain's: c from its shapes of small amplitude, c/b = 2 j - 1 half waves of length eta_0 when it is
-    /// stretched out. The rise within 20 percent.
+    /// For the uniform chain: c from small amplitudes; c/b = 2 j - 1, since a stretched chain has
+    /// half waves of length eta_0. The rise is right within 20 percent.
     static CrossingLaw uniform(int crossing) {
         const double c = 0.502 * crossing - 0.15;
         return {c, c / (2 * crossing - 1)};
     }
     /// Through a value and a slope, where they fit.
     static CrossingLaw through(double tip_offset, double rise, double rate, const CrossingLaw& otherwise) {
-        const double power = rate * tip_offset / rise;  // of eta_0 in the rise there: from 2 down to 1
+        const double power = rate * tip_offset / rise;  // local exponent of eta_0, between 2 and 1
         if (!(power > 1.0001 && power < 2)) return otherwise;
         const double b = (2 - power) / (power - 1);
         return {rise * (1 + b) / (tip_offset * tip_offset), b / tip_offset};
     }
-    /// The law of the crossing before `crossing`, as far from that of the uniform chain as this one.
+    /// The law of the crossing before, corrected relative to the uniform chain as this one is.
     CrossingLaw of_one_before(int crossing) const {
         if (crossing < 2) return *this;
         const CrossingLaw here = uniform(crossing), before = uniform(crossing - 1);
@@ -35,16 +35,15 @@ struct CrossingLaw {
     }
 };
 
-/// Offsets of the free end between which a crossing comes to the support, from below (`rises`) or above.
+/// A range of eta_0 in which a crossing passes the support, from below (`rises`) or above.
 struct TipRange {
     double low, high;
     bool rises;
 };
 
-/// The free end's offset for which crossing number `crossing` lies at `length`, and the law fitted to the last path
-/// tried: Newton's method within the range, or that law. What is found is within `near` of the offset, relatively;
-/// paths whose step is greater than that are followed no better than they need. 0 where the path could not be followed
-/// that far.
+/// eta_0 for which a crossing is at `length`, within `near` relatively, and the law fitted to the
+/// last path: by Newton's method or that law. Paths far from the solution are followed with lower
+/// accuracy. 0 if a path could not be followed that far.
 struct TipOffset {
     static constexpr double near = 1e-8;
     double value = 0;
@@ -60,8 +59,8 @@ inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_
     const double rise = length - place_at_rest;
     double tip = inside(std::min(law.tip_offset(rise), 0.999 * range.high)), last = 0.05;
     for (int round = 0; round < 200; ++round) {
-        // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the rise,
-        // which near a critical height is a small part of the place.
+        // the fitted law leaves 1e-2 of the step's square, relative to the rise, which near a
+        // critical height is a small part of the arc; more accuracy is not needed
         const double square = last * last;
         const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
         const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
@@ -72,12 +71,11 @@ inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_
         law = CrossingLaw::through(tip, found.arc - place_at_rest, found.rate, law);
         const double newton = tip - off / found.rate, fitted = law.tip_offset(rise);
         double next = inside(std::abs(fitted - newton) < std::abs(newton - tip) ? fitted : newton);
-        // Steps that do not shrink by half are no better than halving, and may creep.
+        // steps that do not halve are no better than bisection
         if (round > 1 && std::abs(next / tip - 1) > 0.5 * last) next = middle();
         last = std::abs(next / tip - 1);
         tip = next;
-        // Either step leaves less than its square, mostly a tenth of it, where the law holds that near; and what the
-        // tolerance left.
+        // the next step would be below the square of this one plus the tolerance
         if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise && tolerance * length < TipOffset::near * rise)
             break;
     }

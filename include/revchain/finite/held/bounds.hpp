@@ -8,7 +8,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A chain held at both ends, its ends and what it has to meet, in intervals; and bounds of all its shapes.
+/// A chain held at both ends, its ends and its goal in intervals, with bounds of all its shapes.
 class HeldBounds {
    public:
     using Span = Interval<double>;
@@ -37,9 +37,9 @@ class HeldBounds {
     }
 
     bool mirrored() const { return mirrored_; }
-    /// Bounds of the pull along the lowest link. No other pull differs from it by more than weights and centrifugal
-    /// forces. With so great a pull that every link leads in nearly one direction the chain spans too much, or a spring
-    /// gives way farther than an end can move.
+    /// Bounds of the pull along the lowest link. All pulls differ by at most the weights and
+    /// centrifugal forces: under a larger pull every link has nearly one direction, and the chain
+    /// spans too much or a spring yields farther than an end can move.
     Span pulls() const {
         const Span &length = rest_[0], &goal = goal_.value;
         const Span chord = goal_.is_span ? sqrt(square(length) - square(goal)) : length;
@@ -49,7 +49,7 @@ class HeldBounds {
             const Span apart = square(goal) + square(upper_.radius - lower_.radius);
             most = change * length / sqrt(square(length) - apart);
         } else if (goal_.is_span) {
-            // every link is within an angle of the lowest, some are nearer the axis than span/length has it, some not
+            // links lie within an angle of the lowest, some steeper than span/length, some flatter
             const auto drawn = [&](const Held<Span>& end) {
                 return end.stiffness * (farthest + Span(end.radius.size())) + end.carriage * farthest;
             };
@@ -61,7 +61,7 @@ class HeldBounds {
     }
     const Span& length() const { return rest_[0]; }
 
-    /// Forces at the lower end of a chain that begins with a pull along its lowest link at a tangent.
+    /// Forces at the lower end for a pull along the lowest link and its tangent.
     HeldForces<double> forces(double pull, double tangent, bool up) const {
         const auto number = [](const Span& x) { return x.middle(); };
         const double sine = 2 * tangent / (1 + tangent * tangent),
@@ -75,7 +75,7 @@ class HeldBounds {
     }
 
    protected:
-    /// Bound of the offset of every pin, `chord` that of how far two of them are apart across the axis.
+    /// Bound of the offset of every pin; `chord` bounds the distance of two pins across the axis.
     Span reach(const Span& chord) const {
         const Span foot(lower_.radius.size()), head(upper_.radius.size());
         if (lower_.firm && upper_.firm) {
@@ -99,9 +99,9 @@ class HeldBounds {
     HeldGoal goal_;
     int most_;
     bool mirrored_;
-    Span foot_{0.0}, gives_{0.0};    // of the lower end: its offset without load, and how that falls with one
-    Span slope_{0.0};                // of the line between the ends' places of rest
-    Span weight_{0.0}, swung_{0.0};  // of all links; and with no part of them negative
+    Span foot_{0.0}, gives_{0.0};    // of the lower end: offset without load, compliance
+    Span slope_{0.0};                // of the line between the rest positions of the ends
+    Span weight_{0.0}, swung_{0.0};  // sum of moments and rests of all links, and of their sizes
     double turning_ = 0;             // largest length times cross
     std::vector<Span> rest_;         // length from a pin to the upper end
 };

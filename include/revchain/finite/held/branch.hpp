@@ -5,29 +5,29 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Why a branch ends: at the greatest speed again; where a link is slack or turns over; where a chain between ends off
-/// the axis hangs as at rest; where a cord hangs folded along the axis; or after 3000 steps.
+/// Why a branch ends: back at the greatest speed; a link is slack or turns over; a chain with ends
+/// off the axis hangs as at rest; a cord hangs folded along the axis; after 3000 steps.
 enum class HeldBranchEnd { speed, slack, rest, folded, budget };
 inline std::string_view to_string(HeldBranchEnd end) {
     constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
 
-/// Shapes of a chain or cord held at a span, point by point along the branch that begins with the nearly straight one
-/// without gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
+/// Shapes of a chain or cord held at a span, along the branch that begins with the nearly straight
+/// one without gravity: from the greatest speed to slower ones and, past a fold, back to it.
 template <class Shape>
 struct HeldBranchOf {
     int mode = 1;               ///< its number, see `branches`
-    int half_waves = 1;         ///< with which it begins
-    std::vector<Shape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
-    std::vector<Index> folds;   ///< of the shapes: where the speed is least, or greatest, on either side
+    int half_waves = 1;         ///< of the first shape
+    std::vector<Shape> shapes;  ///< to double accuracy; each `error_bound` is an estimate
+    std::vector<Index> folds;   ///< indices of shapes at which the speed is extreme
     HeldBranchEnd end = HeldBranchEnd::budget;
 };
 using HeldBranch = HeldBranchOf<HeldShape>;
 
 namespace finite {
 
-/// Where the height turns between two states of a branch.
+/// The state between two on a branch at which the height is extreme.
 template <class System>
 std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& to) {
     const auto turning = [&](const HeldState& x) {
@@ -37,10 +37,10 @@ std::optional<HeldState> fold_between(System& held, const HeldState& from, const
     const double at_low = turning(from), at_high = turning(to);
     if (!(at_low * at_high < 0)) return {};
     const auto at = [&](double share) { return held.curve().across_chord(from, to, share); };
-    return revchain::detail::state_between(at_low, at_high, at, turning);
+    return detail::state_between(at_low, at_high, at, turning);
 }
 
-/// The branch that begins with a state, for heights from its own on. `describe(state, is_fold)` returns a shape.
+/// The branch from a state up in height. `describe(state, is_fold)` returns a shape.
 template <class System, class Describe>
 auto branch_from(System& held, const HeldState& first, double max_step, const Describe& describe) {
     const double height = first.forces.height;
@@ -62,12 +62,12 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
         }
         const HeldForces<double>&last = states.back().forces, &next = state.forces;
         const double size = std::abs(last.across) + std::abs(last.along);
-        // where a link becomes slack steps shrink without end
+        // steps shrink without end where a link becomes slack
         if (std::abs(next.across - last.across) + std::abs(next.along - last.along) < 1e-6 * size &&
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        if (state.forces.height < HeldCurve<System>::at_rest * static_cast<double>(held.length())) return true;
+        if (state.forces.height < HeldCurve<System>::at_rest * as_double(held.length())) return true;
         branch.end = HeldBranchEnd::rest;
         return false;
     });
@@ -86,8 +86,8 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
     return branch;
 }
 
-/// Where a branch begins: with how many half waves on the axis, and to which side. If there are no mirror images there
-/// are two of each number, first that whose lowest link leads outwards.
+/// The start of a branch: half waves on the axis, and side. Without mirror images each number has
+/// two branches, first the one whose lowest link leads outwards.
 struct HeldStart {
     int half_waves;
     bool outwards = true;
@@ -97,45 +97,43 @@ struct HeldStart {
     }
 };
 
-/// The branch of a mode at a span, for heights from `least` on; nothing where there is none.
+/// The branch of a mode at a span, for heights from `least` up; none if it does not exist.
 inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
                                              double least, int mode, double max_step) {
-    using S = Wide<double>;
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
-    held.springs_at(S(height));
-    const auto first = held.at_height(start.half_waves, S(apart), height, start.outwards);
+    held.springs_at(Fine(height));
+    const auto first = held.at_height(start.half_waves, Fine(apart), height, start.outwards);
     held.springs_at({});
     if (!first) return {};
     HeldBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
         if (!is_fold)
-            if (auto shape = held.finished(state, S(apart), S(state.forces.height), false)) return *shape;
-        const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
-        std::vector<Direction<S>> ways_there;
-        for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
-        return described(held.links(), held.ends(forces.height), forces, S(apart), ways_there);
+            if (auto shape = held.finished(state, Fine(apart), Fine(state.forces.height), false)) return *shape;
+        const HeldForces<Fine> forces{Fine(state.forces.across), Fine(state.forces.along), Fine(state.forces.height)};
+        std::vector<Direction<Fine>> ways_there;
+        for (const Direction<double>& d : held.kept()) ways_there.push_back({Fine(d.sine), Fine(d.cosine)});
+        return described(held.links(), held.ends(forces.height), forces, Fine(apart), ways_there);
     });
     branch.mode = mode;
     branch.half_waves = branch.shapes.empty() ? start.half_waves : branch.shapes.front().half_waves;
     return branch;
 }
 
-/// The fastest shape on the branch of a mode at a span, between firm ends, whose tension at the upper end is `tension`.
+/// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
 inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
                                                       double span, double tension, int mode) {
-    using S = Wide<double>;
     HeldChain held(chain, supports);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;
     const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
-    const auto first = held.at_height(start.half_waves, S(apart), 0, start.outwards);
+    const auto first = held.at_height(start.half_waves, Fine(apart), 0, start.outwards);
     if (!first) return {};
     const auto found = held.curve().first_where(
         *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });
     if (!found) return {};
-    return held.finished(*found, S(apart), S(found->forces.height), true);
+    return held.finished(*found, Fine(apart), Fine(found->forces.height), true);
 }
 
 }  // namespace finite

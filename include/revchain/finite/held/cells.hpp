@@ -5,32 +5,33 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What all chains that begin in a cell have in common. If shapes have mirror images, offsets are over the sine of the
-/// lowest link's angle, so that a chain along the axis is none of them.
+/// Bounds common to all chains that begin in a cell. With mirror images, offsets are over the sine
+/// of the lowest link's angle: this excludes the chain along the axis.
 struct HeldReach {
-    bool none = false;           ///< no chain of the cell meets the upper end in so many half waves
+    bool none = false;           ///< no chain of the cell meets the goal with the wanted half waves
     bool known = false;          ///< the rest is
-    long looked = 1;             ///< at links
-    Interval<double> side, gap;  ///< at the cell's centre, of the upper end
-    std::array<Interval<double>, 2> side_change, gap_change;  ///< everywhere in it
+    long looked = 1;             ///< links swept
+    Interval<double> side, gap;  ///< of the upper end, at the cell's centre
+    std::array<Interval<double>, 2> side_change, gap_change;  ///< over the cell
 };
 
-/// Sweeps cells of a chain from the lower end up, as `held_sweep` does a state.
+/// Sweeps a cell of starts up the chain, as `held_sweep` does for one state.
 class HeldCells : public HeldBounds {
    public:
     using HeldBounds::HeldBounds;
 
-    /// Where a link may be slack, and so point anywhere, it is looked at in arcs, `arcs` times the chain at the most.
+    /// Divides directions of a possibly slack link into arcs, for at most `arcs` sweeps.
     HeldReach operator()(const HeldCell& cell, long arcs) const {
-        Start box(cell, *this),
-            centre(HeldCell{{Span(cell.at[0].middle()), Span(cell.at[1].middle())}, cell.up}, *this);
+        const HeldCell middle{{point(cell.at[0]), point(cell.at[1])}, cell.up};
+        Start box(cell, *this), centre(middle, *this);
         HeldReach result;
         if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0) return none(result.looked);
-        const std::array<Span, 2> off{cell.at[0] - Span(cell.at[0].middle()), cell.at[1] - Span(cell.at[1].middle())};
+        const std::array<Span, 2> off{cell.at[0] - middle.at[0], cell.at[1] - middle.at[1]};
         Slopes slopes;
         slopes.begin(box, links_[0]);
         int waves = 1, sign = 0;
-        if (lower_.yields()) sign = begin_side(box);
+        if (lower_.yields())
+            sign = (gives_ * box.pull * (mirrored_ ? Span(1.0) : box.sine) + foot_ - lower_.radius).sign();
         Direction<Span> last{-box.sine, box.cosine};
         if (misses(box, 0, waves, sign)) return none(result.looked);
         for (std::size_t m = 1; m < links_.size(); ++m) {
@@ -39,12 +40,13 @@ class HeldCells : public HeldBounds {
             const Hung at = hung(link, centre, load), everywhere = hung(link, box, load);
             result.looked += 2;
             if (!everywhere.known || !at.known) {
-                result.none = mirrored_ && sign != 0 && everywhere.past(box.offset, link) == -sign && waves == most_ &&
-                              m + 1 < links_.size();
+                const bool past = sign != 0 && everywhere.past(box.offset, link) == -sign;
+                result.none = mirrored_ && past && waves == most_ && m + 1 < links_.size();
+                if (result.none || arcs == 0) return result;
                 long work = arcs * static_cast<long>(links_.size());
-                if (!result.none && arcs > 0)
-                    result.none = !may_meet(m, box, last, waves, sign, work),
-                    result.looked += arcs * static_cast<long>(links_.size()) - work;
+                result.looked += work;
+                result.none = !may_meet(m, box, last, waves, sign, work);
+                result.looked -= work;
                 return result;
             }
             last = {box.unit * everywhere.sine, everywhere.cosine};
@@ -59,34 +61,35 @@ class HeldCells : public HeldBounds {
         result.known = true;
         result.side = side(centre), result.gap = gap(centre);
         result.side_change = slopes.of(&Start::offset), result.gap_change = slopes.of(&Start::rise);
-        for (std::size_t i = 0; i < 2 && upper_.yields(); ++i)
-            result.side_change[i] =
-                result.side_change[i] -
-                upper_.compliance * (slopes.of(&Start::across)[i] + upper_.carriage * result.side_change[i]);
-        if (!goal_.is_span) {
-            const Span across = box.unit * box.across, along = top(box), force = sqrt(square(across) + square(along));
-            const std::array<Span, 2> unit{Span(0.0), box.unit_change}, push{box.cosine, box.push_change};
-            for (std::size_t i = 0; i < 2; ++i)
-                result.gap_change[i] =
-                    (across * (box.unit * slopes.of(&Start::across)[i] + box.across * unit[i]) + along * push[i]) /
-                    force;
+        const std::array<Span, 2>& pulled = slopes.of(&Start::across);
+        for (std::size_t i = 0; i < 2 && upper_.yields(); ++i) {
+            Span& side = result.side_change[i];
+            side = side - upper_.compliance * (pulled[i] + upper_.carriage * side);
+        }
+        if (goal_.is_span) return result;
+        const Span across = box.unit * box.across, along = top(box), force = sqrt(square(across) + square(along));
+        const std::array<Span, 2> unit{Span(0.0), box.unit_change}, push{box.cosine, box.push_change};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Span change = box.unit * pulled[i] + box.across * unit[i];
+            result.gap_change[i] = (across * change + along * push[i]) / force;
         }
         return result;
     }
 
    private:
+    static Span point(const Span& x) { return Span(x.middle()); }
     static HeldReach none(long looked) {
         HeldReach result;
         result.none = true, result.looked = looked;
         return result;
     }
 
-    /// A link by what hangs on it: its sine over that of the lowest, the pull along it, how steeply its moment grows.
+    /// A link under its load: sine over that of the lowest link, pull, growth of its moment.
     struct Hung {
         Span across, along, sine, cosine, pull, growth, most;
         bool known = false;
 
-        /// Of the offset above a link whose pull may vanish, the sign, if it has one for certain.
+        /// The certain sign of the offset above a link whose pull may vanish, else 0.
         int past(const Span& offset, const Link<Span>& link) const {
             const int sign = across.sign();
             const Span turning = turning_of(link);
@@ -96,8 +99,8 @@ class HeldCells : public HeldBounds {
         }
     };
 
-    /// A chain as far as it has been swept, and what it began with. The sine is positive where the lowest link leads
-    /// outwards. Offset and force across are over a unit: that sine if shapes have mirror images, else 1.
+    /// A partly swept chain and its start. The sine is positive if the lowest link leads outwards.
+    /// Offset and force across are over `unit`: that sine if shapes have mirror images, else 1.
     struct Start {
         using Part = Span Start::*;
         Span pull, sine, cosine, sine_change, cosine_change, push, push_change;
@@ -144,11 +147,10 @@ class HeldCells : public HeldBounds {
         }
     };
 
-    /// Changes of a chain with pull and tangent: those at the centre, and how far others are off in the basis of a
-    /// matrix, the product of the links' (its determinant 1), so that intervals do not grow with every half wave.
+    /// Derivatives of a chain by pull and tangent: those at the centre, and deviations in the basis
+    /// of the product of the links' matrices, so that intervals do not grow.
     class Slopes {
        public:
-        /// To be called before the chain passes the link.
         void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
             const Span& s = hung.sine;
             const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
@@ -159,14 +161,12 @@ class HeldCells : public HeldBounds {
             const std::array<Span, 4> J{Span(1.0) - turn * link.moment, -turn,
                                         link.moment + link.rest * (Span(1.0) - turn * link.moment),
                                         Span(1.0) - link.rest * turn};
-            const auto middle = [](const Span& x) { return x.middle(); };
-            const std::array<double, 4> j{middle(J[0]), middle(J[1]), middle(J[2]), middle(J[3])};
-            const std::array<double, 4> next{j[0] * basis_[0] + j[1] * basis_[2], j[0] * basis_[1] + j[1] * basis_[3],
-                                             j[2] * basis_[0] + j[3] * basis_[2], j[2] * basis_[1] + j[3] * basis_[3]};
-            const Span determinant = Span(next[0]) * Span(next[3]) - Span(next[1]) * Span(next[2]);
+            std::array<double, 4> next{};
+            for (std::size_t i = 0; i < 4; ++i)
+                next[i] = J[i / 2 * 2].middle() * basis_[i % 2] + J[i / 2 * 2 + 1].middle() * basis_[i % 2 + 2];
+            const Span p(next[0]), q(next[1]), r(next[2]), t(next[3]), determinant = p * t - q * r;
             const auto solved = [&](const Span& x, const Span& y) {
-                return std::array{(Span(next[3]) * x - Span(next[1]) * y) / determinant,
-                                  (Span(next[0]) * y - Span(next[2]) * x) / determinant};
+                return std::array{(t * x - q * y) / determinant, (p * y - r * x) / determinant};
             };
             const auto times = [&](double x, double y) {
                 return std::array{J[0] * Span(x) + J[1] * Span(y), J[2] * Span(x) + J[3] * Span(y)};
@@ -196,7 +196,6 @@ class HeldCells : public HeldBounds {
         const std::array<Span, 2>& of(Start::Part part) const {
             return part == &Start::offset ? offset_ : part == &Start::across ? across_ : rise_;
         }
-        /// Of the lowest link.
         void begin(const Start& chain, const Link<Span>& lowest) {
             rise_[1] = lowest.length * chain.cosine_change;
             offset_ = chain.offset_change, across_ = chain.across_change;
@@ -215,28 +214,23 @@ class HeldCells : public HeldBounds {
     };
 
     Span top(const Start& chain) const { return chain.push + height_ * (weight_ - links_[0].pull); }
-    /// By how much a chain that was swept exceeds the goal.
     Span gap(const Start& chain) const {
         if (goal_.is_span) return chain.rise - goal_.value;
         return sqrt(square(chain.unit * chain.across) + square(top(chain))) - goal_.value;
     }
 
-    /// How far the upper end of a chain that was swept is from where it is held, over the unit.
+    /// The distance of the upper end of a swept chain from its support, over the unit.
     Span side(const Start& chain) const {
         return mirrored_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
     }
-    /// Offset over the unit of the line between the ends' places of rest, at the height that the chain has reached.
+    /// Offset of the line between the rest positions of the ends at the chain's height.
     Span line(const Start& chain) const { return mirrored_ ? Span(0.0) : lower_.radius + slope_ * chain.rise; }
-    /// On which side the lower end is, if it is on one for certain.
-    int begin_side(const Start& chain) const {
-        return (gives_ * chain.pull * (mirrored_ ? Span(1.0) : chain.sine) + foot_ - lower_.radius).sign();
-    }
-    /// Whether a chain swept to link m cannot meet the upper end in so many half waves; counts these.
+    /// Whether a chain swept to link m cannot meet the goal; counts half waves.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
         const bool last = m + 1 == links_.size();
         const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0), z = goal_.is_span ? gap(chain) : Span(0.0);
         if ((square(y) + square(z)).low > square(rest_[m + 1]).high) return true;
-        if (!goal_.is_span && (chain.rise + rest_[m + 1]).high < 0) return true;  // the upper end is above the lower
+        if (!goal_.is_span && (chain.rise + rest_[m + 1]).high < 0) return true;  // upside down
         if (last && (!side(chain).may_vanish() || !gap(chain).may_vanish())) return true;
         if (last && upper_.firm) return false;
         const Span aside = mirrored_ ? chain.offset : chain.offset - line(chain);
@@ -251,7 +245,7 @@ class HeldCells : public HeldBounds {
         return waves > most_;
     }
 
-    /// The same from link m on, in intervals alone; a link that may point anywhere is looked at in arcs.
+    /// Whether a chain may meet the upper end from link m on, in intervals and arcs.
     bool may_meet(std::size_t m, Start chain, Direction<Span> last, int waves, int sign, long& work) const {
         for (; m < links_.size(); ++m) {
             if (--work < 0) return true;
@@ -263,16 +257,16 @@ class HeldCells : public HeldBounds {
                 if (misses(chain, m, waves, sign)) return false;
                 continue;
             }
-            for (int quarter = 0; quarter < 4; ++quarter)
+            for (std::size_t quarter = 0; quarter < 4; ++quarter)
                 if (in_arc(m, chain, last, at, waves, sign, work, quarter, 0, 1)) return true;
             return false;
         }
         return true;
     }
 
-    /// The same of link m within an arc: of a quarter of the circle, by the tangent of half the angle.
+    /// `may_meet` for directions of link m in part of a quarter circle.
     bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at, int waves, int sign,
-                long& work, int quarter, double from, double to) const {
+                long& work, std::size_t quarter, double from, double to) const {
         if (--work < 0) return true;
         const Link<Span>& link = links_[m];
         auto [sine, cosine] = arc(quarter, from, to);
@@ -281,7 +275,7 @@ class HeldCells : public HeldBounds {
         if (!((at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine).high > 0)) return false;
         if (at.across.sign() * sine.sign() < 0 && turning.low >= 0) return false;
         if (is_zero(turning) && is_zero(turning_of(links_[m - 1]))) {
-            // the pull is that along the link below and what is added at the pin between them
+            // the pull is that of the link below plus the load of the pin between them
             const Span weight = height_ * (link.pull - links_[m - 1].pull),
                        out = chain.unit * chain.offset * (links_[m - 1].rest + link.moment);
             const int aside = (sine * last.cosine - cosine * last.sine).sign(),
@@ -294,7 +288,7 @@ class HeldCells : public HeldBounds {
                    in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
         };
         if (to - from > 0.07) return in_halves();
-        // Newton's method about the middle, with slopes between it and where the link may be
+        // Newton's method in intervals about the middle
         for (int round = 0; round < 3; ++round) {
             const Span at_s(sine.middle()), at_c(cosine.middle()), size = sqrt(square(at_s) + square(at_c));
             const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s), near_c = hull(cosine, c);
@@ -314,7 +308,7 @@ class HeldCells : public HeldBounds {
             next.offset = chain.offset - link.length * across;
             next.across = at.across + link.rest * next.offset;
         } else {
-            // the pull along the link may vanish: as new unit the offset above the link
+            // the pull along the link may vanish: the offset above the link becomes the unit
             const int side = chain.offset.sign(), drawn = at.across.sign();
             if (side == 0 || drawn == 0 || turning.low < 0) return true;
             const bool away = drawn != side;
@@ -332,19 +326,11 @@ class HeldCells : public HeldBounds {
         if (misses(next, m, more, way) || !may_meet(m + 1, next, {sine, cosine}, more, way, work)) return false;
         return to - from < 1e-3 || in_halves();
     }
-    static std::array<Span, 2> arc(int quarter, double from, double to) {
+    static std::array<Span, 2> arc(std::size_t quarter, double from, double to) {
         const auto low = direction(from), high = direction(to);
         const Span s = hull(low[0], high[0]), c = hull(low[1], high[1]);
-        switch (quarter) {
-            case 0:
-                return {s, c};
-            case 1:
-                return {c, -s};
-            case 2:
-                return {-s, -c};
-            default:
-                return {-c, s};
-        }
+        const std::array<Span, 5> turned{s, c, -s, -c, s};
+        return {turned[quarter], turned[quarter + 1]};
     }
     static std::array<Span, 3> direction(double t) {
         const Span tangent(t), whole = Span(1.0) + square(tangent);
@@ -364,13 +350,13 @@ class HeldCells : public HeldBounds {
             result.cosine = common(V / result.pull, Span(-1.0, 1.0));
         } else {
             if (!(sum.low > square(turning).high * (1 + 1e-9))) return result;
-            // Newton's method in intervals about the inclination of the middle
+            // Newton's method in intervals about the inclination at the middle
             Direction<double> way{R.middle() / std::hypot(R.middle(), V.middle()),
                                   V.middle() / std::hypot(R.middle(), V.middle())};
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
-            if (!(detail::settle(near, R.middle(), V.middle(), way) > 0)) return result;
+            if (!(settle(near, R.middle(), V.middle(), way) > 0)) return result;
             Direction<Span> all;
-            const Span growth = detail::settle_near(link, R, V, way, all);
+            const Span growth = settle_near(link, R, V, way, all);
             if (!growth.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));
             result.pull = sqrt(square(V + turning * result.cosine) + square(R));

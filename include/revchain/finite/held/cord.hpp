@@ -11,38 +11,38 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A place on a cord held at both ends.
+/// A point of a cord held at both ends.
 struct HeldCordPlace {
     double arc_length;            ///< from the lower end
     double offset, height;        ///< from the axis; above the lower end
-    double inclination;           ///< to the upward vertical, rad: positive where the cord leads to the axis going up
+    double inclination;           ///< to the upward vertical, rad; positive if rising towards the axis
     double height_times_tension;  ///< lambda times the tension
 };
 
-/// One steady shape of a uniform cord whose two ends are held on the axis. Forces as in `HeldShape`: times the conical
-/// height. Places are dense where the cord turns sharply: eight to a step.
+/// A steady shape of a uniform cord whose ends are held on the axis. Forces are times the conical
+/// height, as in `HeldShape`. Eight points a step: dense where the cord turns sharply.
 struct HeldCordShape {
-    Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) lower end first
-    std::array<double, 2> lower_pull;  ///< lambda times the cord's pull on its lower bearing: outwards, and up
+    Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) upwards
+    std::array<double, 2> lower_pull;  ///< lambda times pull on the lower bearing: outwards, up
     std::array<double, 2> upper_pull;  ///< the same on the upper bearing
     int half_waves = 1;
     double span = 0, length = 0, weight = 0, conical_height = 0;
-    double residual = 0;  ///< of T - lambda z w + w y^2/2 at the upper end, over the largest tension; of the gap there
-    double error_bound = 0;        ///< of every inclination, rad, and of every offset over the length: an estimate
-    double condition = 0;          ///< largest change of an inclination for a relative change 1 of span or height
+    double residual = 0;           ///< of T - lambda z w + w y^2/2 over the largest tension, and gap, at the end
+    double error_bound = 0;        ///< estimate for every inclination (rad) and offset over length
+    double condition = 0;          ///< largest change of an inclination per relative change of span or height
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared
 
-    /// The place at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
+    /// The point at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
     HeldCordPlace operator()(double arc) const;
 
-    std::vector<finite::HeldCordState> steps;  ///< what places are computed from, lengths over the cord's
+    std::vector<finite::HeldCordState> steps;  ///< for interpolation; lengths over the cord's
 };
 
 /// Shapes of a cord held at both ends, see `HeldShapes`.
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
-    bool complete = false;  ///< proved: none of so many half waves is missing; for a span without gravity
+    bool complete = false;  ///< proved that none is missing; only for a span without gravity
 };
 
 namespace finite {
@@ -55,7 +55,6 @@ class HeldCord {
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
         return cord_end(forces, [](const CordSeries&, double) {});
     }
-    /// A path has no memory.
     struct Nothing {};
     static Nothing kept() { return {}; }
     static void keep(Nothing) {}
@@ -97,7 +96,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
             samples.emplace_back(series.place(t), series.change(t, lambda));
         }
         last = series.place(duration);
-        static const auto rule = revchain::detail::gauss_rule(24);
+        static const auto rule = detail::gauss_rule(24);
         for (const auto& [t, part] : rule) {
             const HeldCordState x = series.place(duration * t);
             inertia += part * duration * std::hypot(x.across, x.along) * x.offset * x.offset;
@@ -132,7 +131,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     shape.residual = std::max(
         {std::abs(integral - first) / largest_tension, std::abs(end.offset), std::abs(end.rise - span / length)});
 
-    // A change of the span, or of the height, asks two forces, and both the inclinations.
+    // A change of span or height changes two forces, and both change inclinations.
     const auto condition = [&](double y, double z, double direct) {
         const auto forces = end.forces_to_move(y, z);
         double most = 0;
@@ -150,26 +149,25 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     shape.condition = std::max(condition(0, span / length, 0),
                                condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, lambda));
     const double moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
-    // Rounding of the forces and of the end's place, and where it turns sharply of the arc.
+    // Rounding of forces and end, and of the arc at sharp turns.
     shape.error_bound = epsilon<double>() * (2 + 2 * shape.condition + 2 * moved + steepest);
     return shape;
 }
 
-/// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
+/// The shape of each number of half waves at a span and height (0: no gravity).
 inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
     const double length = cord.length();
     auto result = each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
         if (const auto state = HeldCord().at_height(k, span / length, height / length))
             add(std::optional(described(*state, span, length, cord.weight())));
     });
-    // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa. It rises with kappa, as K is
-    // a power series of kappa with positive terms, and so one kappa has it for any number of half waves.
+    // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa increases
+    // with kappa, since K has positive terms: one kappa for each number.
     result.complete = height == 0 && result.missing.empty();
     return result;
 }
 
-/// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
-/// `height_times_tension`.
+/// All shapes with a given tension at the upper end times height.
 inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
                                                      int max_half_waves) {
     const double length = cord.length(), weight = cord.weight();

@@ -10,7 +10,7 @@ using HeldCordBranch = HeldBranchOf<HeldCordShape>;
 
 namespace finite {
 
-/// The branch of so many half waves of a cord at a span, for heights from `least` on; nothing where there is none.
+/// The branch of a number of half waves at a span, for heights from `least` up, if it exists.
 inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
                                                  double max_step) {
     HeldCord held;
@@ -26,7 +26,7 @@ inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, 
     return branch;
 }
 
-/// The shape of so many half waves at a span and a height; nothing where the branch does not reach it.
+/// The shape of a number of half waves at a span and height; none if the branch does not reach it.
 inline std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, double height, int half_waves) {
     const double length = cord.length();
     const auto state = HeldCord().at_height(half_waves, span / length, height / length);
@@ -36,12 +36,12 @@ inline std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double spa
     return shape;
 }
 
-/// The fastest shape on the branch of so many half waves at a span whose tension at the upper end is `tension`.
+/// The fastest shape with a given tension at the upper end on the branch of a number of half waves.
 inline std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
                                                           int half_waves) {
     HeldCord held;
     const double length = cord.length(), wanted = tension / cord.weight();
-    // The tension falls by weight / length times the depth (both ends are on the axis), and both ends bear the weight.
+    // By the depth times weight/length the tension falls; both ends bear the weight.
     if (2 * wanted <= 1 + span / length) return {};
     const auto first = held.at_height(half_waves, span / length, 0);
     if (!first) return {};

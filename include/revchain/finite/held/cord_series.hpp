@@ -6,27 +6,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A place of a uniform cord held at both ends, lengths over the cord's: arc from the lower end, offset y, height z,
-/// and lambda times the force that pulls upwards, over the weight: u across the axis (the way offsets are counted), V
-/// along it.
+/// A point of a uniform cord held at both ends, lengths over the cord's: arc from the lower end,
+/// offset y, height z, and lambda times the upward force over the weight, u across, V along.
 struct HeldCordState {
     double arc = 0, offset = 0, rise = 0, across = 0, along = 0;
 };
-/// How a place at a fixed arc changes with the force at the lower end, as `HeldForces` counts it, and the height.
+/// Derivatives of a point at fixed arc by the numbers of `HeldForces`.
 using CordChange = std::array<HeldCordState, 3>;
 
-/// The power series of a cord about one of its places, in the time of `PathSeries`: with ds = T dt its equations are
+/// The power series of a cord about a point, in the time of `PathSeries`, ds = T dt:
 ///     y' = u,   z' = V,   u' = -T y,   V' = lambda T,   T = C + lambda z - y^2/2,
-/// lambda 0 without gravity. One series for each of the three changes.
+/// lambda 0 without gravity. One series for each of the three derivatives.
 class CordSeries {
    public:
     CordSeries(const HeldCordState& place, double height, const CordChange* change = nullptr) {
         const PathState state{place.arc, place.offset, place.across, place.rise};
         for (std::size_t i = 0; i < (change == nullptr ? 1 : 3); ++i) {
             const HeldCordState d = change == nullptr ? HeldCordState{} : (*change)[i];
-            const PathChange varied{d.arc, d.offset, d.across, d.rise};
-            series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, change == nullptr ? nullptr : &varied,
-                             d.along);
+            const PathChange varied{d.arc, d.offset, d.across, d.rise}, *given = change == nullptr ? nullptr : &varied;
+            series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, given, d.along);
         }
     }
 
@@ -34,7 +32,7 @@ class CordSeries {
         const PathState x = series_[0].state(t);
         return {x.arc, x.offset, x.height, x.pull, PathSeries::at(series_[0].below, t)};
     }
-    /// The change at a fixed arc, not time.
+    /// The derivatives at a fixed arc, not time.
     CordChange change(double t, double height) const {
         const HeldCordState x = place(t);
         const double pull = std::hypot(x.across, x.along);
@@ -46,7 +44,7 @@ class CordSeries {
         }
         return result;
     }
-    /// The longest time for which the last terms stay below 1e-18 of the place.
+    /// The longest time with last terms below 1e-18 of the values.
     double reach() const {
         const PathSeries& x = series_[0];
         const double size = std::abs(x.offset[0]) + std::sqrt(x.tension[0]);
@@ -55,15 +53,13 @@ class CordSeries {
                              std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
         });
     }
-    double arc_at(double t) const { return PathSeries::at(series_[0].arc, t); }
-    /// The time at which the arc is reached; it grows with the time.
     double time_at(double wanted, double duration) const { return finite::time_at(series_[0], wanted, duration); }
 
    private:
     std::array<PathSeries, 3> series_;
 };
 
-/// A cord followed from its lower end to its upper, for forces at the lower. `visit(series, duration)` sees every step.
+/// Follows a cord from its lower end to its upper. `visit(series, duration)` receives every step.
 template <class Visit>
 HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
     constexpr int max_steps = 20'000;
@@ -71,11 +67,11 @@ HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
     CordChange change{};
     change[0].across = -1, change[1].along = 1;
     for (int step = 0; step < max_steps; ++step) {
-        // Sharper turns leave no digit of the inclination: the cord is folded along the axis.
+        // a sharper turn leaves no digit: the cord is folded along the axis
         if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
         const CordSeries series(place, forces.height, &change);
         double duration = series.reach();
-        const bool last = series.arc_at(duration) >= 1;
+        const bool last = series.place(duration).arc >= 1;
         if (last) duration = series.time_at(1, duration);
         visit(series, duration);
         place = series.place(duration), change = series.change(duration, forces.height);

@@ -9,42 +9,41 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of something held at both ends, in double: forces at the lower end, and how far apart the ends are.
+/// A state of a chain or cord held at both ends: forces at the lower end, and span.
 struct HeldState {
     HeldForces<double> forces;
     double span;
 };
 
-/// What moves along a curve of states besides the two forces; the others are kept.
+/// The number that varies along a curve of states besides the two forces.
 enum class Third { span, height, part };
 
-/// A curve of states whose upper end is where it is held, by its arc: the two forces and one other number move along a
-/// curve in space, whose tangent is the product of two gradients. `Shooter` sends forces to the upper end:
-/// `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it that the state is one to
-/// start from. A fold of the curve is passed like any other point.
+/// A curve of states that meet the upper end, in two forces and a third number, by its arc, through
+/// folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the upper
+/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores it.
 template <class Shooter>
 class HeldCurve {
    public:
-    /// Sizes that weigh steps, total length and weight; and whether shapes have mirror images, both ends on the axis.
+    /// `length` and `weight` scale steps; `mirrored`: both ends are on the axis.
     HeldCurve(Shooter& shooter, double length, double weight, bool mirrored = true)
         : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
 
     static constexpr int max_steps = 3000;
-    static constexpr double at_rest = 1e4;  ///< conical heights, over the length, at which a chain hangs as at rest
+    static constexpr double at_rest = 1e4;  ///< conical height over length of a chain at rest
 
-    /// Newton's method at span and height of `state`, as far as double goes.
+    /// Newton's method at the span and height of `state`, to double accuracy.
     std::optional<HeldState> corrected(HeldState state) {
-        revchain::detail::look();
+        detail::look();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
         if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
         (*shooter_)(state.forces, true);
         return state;
     }
 
-    /// The state at a span and a height: from the nearly straight system without gravity the ends are drawn together,
-    /// then brought to where they are held, if that is not firmly on the axis, then gravity grows. `slack` is the
-    /// length less the span; `nearly_straight(slack)` returns the forces of a small slack. Nothing where the curve does
-    /// not lead there.
+    /// The state at a span and a height, by continuation: the ends of the nearly straight system
+    /// without gravity approach, then move to their supports, if these are not firm on the axis;
+    /// then gravity grows. `slack` is length less span; `nearly_straight(slack)` returns the forces
+    /// of a small slack. None if the curve does not lead there.
     template <class NearlyStraight>
     std::optional<HeldState> from_straight(double slack, double span, double height,
                                            const NearlyStraight& nearly_straight) {
@@ -61,8 +60,8 @@ class HeldCurve {
         if (state && height > 0) state = follow<Third::height>(*state, height);
         return state;
     }
-    /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the
-    /// one wanted; the tension is largest somewhere between, as a rule, so that there are two.
+    /// Visits the states of the height of `from`, both ways along the curve, with lambda times the
+    /// top tension as wanted. Usually there are two, on both sides of the largest tension.
     template <class Visit>
     void under(const HeldState& from, double wanted, Visit&& visit) {
         const auto kept = shooter_->kept();
@@ -76,7 +75,7 @@ class HeldCurve {
                     between(last, here, wanted, visit);
                 } else if (before.off * last.off > 0 && std::abs(last.off) < std::abs(before.off) &&
                            std::abs(last.off) < std::abs(here.off)) {
-                    // nearest to it in between: it may be met there, twice
+                    // the nearest state may be beyond the wanted tension: then there are two
                     if (const auto met = crossed(before, here, wanted)) {
                         between(before, *met, wanted, visit);
                         between(*met, here, wanted, visit);
@@ -89,12 +88,12 @@ class HeldCurve {
         }
     }
 
-    /// Sees the states of constant span from one on, first to greater heights, until `visit` returns false.
+    /// Visits the states of constant span, first to greater heights, until `visit` returns false.
     template <class Visit>
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
         step_along<Third::height>(from, true, visit, max_step);
     }
-    /// The state in the plane across the chord of two of them, at a share of it.
+    /// The state in the plane across the chord of two states, at a share of it.
     std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to, double share) {
         constexpr Third height = Third::height;
         const Triple scale = scales<height>(from);
@@ -105,11 +104,10 @@ class HeldCurve {
         HeldState at;
         HeldEnd<double> end;
         int rounds = 0;
-        if (!correct<height>(from, scale, unit(scaled), step, at, end, rounds)) return {};
+        if (!correct<height>(from, scale, scaled.normalized(), step, at, end, rounds)) return {};
         (*shooter_)(at.forces, true);
         return at;
     }
-    /// The first of them at which `off`, a number of a state, is 0.
     template <class Off>
     std::optional<HeldState> first_where(const HeldState& from, const Off& off) {
         HeldState before = from;
@@ -120,7 +118,7 @@ class HeldCurve {
             const double here = off(state);
             if (here * was < 0) {
                 const auto at = [&](double share) { return across_chord(before, state, share); };
-                met = revchain::detail::state_between(was, here, at, off);
+                met = detail::state_between(was, here, at, off);
                 if (met) return false;
                 shooter_->keep(there);
             }
@@ -135,7 +133,7 @@ class HeldCurve {
 
     struct Tense {
         HeldState state;
-        double off;  ///< of lambda times the tension at the upper end from the one wanted
+        double off;  ///< lambda times the top tension, less the wanted
     };
     Tense tense(const HeldState& x, double wanted) {
         const double across = (*shooter_)(x.forces, false).across, along = x.forces.along + x.forces.height * weight_;
@@ -152,23 +150,25 @@ class HeldCurve {
         if (!state) return {};
         return tense(*state, wanted);
     }
-    /// The state between two at which the top tension is as wanted.
+    /// Visits the state between two with the wanted top tension.
     template <class Visit>
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         const auto at = [&](double share) { return at_share(a, b, share, wanted); };
         const auto off = [](const Tense& x) { return x.off; };
-        const auto best = revchain::detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
+        const auto best = detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
         if (best) visit(best->state);
     }
-    /// A state between two on the other side of the tension wanted, where it is nearest to it.
+    /// A state between two beyond the wanted tension, searched where it is nearest.
     std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
         for (int round = 0; round < 60; ++round) {
             const auto first = at_share(a, b, 0.4, wanted), second = at_share(a, b, 0.6, wanted);
             if (!first || !second) return {};
             if (first->off * a.off < 0) return first;
             if (second->off * a.off < 0) return second;
-            (std::abs(first->off) < std::abs(second->off) ? b : a) =
-                std::abs(first->off) < std::abs(second->off) ? *second : *first;
+            if (std::abs(first->off) < std::abs(second->off))
+                b = *second;
+            else
+                a = *first;
         }
         return {};
     }
@@ -176,9 +176,7 @@ class HeldCurve {
     static Triple cross(const Triple& x, const Triple& y) {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
     }
-    static double dot(const Triple& x, const Triple& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
-    /// What one step of each of the three is worth.
     template <Third third>
     Triple scales(const HeldState& x) const {
         const double along = std::abs(x.forces.along), hung = weight_ * x.forces.height,
@@ -202,7 +200,7 @@ class HeldCurve {
         else
             return x.forces.part;
     }
-    /// Whether the state with the forces across turned round is one too; the force across is 0 in neither.
+    /// Whether the state with opposite forces across is one too; then this force is never 0.
     bool has_image(const HeldState& x) const { return mirrored_ || x.forces.part == 0; }
     template <Third third>
     static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
@@ -211,17 +209,13 @@ class HeldCurve {
         number<third>(x) += scale[2] * by[2];
         return x;
     }
-    /// Gradients of the end's offset and of its rise less the span, in scaled changes.
+    /// Gradients of the end's offset and of its rise less the span, by scaled numbers.
     template <Third third>
     std::array<Triple, 2> gradients(const HeldEnd<double>& end, const Triple& scale) const {
-        constexpr bool spans = third == Third::span;
-        const auto& y = end.offset_change;
-        const auto& z = end.rise_change;
-        return {Triple{y[0] * scale[0], y[1] * scale[1], spans ? 0.0 : y[2] * scale[2]},
-                Triple{z[0] * scale[0], z[1] * scale[1], spans ? -scale[2] : z[2] * scale[2]}};
+        Triple y(end.offset_change.data()), z(end.rise_change.data());
+        if constexpr (third == Third::span) y[2] = 0, z[2] = -1;
+        return {y.cwiseProduct(scale), z.cwiseProduct(scale)};
     }
-    static Triple unit(const Triple& x) { return x / std::sqrt(dot(x, x)); }
-    static Triple normalised(const Triple& x, const Triple& y) { return unit(cross(unit(x), unit(y))); }
 
     template <Third third, class Visit>
     void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
@@ -230,11 +224,11 @@ class HeldCurve {
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
         for (int count = 0; count < max_steps && step > 1e-9; ++count) {
-            revchain::detail::look();
+            detail::look();
             const auto [over_y, over_z] = gradients<third>(end, scale);
-            Triple tangent = normalised(over_y, over_z);
-            if (!(dot(tangent, tangent) > 0.5)) return;
-            if (dot(tangent, last) < 0) tangent = -tangent;
+            Triple tangent = cross(over_y.normalized(), over_z.normalized()).normalized();
+            if (!(tangent.norm() > 0.5)) return;
+            if (tangent.dot(last) < 0) tangent = -tangent;
             HeldState next;
             HeldEnd<double> there;
             int rounds = 0;
@@ -243,7 +237,6 @@ class HeldCurve {
             if (!(step > 1e-9)) return;
             (*shooter_)(next.forces, true);
             if (!visit(next)) return;
-            // the same tangent in the scales of the new place
             const Triple before = scale;
             state = next, end = there, scale = scales<third>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);
@@ -252,7 +245,7 @@ class HeldCurve {
         }
     }
 
-    /// Back to the curve in the plane across the tangent.
+    /// Newton's method back to the curve in the plane across the tangent.
     template <Third third>
     bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
                  HeldEnd<double>& end, int& rounds) {
@@ -265,13 +258,13 @@ class HeldCurve {
             end = (*shooter_)(x.forces, false);
             if (!end.known) return false;
             const auto [over_y, over_z] = gradients<third>(end, scale);
-            // three equations: both ends' gaps and the plane
-            const double y = end.offset, z = end.rise - x.span, p = dot(tangent, at) - step;
+            // three equations: the end's two gaps and the plane
+            const double y = end.offset, z = end.rise - x.span, p = tangent.dot(at) - step;
             const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
-            const double determinant = dot(over_y, a);
-            const Triple change = -(y * a + z * b + p * c) / determinant;
-            const double size = std::sqrt(dot(change, change));
-            if (!(size < 2 * step + 1e-9) || (rounds > 0 && size > 0.9 * last && size > 1e-9)) return false;
+            const Triple change = -(y * a + z * b + p * c) / over_y.dot(a);
+            const double size = change.norm();
+            if (!(size < 2 * step + 1e-9)) return false;
+            if (rounds > 0 && size > 0.9 * last && size > 1e-9) return false;
             at += change;
             if (size < 1e-8) {
                 x = moved<third>(from, scale, at);
@@ -283,7 +276,7 @@ class HeldCurve {
         return false;
     }
 
-    /// On to another value of the third number; nothing where the curve does not lead there.
+    /// Continues to another value of the third number; none if the curve does not lead there.
     template <Third third>
     std::optional<HeldState> follow(const HeldState& from, double wanted) {
         const auto off = [&](const HeldState& x) { return number<third>(x) - wanted; };
@@ -310,8 +303,8 @@ class HeldCurve {
     bool mirrored_;
 };
 
-/// Sees the states of so many half waves at a height whose tension at the upper end, times the height, is `wanted`: on
-/// the branch through the first of a few spans that has a state.
+/// Visits the states of a height with tension at the upper end times height as `wanted`, on the
+/// branch through the first of a few spans that has a state.
 template <class System, class Visit>
 void each_under(System& held, int half_waves, double height, double wanted, const Visit& visit) {
     for (const double share : {0.9, 0.5, 0.99, 0.1})
@@ -319,11 +312,10 @@ void each_under(System& held, int half_waves, double height, double wanted, cons
             return held.curve().under(*state, wanted, visit);
 }
 
-/// Error bounds beyond which a shape is none: it hangs folded along the axis.
+/// Larger error bounds mean that the cord hangs folded along the axis.
 inline constexpr double folded = 1e-3;
 
-/// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
-/// shape or none.
+/// Collects shapes of 1 ... `most` half waves. `find(k, add)` calls `add` with each shape.
 template <class Shapes, class Find>
 Shapes each_half_wave(int most, const Find& find) {
     Shapes result;

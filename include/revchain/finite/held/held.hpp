@@ -4,7 +4,6 @@
 #include "revchain/finite/held/proof.hpp"
 #include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
-#include "revchain/finite/held/supports.hpp"
 #include "revchain/linear/counted_roots.hpp"
 #include "revchain/steady_shapes.hpp"
 
@@ -13,18 +12,54 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Shapes of a chain held at both ends.
 struct HeldShapes {
     std::vector<HeldShape> shapes;            ///< by half waves
-    std::vector<int> missing;                 ///< half waves of those asked with which nothing was found
-    bool complete = false;                    ///< proved: none of so many half waves is missing; false unless planar
-    std::vector<InclinationRange> undecided;  ///< of the lowest link, where others may begin in the plane of the ends
-    long cells = 0;                           ///< looked at
+    std::vector<int> missing;                 ///< half waves for which nothing was found
+    bool complete = false;                    ///< proved that none is missing; false unless planar
+    std::vector<InclinationRange> undecided;  ///< of the lowest link, for further planar shapes
+    long cells = 0;                           ///< examined
 };
 
 namespace finite {
 
-/// Shapes of one chain held at both ends, one after the other.
+/// The supports of both ends, and the height at which springs are taken, if not the shape's.
+struct HeldSupports {
+    Support lower{}, upper{};
+    std::optional<Fine> height{};
+
+    bool plain() const { return lower == Support{} && upper == Support{}; }
+};
+
+/// The supports at a height, in units of a chain, with radii and compliances times `part`. The
+/// third number is the height, or with `by_part` the part.
+template <class T>
+HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, const T& height, double part = 1,
+                      bool by_part = false) {
+    HeldEnds<T> result;
+    if (supports.plain()) return result;
+    if (by_part) result.height_change = T(0);
+    for (const bool above : {false, true}) {
+        const Support& support = above ? supports.upper : supports.lower;
+        Held<T>& end = above ? result.upper : result.lower;
+        const T radius(std::ldexp(support.radius, -units.length_exponent));
+        end.radius = radius * T(part), end.symmetric = part == 0 || support.radius == 0;
+        if (by_part) result.radius_change[above] = radius;
+        if (support.is_firm() || (part == 0 && !by_part)) continue;
+        const T at = supports.height ? static_cast<T>(*supports.height) : height;
+        const T stiffness =
+            at * static_cast<T>(ldexp(support.stiffness, units.length_exponent - units.weight_exponent));
+        end.firm = false, end.stiffness = stiffness / T(part > 0 ? part : 1), end.compliance = T(part) / stiffness;
+        end.carriage = T(std::ldexp(support.carriage_weight, -units.weight_exponent));
+        if (by_part)
+            result.compliance_change[above] = T(1) / stiffness;
+        else if (!supports.height)
+            result.compliance_change[above] = -(end.compliance / height);
+    }
+    return result;
+}
+
+/// A chain held at both ends, and the directions of its links in the last kept state.
 class HeldChain {
    public:
-    using S = Wide<double>;
+    using S = Fine;
 
     explicit HeldChain(const Chain<double>& chain, const HeldSupports& supports = {})
         : chain_(chain), wide_(links_of(chain)), links_(rounded<double>(wide_.links)), supports_(supports) {
@@ -39,64 +74,58 @@ class HeldChain {
     const Links<S>& links() const { return wide_; }
     const S& length() const { return length_; }
 
-    /// The end's place for forces, each link from where it was in the state kept last. Changes are with the part of how
-    /// the ends are held instead of with the height if that has been said.
+    /// The upper end for given forces, with links starting from the last kept state. Derivatives
+    /// are by the height, or after `vary_part(true)` by the part of the supports.
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool keep) {
         trial_ = kept_;
-        const HeldEnd<double> end = supports_.plain()
-                                        ? held_sweep(links_, plain_, forces, trial_)
-                                        : held_sweep(links_, ends<double>(forces.height, forces.part), forces, trial_);
+        const HeldEnds<double> held = ends(forces.height, forces.part);
+        const HeldEnd<double> end = held_sweep(links_, held, forces, trial_);
         if (end.known && keep) kept_ = trial_;
         return end;
     }
     void vary_part(bool part) { by_part_ = part; }
-    /// From now on springs are taken at this height, in units of the chain; at that of each state, if at none.
+    /// Fixes the height at which springs are taken; without it that of each state.
     void springs_at(const std::optional<S>& height) { supports_.height = height; }
 
-    /// How the ends are held at a height, or that part of it.
+    /// The supports at a height, or `part` of them.
     template <class T>
     HeldEnds<T> ends(const T& height, double part = 1) const {
         return held_ends(supports_, wide_.units, height, part, by_part_);
     }
     bool mirrored() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
-    /// Whether every shape lies in a plane. With a torque about the axis, which needs two arms, it may leave it.
+    /// Whether every shape lies in a plane: with two arms a torque about the axis may bend it out.
     bool planar() const { return supports_.lower.radius == 0 || supports_.upper.radius == 0; }
 
-    /// Directions in the state kept last.
     const std::vector<Direction<double>>& kept() const { return kept_; }
     void keep(std::vector<Direction<double>> directions) { kept_ = std::move(directions); }
 
-    HeldCurve<HeldChain> curve() {
-        return {*this, static_cast<double>(length_), static_cast<double>(weight_), mirrored()};
-    }
+    HeldCurve<HeldChain> curve() { return {*this, as_double(length_), as_double(weight_), mirrored()}; }
 
-    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`; if there are no mirror images, from the
-    /// chain whose lowest link leads outwards, or from the other.
+    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`. Without mirror
+    /// images the lowest link of the nearly straight chain leads outwards, or not.
     std::optional<HeldState> at_height(int half_waves, const S& span, double height, bool outwards = true) {
-        // Nearly straight and without gravity it has the shape y of a mode under a tension of 1, whose height is the
-        // force along the axis.
-        const revchain::detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent),
-                                              .weightless = true};
-        const auto taut = revchain::detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
+        // The nearly straight chain without gravity has the shape y of a mode under tension 1; its
+        // height is the force along the axis.
+        const detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent), .weightless = true};
+        const auto taut = detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
         if (half_waves > taut.available.count) return {};
-        const auto guess = static_cast<double>(weight_ * length_);
+        const auto guess = as_double(weight_ * length_);
         const auto bracket = taut.roots.brackets(half_waves - 1, 1, guess, {}).front();
         const double along = pencil::between(bracket.lower, bracket.upper);
         std::vector<double> y{0.0};
-        for (const S& offset : taut.roots.vector(S(along))) y.push_back(static_cast<double>(offset));
+        for (const S& offset : taut.roots.vector(S(along))) y.push_back(as_double(offset));
         double short_of = 0;  // by how much the shape y is shorter than the chain
         for (std::size_t m = 0; m < links_.size(); ++m)
-            short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
-        const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);  // across, of the shape y
+            short_of += std::pow(y[m] - y[m + 1], 2) / (2 * links_[m].length);
+        const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);
         straighten();
         const double across = outwards ? -1 : 1, part = supports_.plain() ? 1 : 0;
-        return curve().from_straight(
-            static_cast<double>(length_ - span), static_cast<double>(span), height, [&](double slack) {
-                return HeldForces<double>{across * pull * std::sqrt(slack / short_of), along, 0, part};
-            });
+        return curve().from_straight(as_double(length_ - span), as_double(span), height, [&](double slack) {
+            return HeldForces<double>{across * pull * std::sqrt(slack / short_of), along, 0, part};
+        });
     }
 
-    /// Newton's method in double-double at span and height, from a state in double; the shape there.
+    /// The shape at a span and height, by Newton's method in double-double from a state in double.
     std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height, bool prove) const {
         const HeldEnds<S> held = ends(height);
         HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
@@ -105,7 +134,7 @@ class HeldChain {
             const S sine(d.sine), cosine(d.cosine), size = sqrt(sine * sine + cosine * cosine);
             direction.push_back({sine / size, cosine / size});
         }
-        if (mirrored() && kept_.front().sine > 0) {  // of two mirror images that whose lowest link leads outwards
+        if (mirrored() && kept_.front().sine > 0) {  // lowest link outwards
             forces.across = -forces.across;
             for (Direction<S>& d : direction) d.sine = -d.sine;
         }
@@ -118,7 +147,6 @@ class HeldChain {
             const double error = held_error(enclosed<Far>(wide_.links), enclosed<Far>(held), enclosed<Far>(height),
                                             enclosed<Far>(span), {Far(forces.across), Far(forces.along)}, found);
             shape.proved = error < 1e-3;
-            // and an inclination rounded once
             if (shape.proved) shape.error_bound = error + 1.001 * 0x1p-53 * shape.inclination.cwiseAbs().maxCoeff();
         }
         return shape;
@@ -126,28 +154,28 @@ class HeldChain {
 
     /// Lambda times the tension at the upper end.
     double top_pull(const HeldForces<double>& forces) {
-        return std::hypot((*this)(forces, false).across, forces.along + forces.height * static_cast<double>(weight_));
+        return std::hypot((*this)(forces, false).across, forces.along + forces.height * as_double(weight_));
     }
 
-    /// Links as forces at the lower end draw them, each where it is pulled.
+    /// Sets the directions of links by the pulls on them under forces at the lower end.
     void draw(const HeldForces<double>& forces) {
         straighten();
         std::vector<Direction<double>> drawn;
-        const auto settle = [&](std::size_t m, double R, double V, Direction<double>& way) {
+        const auto at_pull = [&](std::size_t m, double R, double V, Direction<double>& way) {
             const double pull = std::hypot(R, V);
             way = {R / pull, V / pull};
-            const double growth = detail::settle(links_[m], R, V, way);
+            const double growth = settle(links_[m], R, V, way);
             drawn.push_back(way);
             return growth;
         };
-        if (held_sweep<2>(links_, ends(forces.height), forces, settle).known) kept_ = drawn;
+        if (held_sweep<2>(links_, ends(forces.height), forces, at_pull).known) kept_ = drawn;
     }
 
-    /// A state near the forces given whose tension at the upper end, times the height, is `wanted`.
+    /// A state near given forces with a wanted tension at the upper end times height.
     std::optional<HeldState> under(HeldForces<double> forces, double wanted) {
         const auto sweep = [&](const HeldForces<double>& at) {
             HeldEnd<double> end = (*this)(at, true);
-            const double along = at.along + at.height * static_cast<double>(weight_);
+            const double along = at.along + at.height * as_double(weight_);
             end.rise = std::hypot(end.across, along);  // the tension in place of the rise
             end.rise_change[0] = end.across_change[0] * end.across / end.rise;
             end.rise_change[1] = (end.across_change[1] * end.across + along) / end.rise;
@@ -164,13 +192,12 @@ class HeldChain {
     Links<S> wide_;
     std::vector<Link<double>> links_;
     HeldSupports supports_;
-    HeldEnds<double> plain_{};
     bool by_part_ = false;
     S length_{0}, weight_{0};
     std::vector<Direction<double>> kept_, trial_;
 };
 
-/// Ranges of the lowest link's inclination, ascending, in which cells lie.
+/// Ascending ranges of the lowest link's inclination that contain cells.
 inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
     std::vector<InclinationRange> result;
     for (const HeldCell& cell : cells) {
@@ -193,39 +220,39 @@ inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& c
     return apart;
 }
 
-/// How shapes are to be found and proved.
 struct HeldListOptions {
     int max_half_waves;
     bool prove;
     long budget;
 };
 
-inline bool by_half_waves(const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; }
-
-/// Whether a shape is among others.
+inline void sort_by_half_waves(std::vector<HeldShape>& shapes) {
+    const auto before = [](const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; };
+    std::stable_sort(shapes.begin(), shapes.end(), before);
+}
+inline bool has(const std::vector<HeldShape>& shapes, int half_waves) {
+    return std::any_of(shapes.begin(), shapes.end(), [&](const auto& x) { return x.half_waves == half_waves; });
+}
 inline bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
     return std::any_of(shapes.begin(), shapes.end(), [&](const HeldShape& other) {
         return (other.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-8;
     });
 }
 
-/// Puts in order what curves have led to that begin with the ends on the axis: several may lead to one shape, and to
-/// other half waves than they began with.
+/// Removes repeated shapes and sorts: several curves may lead to one shape or change half waves.
 inline void keep_different(HeldShapes& list, int max_half_waves) {
     std::vector<HeldShape> kept;
     for (const HeldShape& shape : list.shapes)
         if (shape.half_waves <= max_half_waves && !has(kept, shape)) kept.push_back(shape);
     list.shapes = std::move(kept), list.missing.clear();
-    std::stable_sort(list.shapes.begin(), list.shapes.end(), by_half_waves);
+    sort_by_half_waves(list.shapes);
     for (int k = 1; k <= max_half_waves; ++k)
-        if (std::none_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; }))
-            list.missing.push_back(k);
+        if (!has(list.shapes, k)) list.missing.push_back(k);
 }
 
-/// Adds to the shapes found by their branches all others in the plane of the ends, and says where there may be more.
-inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& height, const HeldGoal& goal,
+/// Adds all other planar shapes to those found by branches, and the ranges where more may be.
+inline void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
                      const HeldListOptions& options) {
-    using S = Wide<double>;
     const EnclosedLinks<double> links = enclosed<double>(held.links().links);
     const HeldCells cells(links, enclosed<double>(held.ends(height)), enclosed<double>(height), goal,
                           options.max_half_waves);
@@ -236,36 +263,34 @@ inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& heig
         std::optional<HeldShape> shape;
         if (goal.is_span) {
             const double span = goal.value.middle();
-            shape = held.finished({forces, span}, S(span), height, options.prove);
+            shape = held.finished({forces, span}, Fine(span), height, options.prove);
         } else if (const auto state = held.under(forces, goal.value.middle())) {
             if (state->span < 0) continue;  // the upper end is the lower one
-            shape = held.finished(*state, S(state->span), height, options.prove);
+            shape = held.finished(*state, Fine(state->span), height, options.prove);
         }
         if (!shape)
             found.undecided.push_back(root.cell);
         else if (!has(list.shapes, *shape))
             list.shapes.push_back(*shape);
     }
-    std::stable_sort(list.shapes.begin(), list.shapes.end(), by_half_waves);
-    std::erase_if(list.missing, [&](int k) {
-        return std::any_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; });
-    });
+    sort_by_half_waves(list.shapes);
+    std::erase_if(list.missing, [&](int k) { return has(list.shapes, k); });
     list.undecided = inclinations(found.undecided);
     list.complete = held.planar() && found.undecided.empty(), list.cells = found.cells;
 }
 
-/// Shapes of up to `max_half_waves` half waves at a span and a height; height 0: without gravity.
-inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span,
-                              const Wide<double>& height, const HeldListOptions& options) {
+/// Shapes of up to `max_half_waves` half waves at a span and a height (0: no gravity).
+inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span, const Fine& height,
+                              const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent);
-    const Wide<double> lambda = ldexp(height, -exponent);
+    const Fine lambda = ldexp(height, -exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         for (const bool outwards : {true, false}) {
             if (!outwards && held.mirrored()) break;
-            if (const auto state = held.at_height(k, Wide<double>(apart), static_cast<double>(lambda), outwards))
-                add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
+            if (const auto state = held.at_height(k, Fine(apart), as_double(lambda), outwards))
+                add(held.finished(*state, Fine(apart), lambda, options.prove));
         }
     });
     if (!supports.plain()) keep_different(list, options.max_half_waves);
@@ -273,19 +298,17 @@ inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& su
     return list;
 }
 
-/// Shapes of up to `max_half_waves` half waves whose tension at the upper end, times the height, is
-/// `height_times_tension`.
+/// Shapes of up to `max_half_waves` half waves with a given tension at the upper end times height.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
-                                            const Wide<double>& height_times_tension,
-                                            const Wide<double>& conical_height, const HeldListOptions& options) {
-    using S = Wide<double>;
+                                            const Fine& height_times_tension, const Fine& conical_height,
+                                            const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const ChainUnits units = held.links().units;
-    const S wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
-            lambda = ldexp(conical_height, -units.length_exponent);
+    const Fine wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
+               lambda = ldexp(conical_height, -units.length_exponent);
     auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         each_under(held, k, lambda.high, wanted.high,
-                   [&](const HeldState& found) { add(held.finished(found, S(found.span), lambda, options.prove)); });
+                   [&](const HeldState& found) { add(held.finished(found, Fine(found.span), lambda, options.prove)); });
     });
     if (options.prove) complete(list, held, lambda, {enclosed<double>(wanted), false}, options);
     return list;

@@ -5,14 +5,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-namespace detail {
+inline double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
-using Span = Interval<Far>;
-
-inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
-
-/// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
-/// inclination, which is not positive where the link may be slack or settle elsewhere.
+/// Encloses the direction of a link near one found. Returns the derivative of its moment by the
+/// inclination, not positive if the link may be slack or have another inclination.
 inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
     if (is_zero(link.cross)) {
@@ -25,15 +21,15 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
     return settle_near(link, R, V, found, way);
 }
 
-/// Encloses the upper end for forces at the lower end up to `radius` from those of a state, `found` the directions
-/// there; and the sine of the largest turn of a link away from them.
+/// Encloses the upper end for forces at the lower end within `radius` of those of a state with
+/// directions `found`, and the sine of the largest turn of a link from them.
 inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
                                                     const Span& height, const std::array<Far, 2>& forces,
                                                     const std::array<double, 2>& radius,
                                                     const std::vector<Direction<Far>>& found) {
     const auto about = [&](std::size_t i) {
         const Far off(radius[i]);
-        return Span(revchain::detail::down(Far(forces[i] - off)), revchain::detail::up(Far(forces[i] + off)));
+        return Span(detail::down(Far(forces[i] - off)), detail::up(Far(forces[i] + off)));
     };
     double turned = 0;
     const auto settle_link = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
@@ -47,20 +43,15 @@ inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& li
     return {end, turned};
 }
 
-}  // namespace detail
-
-/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its ends held as
-/// given, `span` apart, there being one and one alone so near: Krawczyk's test on the two forces at
-/// the lower end (doi:10.1007/BF02234767). Infinite where it decides nothing: intervals grow along
-/// the chain by e^pi, about, for each half wave.
-inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interval<Far>>& ends,
-                         const Interval<Far>& height, const Interval<Far>& span, const std::array<Far, 2>& forces,
-                         const std::vector<Direction<Far>>& found) {
-    using detail::Span;
+/// Bounds the angle (rad) between found directions and those of the one steady shape near them at a
+/// span, by Krawczyk's test on the two forces at the lower end (doi:10.1007/BF02234767). Infinite
+/// if the test decides nothing: intervals grow by about e^pi for each half wave.
+inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height,
+                         const Span& span, const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     constexpr double unproved = std::numeric_limits<double>::infinity();
-    const auto centre = detail::held_box(links, ends, height, forces, {0, 0}, found).first;
+    const auto centre = held_box(links, ends, height, forces, {0, 0}, found).first;
     if (!centre.known) return unproved;
-    const auto slope = [](const Span& x) { return static_cast<double>(x.middle()); };
+    const auto slope = [](const Span& x) { return as_double(x.middle()); };
     const double a = slope(centre.offset_change[0]), b = slope(centre.offset_change[1]),
                  c = slope(centre.rise_change[0]), d = slope(centre.rise_change[1]), determinant = a * d - b * c;
     if (!(std::abs(determinant) > 0)) return unproved;
@@ -68,11 +59,10 @@ inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interva
     const std::array<Span, 4> inverse{entry(d), entry(-b), entry(-c), entry(a)};
     const Span missed = centre.rise - span;
     std::array<double, 2> step, radius;
-    for (std::size_t i = 0; i < 2; ++i)
-        step[i] = detail::largest(inverse[2 * i] * centre.offset + inverse[2 * i + 1] * missed);
+    for (std::size_t i = 0; i < 2; ++i) step[i] = largest(inverse[2 * i] * centre.offset + inverse[2 * i + 1] * missed);
     radius = {2 * step[0] + 1e-290, 2 * step[1] + 1e-290};
     for (int round = 0; round < 4; ++round) {
-        const auto [end, turned] = detail::held_box(links, ends, height, forces, radius, found);
+        const auto [end, turned] = held_box(links, ends, height, forces, radius, found);
         if (!end.known) return unproved;
         bool inside = true;
         std::array<double, 2> image;
@@ -80,7 +70,7 @@ inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Interva
             image[i] = step[i];
             for (std::size_t j = 0; j < 2; ++j) {
                 const Span product = inverse[2 * i] * end.offset_change[j] + inverse[2 * i + 1] * end.rise_change[j];
-                image[i] += detail::largest(Span(Far(i == j ? 1.0 : 0.0)) - product) * radius[j];
+                image[i] += largest(Span(Far(i == j ? 1.0 : 0.0)) - product) * radius[j];
             }
             inside = inside && image[i] < radius[i];
         }

@@ -8,20 +8,20 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A cell that holds one shape and no other: of the lowest link's pull and tangent, about the shape.
+/// A cell of the lowest link's pull and tangent that contains exactly one shape.
 struct HeldRoot {
     HeldCell cell;
-    double pull, tangent;  ///< of the shape, to some 1e-10
+    double pull, tangent;  ///< of the shape, to about 1e-10
 };
 
-/// All places where chains begin that meet the upper end, and cells that were not decided.
+/// All starts of chains that meet the upper end, and undecided cells.
 struct HeldRoots {
     std::vector<HeldRoot> roots;
     std::vector<HeldCell> undecided;
     long cells = 0;
 };
 
-/// Splits a rectangle of starts until each cell holds one shape or none: Krawczyk's test on the two numbers.
+/// Splits a rectangle of starts until each cell contains one shape or none, by Krawczyk's test.
 class HeldSearch {
    public:
     using Span = Interval<double>;
@@ -33,7 +33,7 @@ class HeldSearch {
         scale_ = pulls.high;
         const Span tangents(chain_.mirrored() ? 0.0 : -1.0, 1.0);
         const std::deque<HeldCell> whole{{{pulls, tangents}, false}, {{pulls, tangents}, true}};
-        detail::each_cell<1, true>(
+        each_cell<1, true>(
             whole, [&] { return budget_ <= 0; },
             [&](const std::vector<HeldCell>& one, const auto& wait) { visit(one[0], wait); },
             [&](const HeldCell& cell) { found_.undecided.push_back(cell); });
@@ -46,7 +46,7 @@ class HeldSearch {
         bool regular, inside, none;
     };
 
-    /// Where roots of a cell can be: Krawczyk's operator.
+    /// Krawczyk's operator: encloses the roots of a cell.
     static std::optional<Image> image(const HeldCell& cell, const HeldReach& reach) {
         const double a = reach.side_change[0].middle(), b = reach.side_change[1].middle(),
                      c = reach.gap_change[0].middle(), d = reach.gap_change[1].middle(), det = a * d - b * c;
@@ -61,7 +61,7 @@ class HeldSearch {
                 const Span entry = Span(i == j ? 1.0 : 0.0) - (p * reach.side_change[j] + q * reach.gap_change[j]);
                 const Span off = cell.at[j] - Span(cell.at[j].middle());
                 next = next + entry * off;
-                // weighed by the cell's widths, so that rows compare
+                // weighted by the cell's widths, so that rows compare
                 norm += entry.size() * (cell.at[j].width() / cell.at[i].width());
             }
             if (!(next.low <= next.high)) return {};
@@ -83,7 +83,7 @@ class HeldSearch {
                 return cell.at[i].width() * (std::abs(reach.side_change[i].middle()) / chain_.length().high +
                                              std::abs(reach.gap_change[i].middle()));
             };
-            // what the ends' places owe to each, but not to extremes: slopes mean little in a large cell
+            // the direction that moves the upper end more; slopes mean little in a long cell
             const std::size_t other = 1 - widest;
             if (weight(other) > 4 * weight(widest) && relative(cell, other) > relative(cell, widest) / 16)
                 widest = other;
@@ -108,7 +108,7 @@ class HeldSearch {
         wait(low), wait(high);
     }
 
-    /// Whether a shape is found in a cell somewhat larger, alone there.
+    /// Whether a slightly larger cell contains exactly one shape.
     bool isolated(const HeldCell& cell) {
         HeldCell about = cell;
         for (Span& x : about.at) {
@@ -150,8 +150,8 @@ class HeldSearch {
         return reach;
     }
 
-    static constexpr double least_ = 1e-9;  // relative width of a cell that is split no further
-    static constexpr double fine_ = 0.02;   // and of one in which links are looked at in arcs
+    static constexpr double least_ = 1e-9;  // relative width of cells that are not split
+    static constexpr double fine_ = 0.02;   // relative width of cells with arcs for slack links
     static constexpr long arcs_ = 300;
     const HeldCells& chain_;
     long budget_;

@@ -7,31 +7,28 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// One steady shape of a chain whose two ends are held: links lowest first, pins from the lower end up, in
-/// the units of the chain.
-///
-/// Forces are given times the conical height lambda, weight times length: a number with gravity and without it. Over
-/// lambda they are in the unit of the weights; without gravity weights stand for masses, and forces are these numbers
-/// times n^2.
+/// A steady shape of a chain held at both ends: links lowest first, pins from the lower end up, in
+/// the units of the chain. Forces are times the conical height lambda, weight times length: so they
+/// exist without gravity too. There weights are masses, and forces these numbers times n^2.
 struct HeldShape {
-    Vector<double> inclination;  ///< (N) of each link to the upward vertical, rad, within (-pi, pi]; §8's sign
-    Vector<double> offset;       ///< (N + 1) of each pin from the axis; if the ends are on it, 0, the second positive
-    Vector<double> height;       ///< (N + 1) of each pin above the lower end; the last the span
+    Vector<double> inclination;           ///< (N) to the upward vertical, rad, in (-pi, pi]; sign of §8
+    Vector<double> offset;                ///< (N + 1) of pins; with ends on the axis 0, the second positive
+    Vector<double> height;                ///< (N + 1) of pins above the lower end; the last the span
     Vector<double> height_times_tension;  ///< (N + 1) lambda times the force through each pin
-    Vector<double> force_inclination;     ///< (N + 1) of that force, as it pulls upwards, to the vertical, rad
-    std::array<double, 2> lower_pull;     ///< lambda times the chain's pull on its lower bearing: outwards, and up
-    std::array<double, 2> upper_pull;     ///< the same on the upper bearing: up is negative where it hangs
-    int half_waves = 1;  ///< sides changes of pins (and ends on springs) about the line between the ends' rest, and one
+    Vector<double> force_inclination;     ///< (N + 1) of that upward force to the vertical, rad
+    std::array<double, 2> lower_pull;     ///< lambda times pull on the lower bearing: outwards, up
+    std::array<double, 2> upper_pull;     ///< on the upper bearing; up is negative if it hangs
+    int half_waves = 1;                   ///< 1 + side changes of pins about the line between the rested ends
     double span = 0, conical_height = 0;
-    std::array<Support, 2> ends{};  ///< what held the lower end and the upper one, stiffness times the height
-    double residual = 0;  ///< largest moment left over about a pin, over the force and the length; of the ends, a gap
+    std::array<Support, 2> ends{};   ///< lower and upper support, stiffness times the height
+    double residual = 0;             ///< largest moment about a pin over force and length, or gap
     double error_bound = 0;          ///< of every inclination, rad
-    bool proved = false;             ///< whether that is proved, else it is an estimate
-    double condition = 0;            ///< largest change of an inclination for a relative change 1 of span or height
-    double moment_of_inertia = 0;    ///< about the axis, weight times length squared; carriages included
-    double height_times_energy = 0;  ///< lambda (sum of weight times height, and springs) less moment_of_inertia / 2
+    bool proved = false;             ///< else `error_bound` is an estimate
+    double condition = 0;            ///< largest change of an inclination per relative change of span or height
+    double moment_of_inertia = 0;    ///< about the axis, weight times length squared, with carriages
+    double height_times_energy = 0;  ///< lambda (potential energy) - moment_of_inertia / 2
 
-    /// rad/s. Throws InvalidArgument where there is no gravity: then any speed has this shape.
+    /// In rad/s. Throws InvalidArgument without gravity: then any speed has this shape.
     double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
@@ -39,8 +36,7 @@ struct HeldShape {
 
 namespace finite {
 
-/// Counts half waves: how often pins come to lie on the other side of the straight line between the places in which the
-/// springs of the ends are at rest, and one.
+/// Counts half waves: side changes of pins about the line between the rested ends, plus 1.
 template <class S>
 struct Sides {
     const HeldEnds<S>& ends;
@@ -57,13 +53,12 @@ struct Sides {
     }
 };
 
-/// Everything about a shape from the forces at its lower end and the directions found there.
-inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide<double>>& ends,
-                           const HeldForces<Wide<double>>& forces, const Wide<double>& span,
-                           std::vector<Direction<Wide<double>>>& direction) {
-    using S = Wide<double>;
+/// The shape for forces at the lower end, with directions near `direction`.
+inline HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends, const HeldForces<Fine>& forces,
+                           const Fine& span, std::vector<Direction<Fine>>& direction) {
     const auto size = static_cast<Index>(chain.links.size());
-    const auto narrow = [](const S& x) { return static_cast<double>(x); };
+    const auto narrow = [](const Fine& x) { return as_double(x); };
+    const auto in_long = [](const Fine& x) { return static_cast<long double>(Far(x)); };
     const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
     const auto moment = [&](double x) {
         return std::ldexp(x, chain.units.length_exponent + chain.units.weight_exponent);
@@ -72,57 +67,56 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
     for (Vector<double>* v : {&shape.offset, &shape.height, &shape.height_times_tension, &shape.force_inclination})
         v->setZero(size + 1);
     shape.inclination.resize(size);
-    S rise(0), hung(0), inertia(0), energy(0), spring(0);
+    Fine rise(0), hung(0), inertia(0), energy(0), spring(0);
     double reach = 0;
     const auto through = [&](Index pin, double across, double along) {
         shape.height_times_tension[pin] = moment(std::hypot(across, along));
         shape.force_inclination[pin] = std::atan2(across, along);
     };
-    Sides<S> sides{ends, span};
-    const Held<S>&lower = ends.lower, &upper = ends.upper;
-    const S foot = lower.firm ? lower.radius : lower.radius - lower.compliance * forces.across;
-    const S push = lower.firm ? forces.across : forces.across + lower.carriage * foot;
+    Sides<Fine> sides{ends, span};
+    const Held<Fine>&lower = ends.lower, &upper = ends.upper;
+    const Fine foot = lower.firm ? lower.radius : lower.radius - lower.compliance * forces.across;
+    const Fine push = lower.firm ? forces.across : forces.across + lower.carriage * foot;
     through(0, narrow(push), narrow(forces.along));
     shape.offset[0] = length(narrow(foot));
-    if (!lower.firm) sides(foot, S(0));
-    S head(0);
+    if (!lower.firm) sides(foot, Fine(0));
+    Fine head(0);
     std::vector<HeldChange<double>> turned;
-    const HeldEnd<S> end = held_sweep(
-        chain.links, ends, forces, direction,
-        [&](std::size_t m, const S& y, const S& R, const S& H, const S& growth, const HeldChange<S>& change) {
-            const Link<S>& link = chain.links[m];
-            const auto i = static_cast<Index>(m);
-            const auto& [s, c] = direction[m];
-            head = y - link.length * s;
-            const S top = rise + link.length * c;
-            const S V = forces.height * link.pull + forces.along;
-            const S left = V * s + link.length * link.cross * s * c - R * c;
-            shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
-            shape.inclination[i] =
-                static_cast<double>(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
-                                               static_cast<long double>(c.high) + static_cast<long double>(c.low)));
-            inertia = inertia + link.moment * y * y + link.rest * head * head -
-                      link.cross * link.length * link.length * s * s;
-            energy = energy + link.moment * rise + link.rest * top;
-            hung = hung + link.moment + link.rest;
-            through(i + 1, narrow(H), narrow(forces.height * hung + forces.along));
-            if (i + 1 < size || !upper.firm) sides(head, top);
-            shape.offset[i + 1] = length(narrow(i + 1 == size && upper.firm ? upper.radius : head));
-            shape.height[i + 1] = length(narrow(top));
-            rise = top, reach += narrow(link.length);
-            turned.push_back({narrow(change[0]), narrow(change[1]), narrow(change[2])});
-        });
+    const HeldEnd<Fine> end =
+        held_sweep(chain.links, ends, forces, direction,
+                   [&](std::size_t m, const Fine& y, const Fine& R, const Fine& H, const Fine& growth,
+                       const HeldChange<Fine>& change) {
+                       const Link<Fine>& link = chain.links[m];
+                       const auto i = static_cast<Index>(m);
+                       const auto& [s, c] = direction[m];
+                       head = y - link.length * s;
+                       const Fine top = rise + link.length * c;
+                       const Fine V = forces.height * link.pull + forces.along;
+                       const Fine left = V * s + link.length * link.cross * s * c - R * c;
+                       shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
+                       shape.inclination[i] = as_double(std::atan2(in_long(s), in_long(c)));
+                       inertia = inertia + link.moment * y * y + link.rest * head * head -
+                                 link.cross * link.length * link.length * s * s;
+                       energy = energy + link.moment * rise + link.rest * top;
+                       hung = hung + link.moment + link.rest;
+                       through(i + 1, narrow(H), narrow(forces.height * hung + forces.along));
+                       if (i + 1 < size || !upper.firm) sides(head, top);
+                       shape.offset[i + 1] = length(narrow(i + 1 == size && upper.firm ? upper.radius : head));
+                       shape.height[i + 1] = length(narrow(top));
+                       rise = top, reach += narrow(link.length);
+                       turned.push_back({narrow(change[0]), narrow(change[1]), narrow(change[2])});
+                   });
     shape.span = shape.height[size] = length(narrow(span));
     shape.conical_height = length(narrow(forces.height));
     const double gap = std::max(std::abs(narrow(end.offset)), std::abs(narrow(end.rise - span)));
     shape.residual = std::max(shape.residual, gap / reach);
     shape.half_waves = sides.half_waves;
     for (const bool above : {false, true}) {
-        const Held<S>& held = above ? upper : lower;
+        const Held<Fine>& held = above ? upper : lower;
         Support& support = shape.ends[above];
         support.radius = length(narrow(held.radius));
         if (held.firm) continue;
-        const S y = above ? head : foot, drawn = y - held.radius;
+        const Fine y = above ? head : foot, drawn = y - held.radius;
         inertia = inertia + held.carriage * y * y, spring = spring + held.stiffness * drawn * drawn;
         support.stiffness = std::ldexp(narrow(held.stiffness), chain.units.weight_exponent);
         support.carriage_weight = std::ldexp(narrow(held.carriage), chain.units.weight_exponent);
@@ -130,19 +124,18 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldEnds<Wide
     shape.lower_pull = {moment(-narrow(push)), moment(narrow(forces.along))};
     shape.upper_pull = {moment(narrow(end.across)), moment(-narrow(forces.along + forces.height * hung))};
     shape.moment_of_inertia = length(moment(narrow(inertia)));
-    shape.height_times_energy = length(moment(narrow(forces.height * energy + (spring - inertia) / S(2))));
+    shape.height_times_energy = length(moment(narrow(forces.height * energy + (spring - inertia) / Fine(2))));
 
-    // What a change of the span, or of the height, asks of the two forces, and both of the links.
-    const auto condition = [&](const S& y, const S& z, double direct) {
+    // A change of span or height changes the two forces, and both change the links.
+    const auto condition = [&](const Fine& y, const Fine& z, double direct) {
         const auto [across, along] = end.forces_to_move(y, z);
         const double a = narrow(across), b = narrow(along);
         for (const HeldChange<double>& t : turned)
             shape.condition = std::max(shape.condition, std::abs(t[0] * a + t[1] * b + t[2] * direct));
     };
-    const S& lambda = forces.height;
-    condition(S(0), span, 0);
+    const Fine& lambda = forces.height;
+    condition(Fine(0), span, 0);
     condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, narrow(lambda));
-    // An estimate until something is proved: rounding in double of the data.
     shape.error_bound = epsilon<double>() * (2 + shape.condition);
     return shape;
 }

@@ -8,16 +8,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Lambda times the force that holds the lower end of a chain held at both ends, across the axis and along it; the
-/// conical height lambda = g/n^2 itself, 0 without gravity; and the part that there is of how the ends are held: with 0
-/// they are firm points on the axis.
+/// The state at the lower end: lambda times the force on it across and along the axis; lambda =
+/// g/n^2, 0 without gravity; and `part` of the supports: with 0 the ends are firm on the axis.
 template <class S>
 struct HeldForces {
     S across, along, height;
     S part = S(1);
 };
 
-/// How the two ends of a chain are held, lower and upper, and how that and the height change with the third number.
+/// Both supports, and their derivatives and that of the height by the third number.
 template <class S>
 struct HeldEnds {
     Held<S> lower = firm(), upper = firm();
@@ -34,25 +33,23 @@ HeldEnds<Interval<T>> enclosed(const HeldEnds<S>& ends) {
     return {enclosed<T>(ends.lower), enclosed<T>(ends.upper)};
 }
 
-/// How a number changes with the first K of the three.
+/// Derivatives by the first K of the three numbers.
 template <class S, std::size_t K = 3>
 using HeldChange = std::array<S, K>;
 
-/// Sine and cosine of a link's inclination.
 template <class S>
 struct Direction {
     S sine, cosine;
 };
 
-/// Where the upper end comes to: how far it is from where it is held, as `Held::miss` counts it, and how high; and
-/// lambda times the force across the axis there.
+/// The swept upper end: distance from the support, as in `Held::miss`, height, and force across.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
     HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
-    bool known = false;  ///< not where a link is slack, or its inclination turns over
+    bool known = false;  ///< false if a link is slack or its inclination turns over
 
-    /// The changes of the forces across and along that move the upper end by (y, z).
+    /// The changes of the two forces that move the upper end by (y, z).
     std::array<S, 2> forces_to_move(const S& y, const S& z) const {
         const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0], &d = rise_change[1];
         const S determinant = a * d - b * c;
@@ -60,12 +57,9 @@ struct HeldEnd {
     }
 };
 
-namespace detail {
-
-/// Links turn in the plane of the shape by the pull (R, V) of what they carry, R across the axis and V along it:
-///     V s + a X s c - R c = 0.
-/// Returns the derivative with the inclination, positive where the link settles: the pull, if the link is a plummet. Of
-/// several inclinations of other links the one nearest to the direction given is taken.
+/// Solves V s + a X s c - R c = 0 for the direction of a link under the pull (R, V) across and
+/// along the axis. Returns the derivative by the inclination, positive at a stable direction; for a
+/// plummet it is the pull. Of several solutions it finds the one nearest to the given direction.
 template <class S>
 S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& direction) {
     using std::abs;
@@ -83,24 +77,24 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
     for (int round = 0; round < 60; ++round) {
         growth = along * c + turn * (c * c - s * s) + across * s;
         if (!(growth > S(0))) return S(0);
-        // half of Newton's step is the tangent of half an angle
+        // half of Newton's step as the tangent of half an angle
         S half = -(along * s + turn * s * c - across * c) / (S(2) * growth);
-        const double size = std::abs(static_cast<double>(half));
+        const double size = std::abs(as_double(half));
         if (size > 0.3) half = half * S(0.3 / size);
         const S square = half * half, whole = S(1) + square, cosine = (S(1) - square) / whole,
                 sine = S(2) * half / whole;
         const S turned = s * cosine + c * sine;
         c = c * cosine - s * sine;
         s = turned;
-        if (size < static_cast<double>(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last)) return growth;
+        if (size < as_double(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last)) return growth;
         last = size;
     }
     return S(0);
 }
 
-/// Encloses the direction of a link, no plummet, under the loads (R, V), within a little turn of
-/// one found for one of them: Newton's method in intervals. Returns the derivative as `settle`
-/// does. It is not positive where the link may be slack or settle elsewhere.
+/// Encloses the direction of a link other than a plummet under the loads (R, V), near one found for
+/// one of them, by Newton's method in intervals. Returns the derivative as `settle` does; it is not
+/// positive if the link may be slack or have another inclination.
 template <Real T, class Span = Interval<T>>
 Span settle_near(const Link<Span>& link, const Span& R, const Span& V, const Direction<T>& found,
                  Direction<Span>& direction) {
@@ -125,17 +119,15 @@ struct SeesNothing {
     void operator()(std::size_t, const Any&...) const {}
 };
 
-}  // namespace detail
-
-/// From the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
+/// Sweep from the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
 ///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
 ///     y = y_below - length s,         H = R + rest y,
-/// tau = `along`. The lower end is at y = b - F/(lambda E) on its spring, F = `across`, and H = F + W y there, W its
-/// carriage; a firm one at b with H = F. Changes with the first K of the numbers are exact derivatives.
-/// `settle(m, R, V, way)` gives link m its direction under its load and returns the derivative of its moment with the
-/// inclination; the sweep ends where that is not positive. `each(m, y, R, H, growth, change of the inclination)` sees
-/// every link, y of the lower pin and H of the upper.
-template <std::size_t K, class S, class Settle, class Each = detail::SeesNothing>
+/// with tau = `along` and F = `across`. A lower end on a spring is at y = b - F/(lambda E), where H
+/// = F + W y, W its carriage; a firm one at b, where H = F. Derivatives by the first K numbers are
+/// exact. `settle(m, R, V, way)` sets the direction of link m and returns the derivative of its
+/// moment by the inclination; the sweep ends if that is not positive. `each(m, y, R, H, growth,
+/// change of the inclination)` receives every link: y of its lower pin, H of its upper.
+template <std::size_t K, class S, class Settle, class Each = SeesNothing>
 HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
                          const Settle& settle, const Each& each = {}) {
     const Held<S>&lower = ends.lower, &upper = ends.upper;
@@ -186,27 +178,26 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
     return end;
 }
 
-/// The sweep in numbers. A link points where it is pulled, above the horizontal or below: every link is in tension.
-/// `direction` holds where to look, and what was found. Cost O(N): 0.1 microseconds a link in double.
-template <class S, class Each = detail::SeesNothing>
+/// The sweep in numbers, with every link in tension, above or below the horizontal. `direction`
+/// holds starts and results. Cost O(N): 0.1 microseconds a link in double.
+template <class S, class Each = SeesNothing>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
                       std::vector<Direction<S>>& direction, const Each& each = {}) {
-    const auto settle = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
-        const S growth = detail::settle(links[m], R, V, direction[m]);
+    const auto at_pull = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
+        const S growth = settle(links[m], R, V, direction[m]);
         way = direction[m];
         return growth;
     };
-    return held_sweep<3>(links, ends, forces, settle, each);
+    return held_sweep<3>(links, ends, forces, at_pull, each);
 }
 
-/// Newton's method on the forces at the lower end, their height kept, until the upper end has the
-/// rise wanted; returns whether it got there. `sweep(forces)` returns the upper end. Steps are
-/// compared with the forces before or after, the larger; those of the force across with it alone if
-/// shapes have mirror images, which its sign tells apart. A step below `enough` is the last, and so
-/// is one below `rounding` that has not shrunk to a quarter of the one before.
+/// Newton's method on the forces at the lower end, for a rise of the upper end; returns whether it
+/// converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of the forces
+/// before and after; with mirror images the force across is compared with itself alone. It ends
+/// after a step below `enough`, or one below `rounding` that is not under a quarter of the last.
 template <class S, class Sweep>
 bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, double rounding, const Sweep& sweep) {
-    const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
+    const auto size_of = [](const S& x) { return std::abs(as_double(x)); };
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 30; ++round) {
         const HeldEnd<S> end = sweep(forces);
@@ -224,14 +215,14 @@ bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, do
     return false;
 }
 
-/// The lowest link of a chain held at both ends, in intervals: lambda times the pull along it, and the tangent of half
-/// its angle to the upward vertical, or to the downward one unless `up`; positive where it leads outwards.
+/// The lowest link of a chain held at both ends, in intervals: lambda times its pull, and the
+/// tangent, positive outwards, of half its angle to the vertical, upward or not.
 struct HeldCell {
-    std::array<Interval<double>, 2> at;  ///< pull, tangent from 0 to 1, or from -1 unless shapes have mirror images
+    std::array<Interval<double>, 2> at;  ///< pull; tangent from 0 (mirror images) or -1 to 1
     bool up = true;
 };
 
-/// What a chain held at both ends must meet: how far apart they are, or lambda times the tension at the upper one.
+/// The goal of a chain held at both ends: its span, or lambda times the tension at the upper end.
 struct HeldGoal {
     Interval<double> value;
     bool is_span = true;

@@ -12,79 +12,71 @@ struct SteadyShape;  // revchain/steady_shapes.hpp
 
 namespace finite {
 
-/// g/n^2 in double-double, infinite or 0 where it is out of range.
-inline Wide<double> height_at_speed(double angular_speed, double gravity) {
+/// g/n^2 in double-double; infinite or 0 if out of range.
+inline Fine height_at_speed(double angular_speed, double gravity) {
     int of_speed = 0, of_gravity = 0;
-    const Wide<double> n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
+    const Fine n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
     return ldexp(g / n / n, of_gravity - 2 * of_speed);
 }
 
-namespace detail {
-
-/// An angle and pi, or less pi, rounded once.
+/// angle + pi, or angle - pi, rounded once.
 inline double beyond(double angle, bool backwards) {
     const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }
 
-}  // namespace detail
-
-/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition. `hung`: the
-/// weights that bear on the upper pins.
+/// A shape from the offsets of its pins, without error bound. `hung`: weights on upper pins.
 template <class Shape = SteadyShape>
-Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
+Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found,
                 const std::vector<double>& hung, double total_weight) {
-    using S = Wide<double>;
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
-    const auto length = [&](const S& x) { return std::ldexp(static_cast<double>(x), chain.units.length_exponent); };
+    const auto length = [&](const Fine& x) { return std::ldexp(as_double(x), chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
     Shape shape;
     shape.inclination.resize(size), shape.tension.resize(size), shape.reaction_inclination.resize(size);
     shape.offset.resize(size + 1), shape.height.resize(size + 1);
-    std::vector<S> up(n + 1);
-    for (std::size_t m = n; m-- > 0;)
-        up[m] = up[m + 1] - detail::cosine_in(found, chain.links, m) * chain.links[m].length;
-    S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
+    std::vector<Fine> up(n + 1);
+    for (std::size_t m = n; m-- > 0;) up[m] = up[m + 1] - cosine_in(found, chain.links, m) * chain.links[m].length;
+    Fine sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
     double last_sign = 0, reach = 0, worst_moment = 0;
     for (std::size_t m = 0; m <= n; ++m) {
         const auto i = static_cast<Index>(m);
         shape.offset[i] = length(found.offset[m]), shape.height[i] = length(up[m]);
         if (m == n) break;
-        const Link<S>& link = chain.links[m];
-        const S &lower = found.offset[m], &upper = found.offset[m + 1];
-        if (const double y = static_cast<double>(lower); y != 0) {
+        const Link<Fine>& link = chain.links[m];
+        const Fine &lower = found.offset[m], &upper = found.offset[m + 1];
+        if (const double y = as_double(lower); y != 0) {
             if (y * last_sign < 0) ++shape.half_waves;
             last_sign = y > 0 ? 1 : -1;
         }
-        const S d = lower - upper, cosine = detail::cosine_in(found, chain.links, m),
-                tangent = detail::tangent_in(found, chain.links, m);
-        const double inclination = std::atan(static_cast<double>(tangent));
-        shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
-        // the moment about the upper pin of all that hangs there, over the length, times lambda
-        const S left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
-        worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
-        reach += static_cast<double>(link.length);
+        const Fine d = lower - upper, cosine = cosine_in(found, chain.links, m),
+                   tangent = tangent_in(found, chain.links, m);
+        const double inclination = std::atan(as_double(tangent));
+        shape.inclination[i] = found.stands(m) ? beyond(inclination, d < Fine(0)) : inclination;
+        // lambda times the moment about the upper pin over the length
+        const Fine left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
+        worst_moment = std::max(worst_moment, std::abs(as_double(left * link.length * cosine / height)));
+        reach += as_double(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;
-        const double across = static_cast<double>(sideways / height);
+        const double across = as_double(sideways / height);
         shape.tension[i] = weight(std::hypot(hung[m], across));
         shape.reaction_inclination[i] = std::atan2(across, hung[m]);
-        // of the element, (lower, upper) [A X; X B] (lower, upper), where A + X = moment and X + B = rest
+        // (lower, upper) [A X; X B] (lower, upper), with A + X = moment and X + B = rest
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
     shape.residual = worst_moment / (total_weight * reach);
     shape.conical_height = length(height);
-    shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
-    shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));
+    shape.moment_of_inertia = weight(std::ldexp(as_double(inertia), 2 * chain.units.length_exponent));
+    shape.effective_energy = weight(length(energy - inertia / (Fine(2) * height)));
     return shape;
 }
 template <class Shape = SteadyShape>
-Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found) {
+Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found) {
     std::vector<double> hung;
     double total = 0;
-    for (const Link<Wide<double>>& link : chain.links)
-        hung.push_back(total += static_cast<double>(link.moment + link.rest));
+    for (const Link<Fine>& link : chain.links) hung.push_back(total += as_double(link.moment + link.rest));
     return described<Shape>(chain, height, found, hung, total);
 }
 

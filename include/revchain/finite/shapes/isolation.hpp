@@ -11,7 +11,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Where the tangent of the lowest link lies at a steady shape: in low ... high, once and nowhere twice.
+/// A range of tangents of the lowest link that contains exactly one steady shape.
 template <class T>
 struct Bracket {
     T low, high;
@@ -21,7 +21,6 @@ bool goes_on(const Bracket<T>& part, const Bracket<T>& next) {
     return part.high == next.low;
 }
 
-/// Parts in their order, those that touch as one.
 template <class Part>
 std::vector<Part> joined(const std::vector<Part>& parts) {
     std::vector<Part> result;
@@ -34,30 +33,27 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
     return result;
 }
 
-/// Steady shapes isolated by proof.
 template <class T>
 struct Isolation {
     std::vector<Bracket<T>> shapes;     ///< ascending
-    std::vector<Bracket<T>> undecided;  ///< ascending: there may be shapes more in these; empty if the list is complete
-    long cells = 0;                     ///< looked at
+    std::vector<Bracket<T>> undecided;  ///< ascending: may contain more shapes; empty if complete
+    long cells = 0;                     ///< examined
 };
 
-namespace detail {
-
-/// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but
-/// rounding makes it wide (or is not known at all): splitting the cell would show no more.
+/// Whether rounding dominates an enclosure over a cell (or it is unknown): it is not much wider
+/// than at the centre, so splitting would not help.
 template <Real T>
 bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
     return !(T(4) * centre.width() < over.width());
 }
 
-/// Where ranges of tangents, or of what grows in proportion, are cut in two: 0 at the least.
+/// Chooses where to split ranges of numbers >= 0, such as tangents.
 template <Real T>
 class Cutting {
    public:
-    /// Nearly a half, at random, since a cut in the middle can meet a shape for ever.
-    T share() { return T(0.45 + 0.1 * static_cast<double>(random_()) / static_cast<double>(random_.max())); }
-    /// At the geometric mean where the ends differ by more than a factor of 2, and next to 0 by sixteenths.
+    /// Nearly a half, at random: middle cuts could meet a shape again and again.
+    T share() { return T(0.45 + 0.1 * as_double(random_()) / as_double(random_.max())); }
+    /// Near the geometric mean if the ends differ by a factor over 2; from 0, at a sixteenth.
     T between(const T& low, const T& high) {
         using std::sqrt;
         const T at = share();
@@ -65,7 +61,7 @@ class Cutting {
         if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
         return low + at * (high - low);
     }
-    /// Returns no cut where the range is narrower than `narrowest` of its upper end, or next to 0 of `last` and of 1.
+    /// None if the range is narrower than `narrowest` of its upper end; from 0, of min(`last`, 1).
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
         const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
@@ -77,15 +73,14 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
-/// Looks at cells and at the parts they are split into until none waits, up to `batch` at once:
-/// those that came last first, so that few wait; or, with `large_first`, those that have waited
-/// longest, so that those left over are small. `visit(cells, wait)` settles each, leaves it open,
-/// or gives its parts to `wait`. Once `spent()` is true all that still wait go to `leave_open`.
+/// Visits cells and their parts until none waits, up to `batch` at once: the newest first, so that
+/// few wait, or with `large_first` the oldest, so that remaining cells are small. `visit(cells,
+/// wait)` settles each cell, leaves it open, or passes parts to `wait`; `spent()` ends this.
 template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
 void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
     while (!waiting.empty()) {
-        revchain::detail::look();
+        detail::look();
         cells.clear();
         while (cells.size() < batch && !waiting.empty()) {
             cells.push_back(large_first ? waiting.front() : waiting.back());
@@ -98,12 +93,11 @@ void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
     }
 }
 
-/// State of a range of tangents: all its shapes are known; splitting it may decide more; rounding prevents more.
+/// State of a range of tangents: all shapes known; undecided; undecided because of rounding.
 enum class Seen { settled, open, ruled_by_rounding };
 
-/// Splits `whole` until `classify(part, cells)` finds every part settled. Calls `leave_open(part)` for parts ruled by
-/// rounding, for parts narrower than `narrowest` of their upper end (next to 0 of `last` and of 1), and for what is
-/// beyond the budget. Returns the number of parts looked at, to which `classify` may add.
+/// Splits `whole` until `classify(part, cells)` settles every part. Calls `leave_open(part)` for
+/// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns their number.
 template <class T, class Classify, class LeaveOpen>
 long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
            const LeaveOpen& leave_open) {
@@ -124,7 +118,7 @@ long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budg
     return cells;
 }
 
-/// Splits `whole` until each part is seen to hold no shape or one. The straight chain, at 0, is left out.
+/// Splits `whole` until each part has no shape or one. Leaves out the straight chain, at 0.
 template <Real T, class End = OnAxis>
 Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, const Bracket<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {
@@ -148,7 +142,5 @@ Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, c
                         [&](const Bracket<T>& part) { found.undecided.push_back(part); });
     return found;
 }
-
-}  // namespace detail
 
 }  // namespace revchain::finite

@@ -5,19 +5,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// KrawczykList of the balance in one posture, each in a box that holds no other; mirror images are one.
+/// The zeros of the balance in one posture, each alone in a box; mirror images are one.
 template <Real T, class End = OnAxis>
 class KrawczykList {
    public:
     struct Zero {
-        TangentBox<T> near;  ///< holds it, narrow
+        TangentBox<T> near;  ///< a narrow box that contains it
         bool straight = false;
     };
 
     explicit KrawczykList(const WholeBalance<T, End>& balance) : balance_(balance) {
         if (balance.is_symmetric()) add_straight(balance.posture().size());
     }
-    /// Those of the same balance found in fewer digits.
+    /// Takes over the zeros of the same balance found in fewer digits.
     template <class Fewer, class FewerEnd>
     KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known) : balance_(balance) {
         const auto same = [](const TangentBox<Fewer>& x) {
@@ -31,7 +31,7 @@ class KrawczykList {
 
     const std::vector<Zero>& found() const { return found_; }
 
-    /// Whether all zeros in the box are known now: there is none, or one, which is in the list.
+    /// Whether the box has no zero, or one, which is in the list now.
     bool settles(TangentBox<T> box) {
         for (int round = 0; round < 4; ++round) {
             if (is_known(box)) return true;
@@ -47,7 +47,7 @@ class KrawczykList {
             }
             if (!less) break;
         }
-        // A zero on the edge of the box, or of a box narrowed to rounding, needs room about it.
+        // a zero on the edge of the box, or in one narrowed to rounding, needs a wider box
         TangentBox<T> wider = box;
         for (int round = 0; round < 3; ++round) {
             using std::abs;
@@ -76,10 +76,12 @@ class KrawczykList {
     };
 
     bool is_known(const TangentBox<T>& box) const {
-        return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) { return within(box, zone.box); });
+        for (const Zone& zone : zones_)
+            if (within(box, zone.box)) return true;
+        return false;
     }
 
-    /// Puts the one zero of the box, `narrow` in it, on the list; false if it cannot be told from those there.
+    /// Adds the zero of the box, within `near`; false if it may be one in the list.
     bool add(const TangentBox<T>& box, TangentBox<T> near) {
         for (int round = 0; round < 20; ++round) {
             const auto again = balance_.narrowed(near);

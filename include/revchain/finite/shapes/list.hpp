@@ -16,11 +16,10 @@
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/parallel.hpp"
 
-/// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
+/// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
-/// chain reaches.  y0 = lambda t + (a X/moment) s.
+/// An upper bound for the lowest tangent, from y0 = lambda t + (a X/moment) s and the reach.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
@@ -30,25 +29,25 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
     return ((reach + Interval<T>(beyond.high)) / height).high;
 }
 
-/// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
+/// Whether each link but the lowest has one inclination under its load; always if l <= a.
 template <class T>
 bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(),
                        [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
 
-inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
+inline bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
     return single_valued(enclosed<double>(links.links), height);
 }
 
-/// Where a proof of completeness did not reach, shapes that are there all the same: one at least between tangents of
-/// the lowest link at which the offset of the support, `sign(tangent)`, has opposite signs for certain. Looks at the
-/// ends of the `ranges`, ascending, and at those of `points` tangents up to `last` that lie within them: a third each
-/// even in the inclination, in the tangent, and in its logarithm down to 1e-12 of the last.
+/// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
+/// the offset of the support, `sign(tangent)`, has certain opposite signs there is at least one.
+/// Samples the ends of the ascending `ranges` and those of `points` tangents up to `last` in them:
+/// a third each even in inclination, in tangent, and in its logarithm down to 1e-12 of the last.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
     std::vector<double> tangents;
-    const double steepest = std::atan(last), third = static_cast<double>(points / 3);
+    const double steepest = std::atan(last), third = as_double(points / 3);
     for (double i = 0.5; i < third; ++i) {
         tangents.push_back(std::tan(steepest * i / third));
         tangents.push_back(last * i / third);
@@ -58,11 +57,11 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     std::vector<Bracket<T>> found;
     auto next = tangents.begin();
     for (const Bracket<T>& range : ranges) {
-        next = std::upper_bound(next, tangents.end(), static_cast<double>(range.low));
+        next = std::upper_bound(next, tangents.end(), as_double(range.low));
         T seen_at{};
         int seen = 0;
         const auto note = [&](const T& t) {
-            revchain::detail::look();
+            detail::look();
             const int here = t > T(0) ? sign(t) : 0;
             if (here == 0) return;
             if (here == -seen) found.push_back({seen_at, t});
@@ -75,24 +74,24 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     return found;
 }
 
-/// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
+/// Isolates shapes in double, undecided cells in double-double, and scans what remains open.
 template <class AnyLinks>
-Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, double last, long links_to_look_at) {
+Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const Isolation<double> first = detail::isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
+    const Isolation<double> first = isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
     const auto wide = swept_links<Far>(chain);
-    const Interval<Far> height_wide = enclosed<Far>(height);
+    const Span height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
     for (const Bracket<double>& open : joined(first.undecided)) {
-        const auto again = detail::isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
-                                                std::max(0L, budget - found.cells), support_wide);
+        const auto again = isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
+                                        std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
@@ -100,32 +99,30 @@ Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, doubl
     if (found.undecided.empty()) return found;
     found.undecided = joined(found.undecided);
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
-        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
+        const int sign = sign_at(narrow, lambda, as_double(t), support);
+        return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
 }
 
-/// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
+/// The shape whose lowest tangent is in the bracket, if Newton's method finds it.
 template <class AnyLinks>
-std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide<double>& height,
-                                               const Bracket<Far>& bracket) {
-    using S = Wide<double>;
-    const std::vector<Link<S>>& links = chain.links;
+std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket) {
+    const std::vector<Link<Fine>>& links = chain.links;
     const auto support = support_of(chain);
-    S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return detail::support_offset(links, height, t, support) < S(0); };
+    Fine low = bracket.low.word(), high = bracket.high.word();
+    const auto falls_short = [&](const Fine& t) { return support_offset(links, height, t, support) < Fine(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
-        const S middle = low + (high - low) * S(0.5);
+        const Fine middle = low + (high - low) * Fine(0.5);
         (falls_short(middle) == rises ? low : high) = middle;
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
         auto found = balance(links, height, swept(links, height, halve()), {}, support);
         if (found.converged) {
-            const S tangent = detail::tangent_in(found, links, 0);
+            const Fine tangent = tangent_in(found, links, 0);
             if (bracket.low.word() < tangent && tangent < bracket.high.word()) return found;
         }
         for (int i = 0; i < 6; ++i) halve();
@@ -133,72 +130,68 @@ std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide
     return std::nullopt;
 }
 
-/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of
-/// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
-/// may do.
+/// Bounds the error (rad) of inclinations found by Newton's method, from signs of the support's
+/// offset on both sides of the lowest tangent, and the ranges of all links between.
 template <class End>
-double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& height, const Bracket<Far>& bracket,
-                         const Balanced<Wide<double>>& found, const std::vector<Link<Wide<double>>>& middle,
-                         const End& support) {
-    const Interval<Far> lambda = enclosed<Far>(height);
-    const Far tangent(detail::tangent_in(found, middle, 0));
+double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, const Bracket<Far>& bracket,
+                         const Balanced<Fine>& found, const std::vector<Link<Fine>>& middle, const End& support) {
+    const Span lambda = enclosed<Far>(height);
+    const Far tangent(tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
     for (int round = 0;; ++round, reach = reach * Far(16)) {
         const bool far = round == 300;  // 16^300 overflows
         const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
         const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
-        const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
-        if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
-        std::vector<Interval<Far>> tangents;
-        detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
+        const auto sign = [&](const Far& t) { return sign_at(links, lambda, t, support); };
+        if (!far && !whole && sign(low) * sign(high) != -1) continue;
+        std::vector<Span> tangents;
+        support_offset(links, lambda, Span(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
-            const Far t(detail::tangent_in(found, middle, m));
-            const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
-            const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
-            const double change =
-                static_cast<double>(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
+            const Far t(tangent_in(found, middle, m));
+            const Span both = hull(tangents[m], Span(t));
+            const double near = both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
+            const double change = as_double(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
             worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
         }
         return worst * 1.01;
     }
 }
 
-/// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
+/// Halves a bracket of a shape by proved signs until rounding leaves one undecided.
 template <class End>
-Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
-                      Bracket<Far> bracket) {
-    const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
+Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const End& support, Bracket<Far> bracket) {
+    const int low_sign = sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
-        const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
-        const int sign = detail::sign_at(links, lambda, middle, support);
+        const Far middle = Span(bracket.low, bracket.high).middle();
+        const int sign = sign_at(links, lambda, middle, support);
         if (sign == 0 || !(bracket.low < middle && middle < bracket.high)) break;
         (sign == low_sign ? bracket.low : bracket.high) = middle;
     }
     return bracket;
 }
 
-/// A shape whose links are too near the horizontal for `finished`: found from the tangents of all links in a `part` of
-/// the bracket. Nothing if it cannot be proved.
+/// A shape with links too near the horizontal for `finished`, from the tangents of all links in a
+/// `part` of the bracket; none if it cannot be proved.
 template <class AnyLinks>
-std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
-                                            const Bracket<Far>& bracket, const Bracket<Far>& part) {
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket,
+                                            const Bracket<Far>& part) {
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
     TangentBox<Far> near;
-    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
+    support_offset(links, lambda, Span(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
-    auto found = detail::settled(chain, height, balance, near);
+    auto found = settled(chain, height, balance, near);
     if (!found) return std::nullopt;
-    const Far tangent = abs(Far(detail::tangent_in(found->shape, chain.links, 0)));
+    const Far tangent = abs(Far(tangent_in(found->shape, chain.links, 0)));
     const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
     return inside ? std::move(found) : std::nullopt;
 }
 
 template <class AnyLinks, class Result>
-void add(const AnyLinks& links, const Wide<double>& height, const Settled& settled, Result& result) {
+void add(const AnyLinks& links, const Fine& height, const Settled& settled, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
     result.shapes.push_back(described<Shape>(links, height, settled.shape));
     result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
@@ -206,21 +199,21 @@ void add(const AnyLinks& links, const Wide<double>& height, const Settled& settl
 
 template <class Result>
 void leave_open(const Bracket<Far>& part, Result& result) {
-    const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
+    const auto inclination = [](const Far& t) { return std::atan(as_double(t)); };
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
-/// Whether a link lies so near the horizontal that a support on a spring may be found at a wrong offset: from offsets
-/// in double-double a tangent t is known to 1e-32 t^2 of itself, and so is the force on the spring.
-inline bool is_all_but_level(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found) {
+/// Whether a link is so near the horizontal that the offset of a support on a spring may be wrong:
+/// offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
+inline bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
-        if (std::abs(static_cast<double>(detail::tangent_in(found, links, m))) > 1e8) return true;
+        if (std::abs(as_double(tangent_in(found, links, m))) > 1e8) return true;
     return false;
 }
 
-/// Adds the one shape in the bracket to `result`, which has none yet; or leaves the bracket open.
+/// Adds the shape in the bracket to an empty `result`, or leaves the bracket open.
 template <class AnyLinks, class Result>
-void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Wide<double>& height,
+void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
     const auto support = enclosed<Far>(support_of(links));
@@ -228,7 +221,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         Shape& shape = result.shapes.emplace_back(
             verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
         if (shape.error_bound <= 0x1.8p-52) return;
-        // all but horizontal, or all but critical: the sweep may say more
+        // almost horizontal or critical: the sweep may give a better bound
         const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
         if (error < shape.error_bound) {
             const double condition = shape.condition;
@@ -238,7 +231,6 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         }
         if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
     }
-    // or the tangents
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
     if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
         result.shapes.clear();
@@ -248,17 +240,17 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
     }
 }
 
-/// Adds all shapes where each link hangs at one inclination for what hangs below it.
+/// Adds all shapes if each link has one inclination under its load.
 template <class AnyLinks, class Result>
-void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
+void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget, Result& result) {
     const auto narrow = swept_links<Far>(links);
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
     std::vector<Result> each(isolation.shapes.size());
-    revchain::detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
+    detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            revchain::detail::look();
+            detail::look();
             add_isolated(links, narrow, height, isolation.shapes[i], each[i]);
         }
     });
@@ -268,9 +260,9 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
     }
 }
 
-/// Adds all shapes where a link may have several inclinations.
+/// Adds all shapes if links may have several inclinations.
 template <class AnyLinks, class Options, class Result>
-void add_several_valued(const AnyLinks& links, const Wide<double>& height, double last, const Options& options,
+void add_several_valued(const AnyLinks& links, const Fine& height, double last, const Options& options,
                         Result& result) {
     const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
@@ -287,20 +279,20 @@ void add_several_valued(const AnyLinks& links, const Wide<double>& height, doubl
 
 template <class Result>
 void sort(Result& found) {
-    std::sort(found.shapes.begin(), found.shapes.end(), [](const auto& x, const auto& y) {
-        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
-    });
+    const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
+    const auto before = [&](const auto& x, const auto& y) { return order(x) < order(y); };
+    std::sort(found.shapes.begin(), found.shapes.end(), before);
     found.complete = found.undecided.empty();
 }
 
 /// All shapes at a height in the units of the links.
 template <class Result, class AnyLinks, class Options>
-Result listed(const AnyLinks& links, const Wide<double>& scaled, const Options& options) {
+Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
-    // A little beyond: a link all but horizontal is at the end itself, to rounding.
+    // slightly beyond: an almost horizontal link is at the bound, to rounding
     const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
                                                 !options.hanging_only, enclosed<double>(support_of(links)));
-    if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
+    if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }

@@ -7,7 +7,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A range of tangents of the lowest link, along one choice of branches, that could not be decided.
+/// An undecided range of tangents of the lowest link along one choice of branches.
 template <class T>
 struct OpenPart {
     std::vector<MonotoneBranch> choice;
@@ -18,14 +18,14 @@ bool goes_on(const OpenPart<T>& part, const OpenPart<T>& next) {
     return part.high == next.low && part.choice == next.choice;
 }
 
-/// Steady shapes with every link in a given posture. A choice is one branch for each link: along it the tangents of all
-/// links are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives
-/// wherever no link comes near a joint of its branches. Parts of a choice that the offset of the support rules out are
-/// dropped, the others split, until what they leave of the tangents of all links is a box that `KrawczykList` settles.
+/// Steady shapes with every link in a given posture. A choice is one branch for each link; along it
+/// the tangents of all links are functions of the lowest one, by the upward sweep of Greenhill
+/// (1908) §8 (4), (12), differentiable away from joints. Parts of a choice are excluded by the
+/// offset of the support or split, until `KrawczykList` settles the box of all tangents.
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:
-    /// `fewer_digits`: if any, the same search in fewer digits, whose zeros are known.
+    /// `fewer_digits`: optionally the same search in fewer digits, whose zeros are known.
     template <class... Search>
     PostureSearch(const EnclosedLinks<T>& links, const Interval<T>& height, const std::vector<Posture>& posture,
                   const End& support, const Search&... fewer_digits)
@@ -43,14 +43,14 @@ class PostureSearch {
     const std::vector<typename KrawczykList<T, End>::Zero>& zeros() const { return zeros_.found(); }
     const std::vector<OpenPart<T>>& open() const { return open_; }
 
-    /// The first choice: the lowest link needs no branch, its tangent is given.
+    /// The first choice; the lowest link needs no branch.
     std::vector<MonotoneBranch> first_choice() const {
         std::vector<MonotoneBranch> choice(links_.size(), MonotoneBranch::whole);
         for (std::size_t m = 1; m < choice.size(); ++m)
             if (!response_[m].is_single()) choice[m] = MonotoneBranch::right;
         return choice;
     }
-    /// The one after; false after the last.
+    /// The next choice; false after the last.
     bool next_choice(std::vector<MonotoneBranch>& choice) const {
         for (std::size_t m = 1; m < choice.size(); ++m) {
             if (choice[m] == MonotoneBranch::whole) continue;
@@ -64,15 +64,14 @@ class PostureSearch {
         return false;
     }
 
-    /// Settles low ... high of a choice, but parts narrower than `narrowest` of their upper end (next to 0 of `last`
-    /// and of 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts
-    /// looked at, and N^3/256 for each test of the whole chain.
+    /// Settles a part of a choice, or leaves parts of it open as `split` does. Returns the number
+    /// of parts, plus N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
         const bool straight =
             support_.is_symmetric() && std::none_of(whole.choice.begin(), whole.choice.end(), [](MonotoneBranch p) {
                 return p == MonotoneBranch::right || p == MonotoneBranch::left;
             });
-        return detail::split(
+        return split(
             Bracket<T>{whole.low, whole.high}, last, narrowest, budget,
             [&](const Bracket<T>& part, long& cells) {
                 return classify(whole.choice, part, straight && part.low == T(0), cells);
@@ -86,8 +85,7 @@ class PostureSearch {
     template <Real, class>
     friend class PostureSearch;
 
-    using Seen = detail::Seen;
-    /// A part is settled where every shape in it is in the list.
+    /// A part is settled if every shape in it is in the list.
     Seen classify(const std::vector<MonotoneBranch>& choice, const Bracket<T>& part, bool holds_straight, long& cells) {
         const Cell<T, 1> cell(Interval<T>(part.low, part.high));
         Sweep rules{*this, choice, cell};
@@ -99,12 +97,12 @@ class PostureSearch {
         if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Seen::settled;
         cells += static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
         if (zeros_.settles(box_)) return Seen::settled;
-        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope[0], y.centre_slope[0])
-                                                        : detail::rounding_rules(y.value, y.centre_value));
+        const bool rounding = smooth && (holds_straight ? rounding_rules(y.slope[0], y.centre_slope[0])
+                                                        : rounding_rules(y.value, y.centre_value));
         return rounding ? Seen::ruled_by_rounding : Seen::open;
     }
 
-    /// The sweep along a choice; without derivatives from the first link on that comes near a joint.
+    /// The sweep along a choice; without derivatives above the first link near a joint.
     struct Sweep {
         PostureSearch& search;
         const std::vector<MonotoneBranch>& choice;
@@ -124,15 +122,15 @@ class PostureSearch {
             }
             const LoadedTangents<T> centre = response.met(choice[m], R.centre_value);
             t.centre_value = centre.tangent;
-            smooth = centre.possible && centre.smooth && detail::derive(response.stiffness(), response.turning(), R, t);
+            smooth = centre.possible && centre.smooth && derive(response.stiffness(), response.turning(), R, t);
             return true;
         }
         Taylor<T, 1> sine(std::size_t m, const Taylor<T, 1>& t) const {
             Taylor<T, 1> s;
             if (smooth)
-                s = detail::sine_at(t);
+                s = sine_at(t);
             else
-                s.value = detail::sine_at(t.value);
+                s.value = sine_at(t.value);
             return search.balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
         }
         Taylor<T, 1> upright(const Taylor<T, 1>& t) const { return search.response_[0].stiffness() * t; }

@@ -6,21 +6,21 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a,
-/// H what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.
+/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a, H
+/// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
 ///
-/// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
-/// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
-struct RiggedLinks : Links<Wide<double>> {
-    std::vector<revchain::detail::RigLink> given;
+/// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
+/// the opposite inclination obeys the same equations: `swept_links` returns that.
+struct RiggedLinks : Links<Fine> {
+    std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
-    Wide<double> speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
-    Held<Wide<double>> support{};
-    Wide<double> axial_moment{0.0};  ///< of all that turns with the links about their own axes
-    double total_weight = 0;         ///< of the chain
+    Fine speed{0.0};  ///< n, signed; 0 without momentum
+    Held<Fine> support{};
+    Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
+    double total_weight = 0;  ///< of the chain
 
-    bool turned(std::size_t m) const { return links[m].pull < Wide<double>(0); }
-    /// From swept links to given ones, or back.
+    bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
+    /// Converts tangents of swept links to those of given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
         for (std::size_t m = 0; m < tangents.size(); ++m)
@@ -28,19 +28,15 @@ struct RiggedLinks : Links<Wide<double>> {
     }
 };
 
-namespace detail {
-
 /// sigma + n H/a, which may cancel: enclosed in double-double first.
 template <class T>
-Interval<T> effective_tension(const revchain::detail::RigLink& link, const Wide<double>& speed) {
-    if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
-    const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
-    return {revchain::detail::down(static_cast<T>(pull.low)), revchain::detail::up(static_cast<T>(pull.high))};
+Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
+    if (link.spin == Fine(0)) return enclosed<T>(link.tension);
+    const Span pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
+    return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
 
-}  // namespace detail
-
-inline const Held<Wide<double>>& support_of(const RiggedLinks& rig) { return rig.support; }
+inline const Held<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
 inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
 inline bool may_all_stand(const RiggedLinks&) { return true; }
 
@@ -48,13 +44,13 @@ template <class T>
 EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
     EnclosedLinks<T> result = enclosed<T>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
-        result[m].pull = detail::effective_tension<T>(rig.given[m], rig.speed);
+        result[m].pull = effective_tension<T>(rig.given[m], rig.speed);
         if (rig.turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
     }
     return result;
 }
 
-/// 1 - W/(lambda E), W all the weight that moves: what a spring at the support has left to hold its pin with.
+/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
 template <class T>
 Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interval<T>>& support) {
     Interval<T> moving = support.carriage;
@@ -62,10 +58,10 @@ Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interva
     return Interval<T>(T(1)) - support.compliance * moving;
 }
 
-/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther
-/// from the axis than (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the
-/// links reach; and the lowest link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding,
-/// there is no such end: then as if the two were a millionth apart.
+/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
+/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
+/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
+/// there is no bound: then as if they were 1e-6 apart.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool, const Held<Interval<T>>& support) {
     Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
@@ -85,65 +81,62 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
     return far.high;
 }
 
-/// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
-/// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
+/// A shape of a rig from the offsets of its pins. Half waves count the support; the energy includes
+/// the spring's and - n H cos of inclinations, the moment of inertia the carriage's.
 template <class Shape = SteadyShape>
-Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
-    using S = Wide<double>;
+Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>& found) {
     std::vector<double> hung;
-    for (const revchain::detail::RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    for (const detail::RigLink& link : rig.given) hung.push_back(as_double(link.hung));
     Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
-    const S top = found.offset.back();
+    const Fine top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))
         if (y != 0) last = y;
-    if (static_cast<double>(top) * last < 0) ++shape.half_waves;
-    const Held<S>& support = rig.support;
-    const S drawn = top - support.radius,
-            inertia = rig.axial_moment + (support.firm ? S(0) : support.carriage * top * top);
-    S energy = -inertia / (S(2) * height);
-    if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (S(2) * height);
+    if (as_double(top) * last < 0) ++shape.half_waves;
+    const Held<Fine>& support = rig.support;
+    const Fine drawn = top - support.radius,
+               inertia = rig.axial_moment + (support.firm ? Fine(0) : support.carriage * top * top);
+    Fine energy = -inertia / (Fine(2) * height);
+    if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (Fine(2) * height);
     const int weight = rig.units.weight_exponent, length = rig.units.length_exponent;
-    shape.moment_of_inertia += std::ldexp(static_cast<double>(inertia), weight + 2 * length);
-    shape.effective_energy += std::ldexp(static_cast<double>(energy), weight + length);
+    shape.moment_of_inertia += std::ldexp(as_double(inertia), weight + 2 * length);
+    shape.effective_energy += std::ldexp(as_double(energy), weight + length);
     return shape;
 }
 
-/// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of
-/// what moves of the lowest link, cannot be told from 0.
-inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, const Wide<double>& speed) {
-    using S = Wide<double>;
+/// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,
+/// or the moment of the moving weight of the lowest link, cannot be told from 0.
+inline RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;
     result.units = rig.chain().units();
-    result.given = revchain::detail::rig_links(rig);
+    result.given = detail::rig_links(rig);
     result.total_weight = std::ldexp(rig.chain().total_weight(), -result.units.weight_exponent);
     if (rig.has_momentum()) result.speed = speed;
     for (Index m = 0; m < rig.size(); ++m) {
-        const revchain::detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
-        const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
+        const detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
+        const Fine pull = link.spin == Fine(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
-            revchain::detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what),
-                                            pull.high);
+            detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what), pull.high);
         };
-        if (detail::effective_tension<Far>(link, result.speed).may_vanish())
+        if (effective_tension<Far>(link, result.speed).may_vanish())
             reject("the effective tension (tension and n times momentum over length) must not vanish at this speed");
         if (m == 0 && enclosed<Far>(link.moment).may_vanish())
             reject("the lowest link's weight that moves must not balance about its upper pin");
         result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
         result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);
         result.axial_moment =
-            result.axial_moment + ldexp(rig.flywheel(m).axial_moment,
-                                        -result.units.weight_exponent - 2 * result.units.length_exponent);
+            result.axial_moment +
+            ldexp(rig.flywheel(m).axial_moment, -result.units.weight_exponent - 2 * result.units.length_exponent);
     }
     const Support& held = rig.support();
-    const auto length = [&](double x) { return S(std::ldexp(x, -result.units.length_exponent)); };
-    const S none(0.0), radius = length(held.radius);
+    const auto length = [&](double x) { return Fine(std::ldexp(x, -result.units.length_exponent)); };
+    const Fine none(0.0), radius = length(held.radius);
     result.support = {radius, none, none, none, held.radius == 0, held.is_firm()};
     if (!held.is_firm()) {
-        const S stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        const Fine stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
         result.support.stiffness = ldexp(height, -result.units.length_exponent) * stiffness;
-        result.support.compliance = S(1.0) / result.support.stiffness;
-        result.support.carriage = S(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
+        result.support.compliance = Fine(1.0) / result.support.stiffness;
+        result.support.carriage = Fine(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
     }
     return result;
 }

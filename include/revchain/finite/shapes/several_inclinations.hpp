@@ -6,27 +6,24 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A shape and how far it may be from the true one.
 struct Settled {
-    Balanced<Wide<double>> shape;
+    Balanced<Fine> shape;
     double error = 0;      ///< of every inclination, rad
     double condition = 0;  ///< see WholeBalance::condition
 };
 
-/// Steady shapes with links that have several inclinations under one load, or stand.
+/// Steady shapes with links that stand or have several inclinations under one load.
 struct SeveralInclinations {
     std::vector<Settled> shapes;
     struct Open {
         Posture lowest;
-        double low, high;  ///< tangents of the lowest link, at which it hangs or stands
+        double low, high;  ///< tangents of the lowest link in that posture
     };
     std::vector<Open> open;
     long cells = 0;
 };
 
-namespace detail {
-
-/// A box that holds one zero for certain, as small as double-double allows, about one known to double precision.
+/// A box with exactly one zero, as small as double-double allows, about one known in double.
 template <class End>
 std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, const TangentBox<Far>& near) {
     std::vector<Far> t = middle_of(near);
@@ -53,46 +50,43 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box. Tangents alone do not tell the offset of a
-/// support on a spring.
-inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
-                   const TangentBox<Far>& box, const std::vector<Wide<double>>& offset) {
+/// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
+inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
+                   const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
-        const double off = static_cast<double>(abs(found.offset[m] - offset[m]));
-        if (!(off <= 1e-18 * static_cast<double>(abs(offset[m]) + links[std::min(m, box.size() - 1)].length)))
-            return false;
+        const double off = as_double(abs(found.offset[m] - offset[m]));
+        if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length))) return false;
     }
     for (std::size_t m = 0; m < box.size(); ++m) {
         const Far t(tangent_in(found, links, m));
-        const double size = std::abs(static_cast<double>(t));
-        const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
+        const double size = std::abs(as_double(t));
+        const double off = as_double(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
         if (!(off <= 1e-18 * std::min(1.0, size))) return false;
     }
     return true;
 }
 
-/// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link
-/// that is inclined) is at a positive offset.
+/// A shape from the tangents of its links, mirrored if it may be: the free end (or, if that is on
+/// the axis, the lowest inclined link) is at a positive offset.
 template <class AnyLinks, class End>
-std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height, const WholeBalance<Far, End>& balance,
+std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const WholeBalance<Far, End>& balance,
                                const TangentBox<Far>& near) {
-    using S = Wide<double>;
-    const std::vector<Link<S>>& links = chain.links;
+    const std::vector<Link<Fine>>& links = chain.links;
     auto box = sharpened(balance, near);
     if (!box) return std::nullopt;
     const auto condition = balance.condition(middle_of(*box));
     if (!condition) return std::nullopt;
     const std::size_t n = links.size();
-    std::vector<S> offset(n + 1, S(0));
+    std::vector<Fine> offset(n + 1, Fine(0));
     if constexpr (is_held<End>) {
-        std::vector<Interval<Far>> sines;
+        std::vector<Span> sines;
         for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
         offset[n] = balance.top(sines).middle().word();
         chain.turn(*box);
     }
-    S lowest_inclined(0);
+    Fine lowest_inclined(0);
     for (std::size_t m = n; m-- > 0;) {
-        const S sine = balance.sine(m, Interval<Far>((*box)[m].middle())).middle().word();
+        const Fine sine = balance.sine(m, Span((*box)[m].middle())).middle().word();
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(Far(0))) lowest_inclined = sine;
     }
@@ -103,22 +97,20 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
     }
-    const S tip = result.shape.offset[0];
-    const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
+    const Fine tip = result.shape.offset[0];
+    const bool inwards = abs(tip) > Fine(1e-25) * links[0].length ? tip < Fine(0) : lowest_inclined < Fine(0);
     if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
-        const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
-        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
+        const double middle = as_double((*box)[m].middle()), width = as_double((*box)[m].width());
+        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;
         result.error = std::max(result.error, width * 1.01 / (1 + middle * middle) + rounded);
     }
     return result;
 }
 
-}  // namespace detail
-
-/// All shapes with links in one posture, found in double and, where that leaves parts open, in double-double.
+/// All shapes with links in one posture, found in double and, for open parts, in double-double.
 template <class AnyLinks>
-void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
+void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture, double last,
                     long budget, SeveralInclinations& result) {
     const std::size_t n = posture.size();
     const auto cube = static_cast<long>(n * n * n);
@@ -141,26 +133,26 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
         result.cells +=
             second.search({part.choice, Far(part.low), Far(part.high)}, Far(last), Far(1e-26), budget - result.cells);
     const auto leave_open = [&](const Far& low, const Far& high) {
-        result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});
+        result.open.push_back({posture[0], as_double(low), as_double(high)});
     };
     for (const auto& part : second.open()) leave_open(part.low, part.high);
     for (const auto& zero : second.zeros()) {
         if (zero.straight) continue;
-        if (auto shape = detail::settled(chain, height, second.balance(), zero.near))
+        if (auto shape = settled(chain, height, second.balance(), zero.near))
             result.shapes.push_back(std::move(*shape));
         else
             leave_open(zero.near[0].low, zero.near[0].high);
     }
 }
 
-/// Shapes with all links hanging (a rig's: in its own posture) or, if asked, with any of them standing.
+/// Shapes with all links hanging (a rig: in its own posture) or also with any of them standing.
 template <class AnyLinks>
-SeveralInclinations several_inclinations(const AnyLinks& chain, const Wide<double>& height, double last,
-                                         bool hanging_only, long budget) {
+SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last, bool hanging_only,
+                                         long budget) {
     const std::size_t n = chain.links.size();
     SeveralInclinations result;
     std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
-    const auto next = [&] {  // all but the last, in which all stand: there no load would be borne
+    const auto next = [&] {
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;

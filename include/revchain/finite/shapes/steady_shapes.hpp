@@ -16,8 +16,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
-                                  const SteadyShapesOptions& options) {
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options) {
     const auto links = links_of(chain);
     return listed<SteadyShapes>(links, ldexp(height, -links.units.length_exponent), options);
 }
@@ -37,23 +36,23 @@ inline SteadyShape mirrored(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes, each alone within its error bound, are one.
+/// Whether two shapes, each unique within its error bound, are the same.
 inline bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
     if (!(off < 1e-12)) return false;
     for (Index m = 0; m < x.inclination.size(); ++m) {
         const double apart = x.inclination[m] - y.inclination[m];
-        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;  // at pi from both sides
+        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;
     }
     return true;
 }
 
-/// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
-inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
+/// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
+inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                                   const RigShapesOptions& options) {
     if (rig == Rig(rig.chain(), {}))
         return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
-    const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
+    const double scaled = std::ldexp(as_double(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
         const double end = options.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
@@ -61,7 +60,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
         return result;
     }
     RiggedLinks links = rigged_links(rig, height, speed);
-    const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
+    const Fine lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !options.hanging_only,
                                          enclosed<double>(links.support));
     result = listed<SteadyShapes>(links, lambda, options);
@@ -83,8 +82,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirrored(std::move(shape));
-        // A shape is met from both sides with the lowest link in the axis, and where it is near there (or a link that
-        // stands near its own): boxes that hold one shape each reach beyond tangent 0.
+        // shapes with a link near the axis are found from both sides: boxes reach beyond tangent 0
         const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
         if (std::none_of(result.shapes.begin(), end, [&](const SteadyShape& known) { return same(known, shape); }))
             result.shapes.push_back(std::move(shape));
@@ -95,13 +93,12 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     return result;
 }
 
-/// Whether the speed is given as a conical height, and not as an angular speed.
+/// Whether the speed is given as a conical height.
 template <class Options>
 bool height_is_given(const Options& options) {
-    revchain::detail::require_one_speed("steady_shapes", options);
-    if (options.conical_height)
-        revchain::detail::require_positive("steady_shapes", "conical height", *options.conical_height);
-    revchain::detail::require_positive("steady_shapes", "gravity", options.gravity);
+    detail::require_one_speed("steady_shapes", options);
+    if (options.conical_height) detail::require_positive("steady_shapes", "conical height", *options.conical_height);
+    detail::require_positive("steady_shapes", "gravity", options.gravity);
     return options.conical_height.has_value();
 }
 

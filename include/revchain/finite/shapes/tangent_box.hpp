@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,24 +11,23 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Tangents of all links, each within an interval.
 template <class T>
 using TangentBox = std::vector<Interval<T>>;
 
 template <Real T>
 bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return std::equal(x.begin(), x.end(), y.begin(),
-                      [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; });
+    const auto inside = [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; };
+    return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return std::equal(x.begin(), x.end(), y.begin(),
-                      [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; });
+    const auto inside = [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; };
+    return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return !std::equal(x.begin(), x.end(), y.begin(),
-                       [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); });
+    const auto meet = [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); };
+    return !std::equal(x.begin(), x.end(), y.begin(), meet);
 }
 template <Real T>
 TangentBox<T> mirrored(TangentBox<T> x) {
@@ -41,40 +41,13 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     return result;
 }
 
-namespace detail {
-
-/// Replaces a matrix, given by its rows, by its inverse (Gauss and Jordan); returns whether it has one in sight.
-template <Real T>
-bool invert(std::vector<T>& a, std::size_t size) {
-    using std::abs;
-    const auto n = static_cast<Index>(size);
-    Eigen::Map<Table<T>> matrix(a.data(), n, n);
-    Table<T> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
-    rows << matrix, Table<T>::Identity(n, n);
-    for (Index j = 0; j < n; ++j) {
-        Index pivot = j;
-        for (Index i = j + 1; i < n; ++i)
-            if (abs(rows(i, j)) > abs(rows(pivot, j))) pivot = i;
-        const T top = rows(pivot, j);
-        if (!(abs(top) > T(0))) return false;
-        if (pivot != j) rows.row(j).swap(rows.row(pivot));
-        rows.row(j) /= top;
-        for (Index i = 0; i < n; ++i)
-            if (const T share = rows(i, j); i != j && share != T(0)) rows.row(i) -= share * rows.row(j);
-    }
-    matrix = rows.rightCols(n);
-    return matrix.allFinite();
-}
-
-}  // namespace detail
-
-/// The balance of the whole chain in the tangents of all its links, each in its posture, s the sines:
-///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
-/// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
-/// is singular at a joint of two branches.
-/// In a rig, sigma in B belongs to the weights that move, the highest pin is at
+/// The balance of a whole chain in the tangents of its links in one posture, s the sines:
+///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,  B_mr = sigma_min(m,r) a_r - (m = r) X_m a_m.
+/// It is linear but for the sines, so its derivative over a box is as sharp as theirs, and regular
+/// at joints of branches. In a rig, sigma in B is of the moving weights; with W their sum the
+/// highest pin is at
 ///     y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/(lambda E)),
-/// where W is all the weight that moves, and F_m is less by sigma_m y.
+/// and F_m is less by sigma_m y.
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
@@ -98,7 +71,6 @@ class WholeBalance {
     }
     const std::vector<Posture>& posture() const { return posture_; }
     bool is_symmetric() const { return top_.symmetric; }
-    /// Offset of the topmost pin.
     Interval<T> top(const std::vector<Interval<T>>& sines) const {
         Interval<T> y(T(0));
         if constexpr (is_held<End>) {
@@ -108,12 +80,10 @@ class WholeBalance {
         return y;
     }
 
-    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, detail::Sine<T>(t).value); }
+    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, Sine<T>(t).value); }
 
-    /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the
-    /// box holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3. The
-    /// tests of two forces (finite/held) and of all pins (verification.hpp) stay apart, each with
-    /// its own inverse: one template for all four took 59 lines more than it saved.
+    /// Encloses all zeros of F in the box (Krawczyk); if the result is strictly within the box,
+    /// there is exactly one. None if the derivative has no inverse. Cost N^3.
     std::optional<TangentBox<T>> narrowed(const TangentBox<T>& box) const {
         const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);
@@ -121,7 +91,7 @@ class WholeBalance {
         const TangentBox<T> left = scaled(*inverse, value(centre));
         TangentBox<T> result(size_), slope(size_), off(size_);
         for (std::size_t r = 0; r < size_; ++r) {
-            slope[r] = signed_(r, detail::Sine<T>(box[r]).slope);
+            slope[r] = signed_(r, Sine<T>(box[r]).slope);
             off[r] = box[r] - Interval<T>(centre[r]);
         }
         for (std::size_t m = 0; m < size_; ++m) {
@@ -129,8 +99,8 @@ class WholeBalance {
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T> product(T(0));  // of the inverse and B
                 for (std::size_t q = 0; q < size_; ++q)
-                    product = product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
-                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
+                    product = product + Interval<T>((*inverse)(m, q)) * matrix_[q * size_ + r];
+                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)(m, r)) * stiffness_[r];
                 if (m == r) entry = entry + Interval<T>(T(1));
                 sum = sum + entry * off[r];
             }
@@ -139,7 +109,7 @@ class WholeBalance {
         return result;
     }
 
-    /// One step of Newton's method in T; the largest change of an inclination, if any.
+    /// One step of Newton's method in T; returns the largest change of an inclination, if any.
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -147,36 +117,35 @@ class WholeBalance {
         double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
             const T step = left[m].middle();
-            const double tangent = static_cast<double>(t[m]);
-            largest = std::max(largest, std::abs(static_cast<double>(step)) / (1 + tangent * tangent));
+            const double tangent = as_double(t[m]);
+            largest = std::max(largest, std::abs(as_double(step)) / (1 + tangent * tangent));
             t[m] = t[m] - step;
         }
         return largest;
     }
 
-    /// Largest change of an inclination, rad, where each F_m changes by the sizes of its terms, times it; if any.
+    /// Largest change of an inclination (rad) for relative changes 1 of the terms of F.
     std::optional<double> condition(const std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
         std::vector<double> terms(size_);
         double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
-            terms[m] = std::abs(static_cast<double>(stiffness_[m].middle() * t[m]));
+            terms[m] = std::abs(as_double(stiffness_[m].middle() * t[m]));
             for (std::size_t r = 0; r < size_; ++r)
-                terms[m] += std::abs(static_cast<double>(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
+                terms[m] += std::abs(as_double(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r)
-                change += std::abs(static_cast<double>((*inverse)[m * size_ + r])) * terms[r];
-            const double tangent = static_cast<double>(t[m]);
+            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)(m, r))) * terms[r];
+            const double tangent = as_double(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
         return largest;
     }
 
    private:
-    /// Sets what is known of the topmost pin of a rig; returns the sigma of its weights that move.
+    /// Sets the topmost pin of a rig; returns the sigma of its moving weights.
     std::vector<Interval<T>> hold(const EnclosedLinks<T>& links, const End& support) {
         Interval<T> below(T(0));
         std::vector<Interval<T>> moving;
@@ -188,8 +157,8 @@ class WholeBalance {
         top_.at_rest = support.firm ? support.radius : support.radius / yields;
         top_.symmetric = support.symmetric;
         for (std::size_t r = 0; r < size_; ++r) {
-            top_.drawn.push_back(support.firm ? Interval<T>(T(0))
-                                              : support.compliance / yields * moving[r] * links[r].length);
+            const Interval<T> drawn = support.compliance / yields * moving[r] * links[r].length;
+            top_.drawn.push_back(support.firm ? Interval<T>(T(0)) : drawn);
             top_.load.push_back(moving[r] * top_.at_rest);
         }
         return moving;
@@ -207,23 +176,23 @@ class WholeBalance {
         }
         return F;
     }
-    /// Of the derivative, in T: near a critical height one in double would be of no use.
-    std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
+    /// The inverse of the derivative, in T: double would not do near a critical height.
+    std::optional<Table<T>> inverse_at(const std::vector<T>& t) const {
         using std::sqrt;
-        std::vector<T> jacobian(size_ * size_);
+        Table<T> jacobian(size_, size_);
         for (std::size_t r = 0; r < size_; ++r) {
             const T secant_squared = T(1) + t[r] * t[r];
             const T slope = T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
-            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
-            jacobian[r * size_ + r] = jacobian[r * size_ + r] + stiffness_[r].middle();
+            for (std::size_t m = 0; m < size_; ++m) jacobian(m, r) = -(middle_[m * size_ + r] * slope);
+            jacobian(r, r) += stiffness_[r].middle();
         }
-        if (!detail::invert(jacobian, size_)) return std::nullopt;
-        return jacobian;
+        const Table<T> inverse = Eigen::PartialPivLU<Table<T>>(jacobian).inverse();
+        return inverse.allFinite() ? std::optional(inverse) : std::nullopt;
     }
-    TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {
+    TangentBox<T> scaled(const Table<T>& a, const TangentBox<T>& x) const {
         TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
+            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a(m, r)) * x[r];
         return result;
     }
 
@@ -233,7 +202,7 @@ class WholeBalance {
     std::vector<T> middle_;
     struct {
         Interval<T> at_rest;        // offset of the topmost pin under vertical links
-        TangentBox<T> drawn, load;  // of a rig: what each sine adds to it; sigma times it at rest
+        TangentBox<T> drawn, load;  // what each sine adds to it; sigma times `at_rest`
         bool symmetric = true;
     } top_;
 };

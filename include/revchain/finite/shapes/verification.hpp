@@ -7,65 +7,60 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What is proved of a shape that Newton's method found.
 struct Verified {
-    std::vector<Far> offset;   ///< of the pins, the support's 0 last; its digits are those of double-double
-    double inclination_error;  ///< a steady shape, and one alone, has all its inclinations within this, rad
-    double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
+    std::vector<Far> offset;   ///< of the pins, support last, in double-double
+    double inclination_error;  ///< exactly one steady shape has all inclinations within this (rad)
+    double condition;          ///< largest change of an inclination (rad) per relative change of forces
 };
 
-namespace detail {
-
-/// Forces at the pins, lambda times, and what their derivative is made of, for offsets within intervals: the tangent
-/// stiffness of each link and a mass at each pin, never added up.
+/// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a
+/// tangent stiffness for each link and a mass for each pin.
 struct Forces {
-    std::vector<Interval<Far>> force, stiffness, mass;
-    std::vector<double> size, cosine;  ///< of the terms of each force; of each link's inclination, from below
+    std::vector<Span> force, stiffness, mass;
+    std::vector<double> size, cosine;  ///< sum of sizes of each force; lower bound for each link
     bool known = true;
 
     template <class End>
-    Forces(const EnclosedLinks<Far>& links, const Interval<Far>& height, const std::vector<Interval<Far>>& y,
-           const End& support) {
+    Forces(const EnclosedLinks<Far>& links, const Span& height, const std::vector<Span>& y, const End& support) {
         const std::size_t n = links.size();
-        Interval<Far> from_below(Far(0)), mass_below(Far(0));
+        Span from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
-        const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()); };
+        const auto largest = [](const Span& x) { return as_double(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
-            const Link<Interval<Far>>& link = links[m];
-            const Interval<Far> d = y[m] - y[m + 1];
-            const Interval<Far> square = (link.length - d) * (link.length + d);
+            const Link<Span>& link = links[m];
+            const Span d = y[m] - y[m + 1];
+            const Span square = (link.length - d) * (link.length + d);
             if (!square.positive()) {
                 known = false;
                 return;
             }
-            const Interval<Far> adjacent = sqrt(square), pull = height * link.pull * d / adjacent,
-                                turn = link.cross * d, at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            const Span adjacent = sqrt(square), pull = height * link.pull * d / adjacent, turn = link.cross * d,
+                       at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
             force.push_back(from_below + pull + turn - at_lower);
             stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
             mass.push_back(mass_below + link.moment);
             size.push_back(size_below + largest(pull) + largest(turn) + largest(at_lower));
-            cosine.push_back(static_cast<double>((adjacent / link.length).low));
+            cosine.push_back(as_double((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
             from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
-        if constexpr (is_held<End>) {  // a spring is a link more, the upper end of which stays where it is
+        if constexpr (is_held<End>) {  // a spring is one more link with a fixed upper end
             if (!support.yields()) return;
-            const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
+            const Span pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
             force.push_back(from_below + pull - at_lower);
             stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
-    /// Row m of the derivative times a vector, 0 at the support.
-    Interval<Far> row(std::size_t m, const std::vector<Far>& x) const {
-        Interval<Far> result =
-            stiffness[m] * (Interval<Far>(x[m]) - Interval<Far>(x[m + 1])) - mass[m] * Interval<Far>(x[m]);
-        if (m > 0) result = result - stiffness[m - 1] * (Interval<Far>(x[m - 1]) - Interval<Far>(x[m]));
+    /// Row m of the derivative times a vector that is 0 at the support.
+    Span row(std::size_t m, const std::vector<Far>& x) const {
+        Span result = stiffness[m] * (Span(x[m]) - Span(x[m + 1])) - mass[m] * Span(x[m]);
+        if (m > 0) result = result - stiffness[m - 1] * (Span(x[m - 1]) - Span(x[m]));
         return result;
     }
 };
 
-/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it from the free end up, q from the support down.
+/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it upwards, q downwards.
 struct Inverse {
     std::vector<Far> p, q;
     Far w;
@@ -86,8 +81,7 @@ struct Inverse {
         }
         w = -(pull + at.mass[0].middle() * q[0]);
     }
-    /// Step of Newton's method.
-    std::vector<Far> step(const std::vector<Interval<Far>>& force) const {
+    std::vector<Far> step(const std::vector<Span>& force) const {
         const std::size_t n = force.size();
         std::vector<Far> result(n);
         Far sum(0);
@@ -102,8 +96,7 @@ struct Inverse {
         }
         return result;
     }
-    /// For each pin |q| times the sum of `of_p` below it and |p| times that of `of_q` above it, over |w|; a little more
-    /// for rounding.
+    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|.
     std::vector<double> spread(const std::vector<double>& of_p, const std::vector<double>& of_q) const {
         const std::size_t n = of_p.size();
         std::vector<double> result(n);
@@ -114,21 +107,20 @@ struct Inverse {
         return result;
     }
     double share() const { return 1.0000001 / size(w); }
-    static double size(const Far& x) { return std::abs(static_cast<double>(x)); }
-    static double size(const Interval<Far>& x) { return static_cast<double>(x.size()) * 1.0000001; }
+    static double size(const Far& x) { return std::abs(as_double(x)); }
+    static double size(const Span& x) { return as_double(x.size()) * 1.0000001; }
 };
 
-/// Offsets that Newton's method leaves no better, the forces there and the inverse of their derivative.
 struct Balance {
     std::vector<Far> offset;
     Forces at;
     Inverse inverse;
 };
 
-/// Newton's method to the last digit of double-double; nothing where an offset is out of reach. Not that of
-/// balance/newton.hpp: its steps use the inverse and the enclosed forces that the test below needs anyway.
+/// Newton's method to the last digit of double-double; none if an offset is out of reach. It uses
+/// the inverse and the enclosed forces that the test below needs.
 template <class End>
-std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
+std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                               const End& support) {
     const std::size_t n = offset.size() - 1;
     double last = std::numeric_limits<double>::infinity();
@@ -148,10 +140,9 @@ std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Fa
     }
 }
 
-/// Krawczyk's test on all pins at once: how far each may be from its place in the one shape that is so near; nothing
-/// where that is not proved.
+/// Krawczyk's test on all pins at once: bounds the error of each offset; none if it fails.
 template <class End>
-std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Interval<Far>& height,
+std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Span& height,
                                                  const Balance& found, const End& support) {
     const auto& [offset, at, inverse] = found;
     const auto& [p, q, w] = inverse;
@@ -163,24 +154,21 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     }
     std::vector<double> step = inverse.spread(by_p, by_q);
     for (std::size_t m = 0; m < n; ++m) step[m] += Inverse::size(p[m]) * by_q[m] * inverse.share();
-    std::vector<Interval<Far>> box;
+    std::vector<Span> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
-        box.push_back(
-            {revchain::detail::down(offset[m] - Far(radius[m])), revchain::detail::up(offset[m] + Far(radius[m]))});
+        box.push_back({detail::down(offset[m] - Far(radius[m])), detail::up(offset[m] + Far(radius[m]))});
     }
-    box.push_back(Interval<Far>(offset[n]));
+    box.push_back(Span(offset[n]));
     const Forces over(links, height, box, support);
     if (!over.known) return std::nullopt;
 
-    // Rows of 1 - inverse times derivative: beside the diagonal p_i or q_i times what p and q leave of the equations.
-    const Interval<Far> one(Far(1)), W(w);
+    // rows of 1 - inverse times derivative: off the diagonal p_i or q_i times residuals of p and q
+    const Span one(Far(1)), W(w);
     for (std::size_t m = 0; m < n; ++m) {
-        const Interval<Far> rest = over.row(m, q), P(p[m]), Q(q[m]);
-        Interval<Far> product = P * rest;
-        if (m > 0)
-            product = product +
-                      over.stiffness[m - 1] * (P * (Interval<Far>(q[m - 1]) - Q) + Q * (P - Interval<Far>(p[m - 1])));
+        const Span rest = over.row(m, q), P(p[m]), Q(q[m]);
+        Span product = P * rest;
+        if (m > 0) product = product + over.stiffness[m - 1] * (P * (Span(q[m - 1]) - Q) + Q * (P - Span(p[m - 1])));
         own[m] = Inverse::size(one - product / W) * radius[m];
         by_q[m] = Inverse::size(rest) * radius[m];
         by_p[m] = m + 1 < n ? Inverse::size(over.row(m, p)) * radius[m] : 0.0;
@@ -191,30 +179,27 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     return radius;
 }
 
-}  // namespace detail
-
-/// Newton's method, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
-/// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a
-/// link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
+/// Newton's method, then Krawczyk's test (Computing 4 (1969) 187, doi:10.1007/BF02234767), on all
+/// pins at once. The inverse of the tridiagonal derivative is two vectors: O(N), 4 microseconds a
+/// link, and intervals do not grow from link to link as in a sweep.
 template <class End = OnAxis>
-Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
+Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                   const End& support = {}) {
-    using detail::Inverse;
     Verified result{offset, std::numeric_limits<double>::infinity(), 0};
     if constexpr (is_held<End>)
         if (support.yields()) offset.push_back(support.radius.middle());
-    const auto found = detail::newton(links, height, std::move(offset), support);
+    const auto found = newton(links, height, std::move(offset), support);
     if (!found) return result;
     const auto& [p, q, w] = found->inverse;
     const std::size_t n = found->offset.size() - 1;
     std::copy_n(found->offset.begin(), links.size() + 1, result.offset.begin());
-    const auto radius = detail::proved_radius(links, height, *found, support);
+    const auto radius = proved_radius(links, height, *found, support);
     std::vector<double> below(n + 1, 0.0), above(n + 1, 0.0);
     for (std::size_t m = 0; m < n; ++m) below[m + 1] = below[m] + Inverse::size(p[m]) * found->at.size[m];
     for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
     double worst = 0;
     for (std::size_t m = 0; m < links.size(); ++m) {
-        const double opposite = static_cast<double>(links[m].length.low) * found->at.cosine[m];
+        const double opposite = as_double(links[m].length.low) * found->at.cosine[m];
         if (radius) worst = std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
         const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
         const double change =
@@ -225,20 +210,20 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
     return result;
 }
 
-/// Where there are mirror images, chooses the one with its free end at a positive offset.
+/// Of two mirror images chooses the one with its free end at a positive offset.
 template <class End>
-void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
-    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric()) shape.mirror();
+void turn_outwards(Balanced<Fine>& shape, const End& support) {
+    if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();
 }
 
-/// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
-/// mirror images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is
-/// proved. Else, where the height is given, the digits are those of `verified`; where it was found too they stay, as
-/// next to the vertical the height's own rounding moves the shape, and the bound holds what they are off.
+/// A shape found by Newton's method, all links hanging, with error bound and condition of
+/// `verified` at heights in `within`. The bound is infinite if nothing is proved. At a given height
+/// the digits are those of `verified`. At a found height they stay, since near the vertical the
+/// rounding of the height moves the shape; the bound then includes the difference.
 template <class Shape = SteadyShape, class AnyLinks>
-Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Wide<double>& height,
-                     const Interval<Far>& within, Balanced<Wide<double>> found, bool height_is_given) {
-    std::vector<Wide<double>>& y = found.offset;
+Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Fine& height,
+                     const Span& within, Balanced<Fine> found, bool height_is_given) {
+    std::vector<Fine>& y = found.offset;
     const auto support = enclosed<Far>(support_of(chain));
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
@@ -247,15 +232,15 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
                        [](const Far& digits) { return digits.word(); });
     } else {
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
-            const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
-                               adjacent = chain.links[m].length * detail::cosine_of(chain.links[m].length, d);
-            off = std::max(off, 1.01 * std::abs(static_cast<double>((d - right) / adjacent)));
+            const Fine d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
+                       adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
+            off = std::max(off, 1.01 * std::abs(as_double((d - right) / adjacent)));
         }
     }
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
     const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
-    // and two roundings of an angle below pi/2, or below pi
+    // the last term: two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;
     return shape;

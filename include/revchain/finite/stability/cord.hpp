@@ -12,17 +12,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);  // finite/stability/stability.hpp
+Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);
 
-/// A shape of a cord along its arc, from the lower end: lengths over any one unit, weights over any one.
+/// A shape of a cord along its arc, from the lower end, in any units of length and weight.
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;   ///< arcs between which inclination and tension are smooth, ascending
-    std::vector<double> pieces;  ///< and those between which the density is; none where it is uniform
-    std::function<std::array<double, 2>(double)> at;      ///< arc to inclination and lambda times the tension
+    std::vector<double> steps;                            ///< ascending; inclination and tension are smooth between
+    std::vector<double> pieces;                           ///< the same of the density; empty if it is uniform
+    std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
     std::function<double(double)> density, weight_below;  ///< of the arc
-    bool is_held = false;                                 ///< the lower end, too, on the axis
+    bool is_held = false;                                 ///< the lower end too
 };
 
 inline CordProfile profile_of(const CordShape& shape) {
@@ -52,21 +52,22 @@ inline CordProfile profile_of(const HeldCordShape& shape) {
     return profile;
 }
 
-/// A cord disturbed from a shape: its tangent turns by a in the plane of the shape and by b out of it. With the offsets
-/// xi, eta, zeta (across the axis in the plane, out of the plane, along the axis) from the support down,
-///     xi' = -a cos(psi),   zeta' = -a sin(psi),   eta' = b    (' by sigma, psi the inclination),
-/// the Lagrangian of second order in the turning frame, times in 1/n, T lambda times the tension, is
+/// A cord disturbed from a shape: its tangent turns by a in the plane of the shape and by b out of
+/// it. The displacements xi, eta, zeta (across the axis in the plane, out of the plane, along the
+/// axis) satisfy from the support down
+///     xi' = -a cos(psi),   zeta' = -a sin(psi),   eta' = b    (' by sigma, psi the inclination).
+/// With times in 1/n and T lambda times the tension, the Lagrangian of second order in the turning
+/// frame is
 ///     1/2 sum of m (xi'^2 + eta'^2 + zeta'^2) + m (xi eta' - eta xi') + 1/2 m (xi^2 + eta^2)
 ///     - 1/2 integral of T (a^2 + b^2)    (here ' by time).
-/// A lower end that is held allows those a and b only that leave it where it is.
-/// a and b are polynomials on panels, given at the nodes of Gauss's rule, and need not be continuous, as no derivative
-/// of them occurs: a chain of links is the case of one node a panel. Integrals by Gauss's rule, on panels and, where
-/// the density is in pieces, on each piece of a panel: next to a free end it may go like a power of the arc. The order
-/// is twice the number of nodes where the shape is smooth.
+/// A held lower end must not move. On panels a and b are polynomials, given at the nodes of Gauss's
+/// rule; they need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
+/// rule on panels, or on each piece of the density in a panel, since near a free end it may be a
+/// power of the arc. The order is twice the number of nodes for smooth shapes.
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)
-        : shape_(shape), nodes_(nodes), rule_(revchain::detail::gauss_rule(nodes)) {
+        : shape_(shape), nodes_(nodes), rule_(detail::gauss_rule(nodes)) {
         const std::vector<double> ends = panel_ends();
         const auto panels = static_cast<Index>(ends.size()) - 1, n = panels * nodes;
         for (Vector<double>* v : {&wide_, &cosine_, &sine_}) v->resize(n);
@@ -77,9 +78,9 @@ class DisturbedCord {
     Disturbed disturbed() const {
         Disturbed d;
         const Index n = wide_.size(), m = static_cast<Index>(points_.size());
-        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // so that the basis is orthonormal
+        const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // orthonormal basis
         Matrix<double> value = Matrix<double>::Zero(m, n);
-        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integral from a point to the support; last: all
+        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: all
         Vector<double> mass(m + 1), length(m + 1), tension(m);
         for (Index i = 0; i < m; ++i) {
             const Point& point = points_[static_cast<std::size_t>(i)];
@@ -117,7 +118,7 @@ class DisturbedCord {
     }
 
    private:
-    /// Where panels meet: at steps of the path, those left out along which the cord hardly turns.
+    /// Ends of panels: at steps of the path, except those along which the cord hardly turns.
     std::vector<double> panel_ends() const {
         const double length = shape_.length, longest = length / (2 * shape_.half_waves + 2);
         std::vector<double> ends{0};
@@ -138,7 +139,7 @@ class DisturbedCord {
         add_jumps(ends);
         return ends;
     }
-    /// Panels meet, too, where the density jumps; not where it jumps so often that the unknowns would be too many.
+    /// Adds the jumps of the density, unless there would be too many unknowns.
     void add_jumps(std::vector<double>& ends) const {
         constexpr std::size_t most = 16;
         std::vector<double> jumps;
@@ -156,7 +157,7 @@ class DisturbedCord {
         ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
         std::sort(ends.begin(), ends.end());
     }
-    /// The Lagrange polynomials of the nodes at a place of a panel, which reaches from 0 to 1.
+    /// The Lagrange polynomials of the nodes at x, 0 ... 1 over a panel.
     Vector<double> lagrange(double x) const {
         Vector<double> values = Vector<double>::Ones(nodes_);
         for (Index j = 0; j < nodes_; ++j)
@@ -164,7 +165,6 @@ class DisturbedCord {
                 if (k != j) values[j] *= (x - node(k)) / (node(j) - node(k));
         return values;
     }
-    /// Their integrals from there to 1.
     Vector<double> integrals(double x) const {
         Vector<double> sum = Vector<double>::Zero(nodes_);
         for (const auto& [t, weight] : rule_) sum += weight * (1 - x) * lagrange(x + (1 - x) * t);
@@ -184,14 +184,14 @@ class DisturbedCord {
             if (end > from + narrow() && end < high - narrow()) add_points(panel, low, high, from, end), from = end;
         add_points(panel, low, high, from, high);
     }
-    /// Points between two places of a panel; they have the weight of what is between, however the density varies.
+    /// Points in a part of a panel, with the exact weight of that part.
     void add_points(Index panel, double low, double high, double from, double to) {
         const std::size_t first = points_.size();
         double sum = 0;
         for (const auto& [t, weight] : rule_) {
             const double arc = from + (to - from) * t, wide = weight * (to - from);
-            points_.push_back({panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc),
-                               shape_.at(arc)[1]});
+            points_.push_back(
+                {panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc), shape_.at(arc)[1]});
             sum += points_.back().mass;
         }
         const double whole = shape_.weight_below(to) - shape_.weight_below(from);
@@ -212,17 +212,17 @@ class DisturbedCord {
     std::vector<Point> points_;            // at which integrals are taken
 };
 
-/// What two discretisations agree on.
+/// The result on which two discretisations agree.
 template <class Shape>
 Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     if (!(std::abs(shape.length - cord.length()) <= 1e-14 * cord.length()))
-        revchain::detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
+        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
     const CordProfile profile = profile_of(shape);
     const auto found = [&](int nodes) {
         return judged(frame, DisturbedCord(profile, nodes).disturbed(), ChainUnits{});
     };
     const Stability coarse = found(8);
-    revchain::detail::look();
+    detail::look();
     Stability result = found(10);
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
@@ -233,15 +233,14 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
                                                                      : Verdict::undecided;
     }
     if (result.negative_directions != coarse.negative_directions) result.verdict = Verdict::undecided;
-    // The slowest, up to the first that either discretisation has without the other.
+    // the slowest exponents, up to the first that only one discretisation has
     const auto unconfirmed = [](const Stability& of, const Stability& by) {
         double slowest = std::numeric_limits<double>::infinity();
         for (const std::complex<double>& s : of.exponents) {
             const auto alike = [&](const std::complex<double>& x) {
                 return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
             };
-            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike))
-                slowest = std::min(slowest, std::abs(s));
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike)) slowest = std::min(slowest, std::abs(s));
         }
         return slowest;
     };

@@ -13,7 +13,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-// Eigen's solvers call these two for every scalar.
 inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
 inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
@@ -21,32 +20,30 @@ inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Directions at right angles to the columns of a matrix.
+/// An orthonormal basis of the complement of the columns.
 template <class S>
 Matrix<S> beside(const Matrix<S>& columns) {
     const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
     return whole.rightCols(columns.rows() - columns.cols());
 }
 
-/// X'AX
 template <class S>
 Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));
 }
 
-/// A shape as its links, their inclinations, lambda times the pull along each, the offset of the upper end; and what
-/// links turn with about their own axes.
+/// A shape as its links, their inclinations and lambda times the pulls along them.
 struct PulledLinks {
-    std::vector<Link<Wide<double>>> links;
+    std::vector<Link<Fine>> links;
     std::vector<double> inclination, pull;
-    std::vector<double> doubt;  // the error of a pull over that of rounding
+    std::vector<double> doubt;  // errors of pulls over rounding
     double upper_offset = 0;
-    std::vector<double> momentum, axial;  // lambda n times that along the axis, and the moment of inertia about it
-    double stiffness = std::numeric_limits<double>::infinity();  // lambda times that of the support
+    std::vector<double> momentum, axial;                         // of flywheels: lambda n times momentum, inertia
+    double stiffness = std::numeric_limits<double>::infinity();  // lambda times the support's
     double carriage = 0;
-    double lower_stiffness = std::numeric_limits<double>::infinity();  // of the lower end, if that is held
+    double lower_stiffness = std::numeric_limits<double>::infinity();  // of a held lower end
     double lower_carriage = 0;
-    bool held = false;         // the lower end, too
+    bool held = false;         // the lower end too
     bool turns_freely = true;  // no torque about the axis
     ChainUnits units;
 
@@ -59,11 +56,10 @@ struct PulledLinks {
     }
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
-    /// Adds a link; one that meets the last in a pin without mass or load stays in line with it, and is one with it.
-    void add(const Link<Wide<double>>& link, double delta, double pulled, double off, double turning = 0,
-             double about = 0) {
+    /// Adds a link, or merges it with the last if they are in line and their pin has no mass.
+    void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0, double about = 0) {
         if (!links.empty()) {
-            Link<Wide<double>>& below = links.back();
+            Link<Fine>& below = links.back();
             const bool massless =
                 is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
             const bool plain = turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
@@ -82,28 +78,28 @@ struct PulledLinks {
 /// Links disturbed from a shape by angles q in its plane and angles b out of it, time in 1/n:
 ///     A q'' - 2 B b' + (diag(a P) - X'MX) q = 0,
 ///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY,
-/// P lambda times the pull along each link, M the masses of the pins, X q and Z q their motions across and along the
-/// axis, Y b those out of the plane, A = X'MX + Z'MZ, B = X'MY - diag(p)/2, p lambda n times the angular momentum that
-/// a link keeps about its own axis. As all pins below a link move with it, X = U diag(a cos), Y = U diag(a), U upper
-/// triangular of ones, and G = U'MU is known link by link without a difference. A support that yields moves by the
-/// last q and the last b, lengths: to both stiffnesses it adds lambda E, to M its carriage. So does a lower end on a
-/// spring, by the motion of the lowest pin.
-/// Each angle is in a unit in which its stiffness and mass are about 1, so that light links count as much as heavy
-/// ones.
-/// Damping adds rates of dissipation: F q', H b' at the pins, drag in proportion to length and velocity in space.
+/// P lambda times the pull along each link, M the masses of the pins, X q and Z q their motions
+/// across and along the axis, Y b those out of the plane, A = X'MX + Z'MZ, B = X'MY - diag(p)/2, p
+/// lambda n times the angular momentum of a link about its own axis. A link moves all pins below
+/// it: X = U diag(a cos), Y = U diag(a), U upper triangular of ones, and G = U'MU is computed link
+/// by link without cancellation. A support that yields moves by the last q and b, which are
+/// lengths: it adds lambda E to both stiffnesses and its carriage to M. So does a lower end on a
+/// spring, by the motion of the lowest pin. Angles are scaled so that stiffness and mass are about
+/// 1, for light links too. Damping adds rates of dissipation: F q', H b' at the pins, drag by
+/// length and velocity.
 template <class S>
 struct DisturbedIn {
     Matrix<S> inertia, coupling, mass;  // A, B, N
     Matrix<S> in_plane, out_of_plane;   // both stiffnesses times lambda
-    Matrix<S> turned;                   // what is less of the first where links turn with the plane
+    Matrix<S> turned;                   // decrease of `in_plane` if links turn with the plane
     Matrix<S> bending, swivelling;      // F, H
     Matrix<S> drag_in_plane, drag_coupling, drag_across;
-    Matrix<S> ends;                // how the lower end moves with q, across the axis and along it
-    Vector<S> lower_end;           // how it moves with b
-    Vector<S> stiffness;           // lambda times that of links and support, against q as against b
-    Vector<S> offset;              // the shape: out of plane, a rotation
-    std::vector<Index> massless;   // pins that move no mass, lowest first
-    double doubt = 0;              // the largest error of a stiffness over that of rounding
+    Matrix<S> ends;               // how the lower end moves with q, across the axis and along it
+    Vector<S> lower_end;          // how it moves with b
+    Vector<S> stiffness;          // lambda times that of links and support, against q as against b
+    Vector<S> offset;             // the shape: out of plane, a rotation
+    std::vector<Index> massless;  // pins without mass, lowest first
+    double doubt = 0;             // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
 
     DisturbedIn() = default;
@@ -111,23 +107,21 @@ struct DisturbedIn {
         using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        const auto link = [&](Index m) -> const Link<Wide<double>>& {
-            return shape.links[static_cast<std::size_t>(m)];
-        };
+        const auto link = [&](Index m) -> const Link<Fine>& { return shape.links[static_cast<std::size_t>(m)]; };
         const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
         Matrix<S> G(pins, pins), length(pins, pins);
-        Wide<double> below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
-        for (Index m = 0; m < pins; ++m) {  // symmetric sums of masses, and of a third and a sixth of lengths
+        Fine below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
+        for (Index m = 0; m < pins; ++m) {  // sums of masses, and of a third and a half of lengths
             const bool is_link = m < n;
-            const Wide<double> zero(0.0), a = is_link ? link(m).length : zero;
-            const Wide<double> own = is_link ? link(m).moment - link(m).cross : Wide<double>(shape.carriage);
-            const auto fill = [m](Matrix<S>& of, const Wide<double>& self, const Wide<double>& others) {
+            const Fine zero(0.0), a = is_link ? link(m).length : zero;
+            const Fine own = is_link ? link(m).moment - link(m).cross : Fine(shape.carriage);
+            const auto fill = [m](Matrix<S>& of, const Fine& self, const Fine& others) {
                 of(m, m) = S(self);
                 of.row(m).tail(of.cols() - m - 1).setConstant(S(others));
                 of.col(m).tail(of.cols() - m - 1).setConstant(S(others));
             };
             fill(G, below + own, is_link ? below + link(m).moment : zero);
-            fill(length, long_below + a / Wide<double>(3.0), long_below + a / Wide<double>(2.0));
+            fill(length, long_below + a / Fine(3.0), long_below + a / Fine(2.0));
             if (is_link) below = below + link(m).moment + link(m).rest, long_below = long_below + a;
         }
         Vector<S> x(pins), y(pins), z(pins), turning = Vector<S>::Zero(pins), unit(pins);
@@ -145,7 +139,7 @@ struct DisturbedIn {
             x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
             const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
             const S lever = is_link ? S(link(m).length) : S(1);
-            doubt = std::max(doubt, static_cast<double>(lever * S(off) * unit[m] * unit[m]));
+            doubt = std::max(doubt, as_double(lever * S(off) * unit[m] * unit[m]));
             if (!is_link) continue;
             turned(m, m) = S(at(shape.axial, m)) * s * s * unit[m] * unit[m];
             turning[m] = S(at(shape.momentum, m)) * unit[m] * unit[m] / S(2);
@@ -182,15 +176,14 @@ struct DisturbedIn {
         }
     }
 
-    /// Leaves of q the columns of Q and of b those of Y.
+    /// Restricts q to the columns of Q and b to those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
         for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) *of = within(*of, Q);
-        for (Matrix<S>* of : {&coupling, &drag_coupling})
-            *of = pencil::transposed_product(Q, pencil::product(*of, Y));
+        for (Matrix<S>* of : {&coupling, &drag_coupling}) *of = pencil::transposed_product(Q, pencil::product(*of, Y));
         for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across}) *of = within(*of, Y);
     }
 
-    /// Leaves angles that keep the lower end where it is; on a spring it moves across the axis.
+    /// Keeps the lower end fixed; on a spring it may move across the axis.
     void hold_lower_end(bool yields) {
         const Index count = offset.size();
         if (yields) return keep(beside(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
@@ -199,12 +192,10 @@ struct DisturbedIn {
         offset = (held.transpose() * offset).eval();
     }
 
-    /// Leaves out the upper end of a support that yields, where that carries no mass: its spring and the top link turn
-    /// in proportion, as springs in series.
+    /// Eliminates a yielding upper end without mass: spring and top link are in series.
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
-        // both move the pins below alike
         kept(top, top - 1) = stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
         keep(Matrix<S>::Identity(top + 1, top + 1), kept);
         offset = offset.head(top).eval();
@@ -212,9 +203,9 @@ struct DisturbedIn {
     }
 
    private:
-    /// Twice the dissipation of unit damping at the pins by angles b out of the plane. A link turns across itself at
-    /// b; about itself it turns so that least is dissipated, unless it has a moment of inertia there, as does a
-    /// support without torque about the axis: what rotation dissipates is 0.
+    /// Twice the dissipation of unit damping at the pins by angles b. A link turns across itself at
+    /// b, and about itself to dissipate least, unless it has a moment of inertia there; so does a
+    /// support without torque about the axis. A rotation dissipates nothing.
     static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index joints = n + shape.held;

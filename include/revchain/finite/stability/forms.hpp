@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/finite/balance/links.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The signs of the energy's second variation, in the plane and out of it, by matrices of so many links whose units are
-/// alike: negative directions, whether every direction is positive, and whether no sign is within rounding.
+/// Signs of the second variation of the energy, in and out of the plane: number of negative
+/// directions, whether all are positive, whether all are certain despite rounding.
 struct EnergySigns {
     Index negative;
     bool is_minimum, is_certain;
@@ -15,12 +16,11 @@ inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<dou
     const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
     const double stiffness =
         std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
-    const double rounding = 1e-14 * static_cast<double>(links) * stiffness,
-                 least = std::min(inside.least, outside.least);
+    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
     return {inside.negative + outside.negative, least > rounding, least < -rounding};
 }
 
-/// p'A q of complex vectors, given by their parts, without a conjugate.
+/// p'A q of complex vectors, without conjugation.
 template <class S>
 std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
                          Index j) {
@@ -30,14 +30,18 @@ std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A,
 }
 template <class S>
 double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
-    return std::abs(static_cast<double>(q.real.col(j).dot(A * q.real.col(j)) + q.imag.col(j).dot(A * q.imag.col(j))));
+    const S real = q.real.col(j).dot(A * q.real.col(j)), imag = q.imag.col(j).dot(A * q.imag.col(j));
+    return std::abs(as_double(real + imag));
+}
+template <class S>
+double squared_norm(const pencil::ComplexColumns<S>& q, Index j) {
+    return as_double(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
 }
 template <class S>
 std::complex<double> rounded(const std::complex<S>& x) {
-    return {static_cast<double>(x.real()), static_cast<double>(x.imag())};
+    return {as_double(x.real()), as_double(x.imag())};
 }
 
-/// The error of s where that of s^2 is known.
 inline double error_of_root(double square, double error) {
     return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
 }

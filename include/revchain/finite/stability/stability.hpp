@@ -13,18 +13,18 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace finite {
 
-/// A verdict, and whether an exponent has lost digits: by estimate more than 5e-11 of the largest, or 5e-9 where it is
-/// about 1; more in proportion where there are more than 16 unknowns, as rounding in the eigenvalue solver grows.
-/// Estimates are mostly some thousand times what is lost; where two motions are nearly alike, as those of a light link
-/// in the plane and out of it, up to forty times more is lost (tests/python/test_light_links.py).
+/// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
+/// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
+/// 1000 times the error; for almost equal motions, as of a light link in and out of the plane, up
+/// to 40 times less (tests/python/test_light_links.py).
 struct Judgement {
     Stability stability;
     bool is_spoilt = false;
 };
 
-/// The verdict by squares of exponents and their errors. One grows if its distance from the negative numbers exceeds
-/// its error. One whose square is negative and farther than the errors from every other stays imaginary, as squares
-/// leave the real numbers in pairs; those of a symmetric matrix do not leave them.
+/// The verdict from squares of exponents and their errors. A square farther from the negative
+/// numbers than its error is unstable. A negative square separated from all others stays imaginary:
+/// squares leave the real axis in pairs, and those of a symmetric matrix never.
 inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
                           bool is_symmetric) {
     bool still = true;
@@ -38,12 +38,12 @@ inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const
     return still ? Verdict::spectrally_stable : Verdict::undecided;
 }
 
-/// The verdict on a disturbed shape of so many links. To first order damping c (F, H) changes an exponent by
+/// The verdict on a disturbed shape. To first order damping c (F, H) changes an exponent by
 ///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'N Y - 2 q'B Y)),    Y = s b,
-/// since (q, -b) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
-/// In the same way changes of the matrices move s^2. What is left of q'(...) - b'(...) of a mode, and the rounding of
-/// its terms, give an error of s^2 besides that of the eigenvalue solver; relative changes of masses and pulls give
-/// that by the shape as given. Nothing where rounding leaves a mass matrix indefinite.
+/// since (q, -b) is the left mode; drag in space adds -2 q'X'E Y to the numerator, X'E the
+/// `drag_coupling`. Changes of the matrices move s^2 alike. The error of s^2 adds the residual of a
+/// mode and its rounding, the error of the eigenvalue solver, and the effect of relative errors of
+/// masses and pulls. None if rounding leaves a mass matrix indefinite.
 template <class S>
 std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d, const ChainUnits& units) {
     using std::sqrt;
@@ -55,7 +55,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     Matrix<S> beside_shape = others;
     if (rotates) {
         const Vector<S> momentum = d.mass * d.offset;
-        others = beside(Matrix<S>(momentum));  // angles at right angles to the rotation, in the masses
+        others = beside(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
         beside_shape = beside(Matrix<S>(d.offset));
         turning = sqrt(S(d.offset.dot(momentum)));
         b = d.coupling * d.offset / turning;
@@ -68,22 +68,22 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     const auto found = pencil::mirrored_modes(forms);
     if (!found) return std::nullopt;
     const pencil::MirroredModes<S>& modes = *found;
-    const pencil::ComplexColumns<S>&q = modes.x, &others_of_y = modes.y;
+    const pencil::ComplexColumns<S>&q = modes.x, &r = modes.y;
 
     Judgement judgement;
     Stability& result = judgement.stability;
     result.frame = frame;
     const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
                  air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
-    pencil::ComplexColumns<S> Y{pencil::product(others, others_of_y.real), pencil::product(others, others_of_y.imag)};
+    pencil::ComplexColumns<S> Y{pencil::product(others, r.real), pencil::product(others, r.imag)};
     for (Index j = 0; rotates && j < modes.square.size(); ++j) {
         const S twice = S(2) / turning;
         Y.real.col(j) -= (twice * b.dot(q.real.col(j))) * d.offset;
         Y.imag.col(j) -= (twice * b.dot(q.imag.col(j))) * d.offset;
     }
-    const auto size = [](const Matrix<S>& A) { return static_cast<double>(A.norm()); };
-    const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M), in_K = size(forms.K),
-                 in_C = size(forms.C);
+    const auto size = [](const Matrix<S>& A) { return as_double(A.norm()); };
+    const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M);
+    const double in_K = size(forms.K), in_C = size(forms.C), rounding = as_double(std::numeric_limits<S>::epsilon());
     std::vector<std::complex<double>> square;
     std::vector<double> error;
     struct Mode {
@@ -92,64 +92,59 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     };
     std::vector<Mode> list;
     for (Index j = 0; j < modes.square.size(); ++j) {
-        const std::complex<S> of = modes.square[j];
-        const auto form = [&](const Matrix<S>& A, const Matrix<S>& M) {
-            return of * bilinear(q, A, q, j) - bilinear(Y, M, Y, j);
+        const std::complex<S> of = modes.square[j], two(S(2));
+        const auto form = [&](const Matrix<S>& A, const Matrix<S>& B, const Matrix<S>& M) {
+            return of * bilinear(q, A, q, j) - two * bilinear(q, B, Y, j) - bilinear(Y, M, Y, j);
         };
-        const std::complex<S> two(S(2));
-        const std::complex<double> norm =
-            rounded(two * (form(d.inertia, d.mass) - two * bilinear(q, d.coupling, Y, j)));
-        const std::complex<double> inner = rounded(form(d.bending, d.swivelling)) / norm;
-        const std::complex<double> outer =
-            rounded(form(d.drag_in_plane, d.drag_across) - two * bilinear(q, d.drag_coupling, Y, j)) / norm;
+        const std::complex<double> norm = rounded(two * form(d.inertia, d.coupling, d.mass));
+        const std::complex<double> turned =
+            rounded(of * bilinear(q, d.bending, q, j) - bilinear(Y, d.swivelling, Y, j));
+        const double inner = -pins * (turned / norm).real();
+        const std::complex<double> dragged = rounded(form(d.drag_in_plane, d.drag_coupling, d.drag_across));
+        const double outer = -air * (dragged / norm).real();
 
         const std::complex<double> s2 = rounded(of);
         const double far = std::abs(s2);
-        const auto sizes = [&](double A, double B, double M, double K, double C, double x, double y) {
-            return far * A * x + K * x + 4 * B * std::sqrt(x * y) + M * y + (far > 0 ? C * y / far : 0.0);
+        const auto total = [&](double A, double B, double M, double K, double C) {
+            return far * A + K + 4 * B + M + (far > 0 ? C / far : 0.0);
         };
         const std::complex<S> left = of * bilinear(q, forms.A, q, j) + bilinear(q, forms.K, q, j) -
-                                     two * two * bilinear(q, forms.B, others_of_y, j) -
-                                     bilinear(others_of_y, forms.M, others_of_y, j) -
-                                     bilinear(others_of_y, forms.C, others_of_y, j) / of;
-        const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
-        const double x = static_cast<double>(q.real.col(j).squaredNorm() + q.imag.col(j).squaredNorm());
-        const double y =
-            static_cast<double>(others_of_y.real.col(j).squaredNorm() + others_of_y.imag.col(j).squaredNorm());
-        const double to_square = 2 * far / std::abs(norm);
-        const double alpha = hermitian(q, forms.A, j), mu = hermitian(others_of_y, forms.M, j),
-                     kappa = d.doubt * x + alpha, gamma = d.doubt * y + mu;
+                                     two * two * bilinear(q, forms.B, r, j) - bilinear(r, forms.M, r, j) -
+                                     bilinear(r, forms.C, r, j) / of;
+        const double x = squared_norm(q, j), y = squared_norm(r, j);
+        const double alpha = hermitian(q, forms.A, j), mu = hermitian(r, forms.M, j);
+        const double given = total(alpha, std::sqrt(alpha * mu), mu, d.doubt * x + alpha, d.doubt * y + mu);
+        const double computed = total(in_A * x, in_B * std::sqrt(x * y), in_M * y, in_K * x, in_C * y);
         const double missing = far > 0 ? std::abs(rounded(left)) : 0.0;
-        square.push_back(s2);
-        const double given = far * alpha + kappa + 4 * std::sqrt(alpha * mu) + mu + (far > 0 ? gamma / far : 0.0);
+        const double changed = missing + 4 * 0x1p-52 * given + rounding * computed;
         constexpr double safety = 100;
-        error.push_back(safety * (modes.error[j] + to_square * (missing + 4 * 0x1p-52 * given +
-                                                                rounding * sizes(in_A, in_B, in_M, in_K, in_C, x, y))));
+        square.push_back(s2);
+        error.push_back(safety * (modes.error[j] + 2 * far / std::abs(norm) * changed));
         const std::complex<double> s = std::sqrt(s2);
         const double off = error_of_root(far, error.back());
-        list.push_back({s, -pins * inner.real(), -air * outer.real(), off});
-        list.push_back({0.0 - s, -pins * inner.real(), -air * outer.real(), off});
+        for (const std::complex<double>& each : {s, 0.0 - s}) list.push_back({each, inner, outer, off});
         result.growth_rate = std::max(result.growth_rate, std::abs(s.real()));
         result.margin = std::max(result.margin, off);
     }
     double largest = 0;
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
-        for (std::size_t k = 0; k < square.size(); ++k)  // two that cannot be told from one another have no mode each
-            if (k != j && std::abs(square[j] - square[k]) <=
-                              1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]))
-                for (const std::size_t i : {2 * j, 2 * j + 1})
-                    list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t k = 0; k < square.size(); ++k)  // equal ones have no mode each
+        {
+            const double near = 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]);
+            if (k == j || !(std::abs(square[j] - square[k]) <= near)) continue;
+            for (const std::size_t i : {2 * j, 2 * j + 1})
+                list[i].internal = list[i].external = std::numeric_limits<double>::quiet_NaN();
+        }
     }
-    const double lost = 5e-11 * std::max(1.0, static_cast<double>(square.size()) / 16);
+    const double lost = 5e-11 * std::max(1.0, as_double(square.size()) / 16);
     for (std::size_t j = 0; j < square.size(); ++j) {
         const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
     }
-    std::sort(list.begin(), list.end(), [](const Mode& x, const Mode& z) {
-        const auto &s = x.exponent, &t = z.exponent;
-        return s.imag() != t.imag() ? s.imag() < t.imag() : s.real() < t.real();
-    });
+    const auto parts = [](const Mode& x) { return std::pair(x.exponent.imag(), x.exponent.real()); };
+    const auto before = [&](const Mode& x, const Mode& y) { return parts(x) < parts(y); };
+    std::sort(list.begin(), list.end(), before);
     for (const Mode& mode : list) {
         result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
         result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
@@ -171,14 +166,13 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const
     return found ? found->stability : Stability();
 }
 
-/// lambda times the pull along each link, and that pull's error over that of rounding.
+/// lambda times the pull along each link, and its error over rounding.
 struct Pulls {
     std::vector<double> pull, doubt;
 };
 
-/// lambda times the pull along each link of a shape, from the force (H, tau) on the lowest pin, in the given units: the
-/// load over the cosine or, where this loses the digits of a link that lies nearly level, the load resolved along the
-/// link, whose sideways part may cancel.
+/// The pulls of a shape, from the force (H, tau) on the lowest pin, in the given units: load over
+/// cosine or, for a nearly level link, the load resolved along the link.
 template <class Shape>
 Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units, double H = 0,
             double tau = 0) {
@@ -201,7 +195,7 @@ Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const Ch
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
+inline PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& shape) {
     PulledLinks result(chain.units);
     const std::vector<Link<double>> links = rounded<double>(chain.links);
     const auto [pull, doubt] = pulls(links, shape, chain.units);
@@ -210,7 +204,7 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadySh
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShape& shape) {
+inline PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape) {
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
@@ -231,20 +225,20 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
 /// Throws InvalidArgument unless a shape has the links of a chain.
 template <class Shape>
 void require_shape_of(const Chain<double>& chain, const Shape& shape) {
-    if (shape.inclination.size() != chain.size())
-        revchain::detail::throw_invalid("stability", "the shape is not of this chain; its links number",
-                                        shape.inclination.size());
+    const Index size = shape.inclination.size();
+    if (size != chain.size())
+        detail::throw_invalid("stability", "the shape is not of this chain; its links number", size);
     const double rounding = 1e-12 * (chain.total_length() + std::abs(shape.offset[chain.size()]));
     for (Index m = 0; m < chain.size(); ++m) {
-        const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
-        if (!(std::abs(length - chain.length()[m]) <= rounding))
-            revchain::detail::throw_invalid(
-                "stability", "the shape is not of this chain; in it links[" + std::to_string(m) + "] is as long as",
-                length);
+        const double across = shape.offset[m] - shape.offset[m + 1], along = shape.height[m] - shape.height[m + 1];
+        const double length = std::hypot(across, along);
+        if (std::abs(length - chain.length()[m]) <= rounding) continue;
+        const std::string link = "links[" + std::to_string(m) + "]";
+        detail::throw_invalid("stability", "the shape is not of this chain; in it " + link + " is as long as", length);
     }
 }
 
-/// Links disturbed, with what their ends allow.
+/// Disturbed links with the constraints of their ends.
 template <class S>
 DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     DisturbedIn<S> d(links);
@@ -253,21 +247,21 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     return d;
 }
 
-/// Throws InvalidArgument where a pin that moves has no mass, but for an upper end that its spring balances.
+/// Throws InvalidArgument if a moving pin has no mass, but for a balanced upper end.
 inline void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
     const auto top = static_cast<Index>(links.links.size());
     for (const Index pin : d.massless)
         if (pin > 0 ? pin < top : !links.held || links.lower_yields())
-            revchain::detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
+            detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
     if (links.top_is_massless() && links.momentum.back() != 0)
-        revchain::detail::throw_invalid(
-            place, "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
+        detail::throw_invalid(place,
+                              "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
 }
 
-/// The verdict on a shape: in double and, where rounding spoils that, in twice the digits.
+/// The verdict on a shape, in double or, if rounding spoils that, in double-double.
 REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links) {
-    constexpr Index most_in_words = 100;  ///< unknowns: half a second
+    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
     if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
@@ -278,29 +272,34 @@ REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links)
     auto found = judged_in(frame, d, links.units);
     if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
         if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
-    if (!found)
-        revchain::detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
+    if (!found) detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
     return found->stability;
+}
+template <class Shape>
+Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape) {
+    require_shape_of(chain, shape);
+    return judged(frame, pulled_links(links_of(chain), shape));
 }
 
 }  // namespace finite
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    return finite::judged(frame, links);
+    return finite::judged(frame, chain, shape);
+}
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+    return finite::judged(frame, chain, shape);
 }
 
 namespace finite {
 
-/// The shape of a rig. A link's momentum p about its own axis adds p/a to the pull along it.
+/// The shape of a rig. Momentum p of a link about its own axis adds p/a to the pull.
 inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
     result.turns_freely = given.support.symmetric;
     if (!given.support.firm) {
-        result.stiffness = static_cast<double>(given.support.stiffness);
-        result.carriage = static_cast<double>(given.support.carriage);
+        result.stiffness = as_double(given.support.stiffness);
+        result.carriage = as_double(given.support.carriage);
     }
     const std::vector<Link<double>> links = rounded<double>(given.links);
     const auto [pull, doubt] = pulls(links, shape, given.units);
@@ -308,10 +307,10 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
         const auto i = static_cast<std::size_t>(m);
         const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
         const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
-        Link<Wide<double>> link = given.links[i];
-        // as a body: what turns with it lessened what it resists turning with
-        link.cross = given.given[i].cross - Wide<double>(about) / (link.length * given.given[i].length);
-        const double kept = height * static_cast<double>(given.speed * given.given[i].spin), a = links[i].length;
+        Link<Fine> link = given.links[i];
+        // as a body: inertia that turns with it had lessened its resistance
+        link.cross = given.given[i].cross - Fine(about) / (link.length * given.given[i].length);
+        const double kept = height * as_double(given.speed * given.given[i].spin), a = links[i].length;
         result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
     }
     result.upper_offset = in_lengths(shape.offset[rig.size()]);
@@ -324,8 +323,8 @@ inline bool displaces_turning_fluid(const Rig& rig) {
     return false;
 }
 
-/// The verdict where the kinetic energy is not known, but for that it is positive and that 0 is rest in the turning
-/// frame: a shape whose potential energy there is least, but for a rotation, is stable; of any other nothing is known.
+/// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
+/// shape with minimal potential energy, but for a rotation, is stable.
 REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;
     Matrix<double> in_plane = d.in_plane, across(0, 0);
@@ -350,12 +349,6 @@ REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed
 
 }  // namespace finite
 
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    finite::require_shape_of(chain, shape);
-    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
-    return finite::judged(frame, links);
-}
-
 REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
@@ -369,8 +362,7 @@ REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, co
     const finite::RiggedLinks given = finite::rigged_links(rig, height, forward ? speed : -speed);
     const finite::PulledLinks links =
         finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
-    if (finite::displaces_turning_fluid(rig))
-        return finite::judged_by_energy(options.frame, finite::Disturbed(links));
+    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, finite::Disturbed(links));
     return finite::judged(options.frame, links);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/branch/shape_at.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/stability_windows.hpp"
@@ -11,13 +10,11 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-/// The verdict at one place of a branch.
 struct JudgedPlace {
     double arc, height;
     Verdict verdict;
 };
 
-/// The verdict on a shape of a system, turning as its branch does.
 inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
     return stability(chain, shape, frame).verdict;
 }
@@ -27,17 +24,17 @@ inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShap
     return stability(rig, shape, options).verdict;
 }
 
-/// Judges a branch at an arc beyond point `index` and not beyond the next.
+/// The verdict at an arc after point `index`, at most that of the next.
 template <class System>
 JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector, std::size_t index, double arc,
                       StabilityFrame frame) {
-    revchain::detail::look();
+    detail::look();
     const BranchTrace& trace = trace_of(branch);
     const BranchPoint& from = trace.points[index];
     std::optional<BranchPoint> point;
     if (arc > from.arc) point = corrector.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
     const BranchPoint& here = point ? *point : from;
-    if (const auto shape = shape_at(*trace.system, here.state, GivenPlace<Wide<double>>(here)))
+    if (const auto shape = shape_at(*trace.system, here.state, GivenPlace(here)))
         return {arc, shape->conical_height, verdict_on(system, branch, *shape, frame)};
     const double height = std::ldexp(std::exp(here.state.log_height), trace.system->units.length_exponent);
     return {arc, height, Verdict::undecided};
@@ -47,16 +44,16 @@ template <class System>
 std::vector<StabilityWindow> windows_of(const System& system, const Branch& branch,
                                         const StabilityWindowsOptions& options) {
     constexpr std::string_view place = "stability_windows";
-    revchain::detail::require_positive(place, "tolerance", options.tolerance);
-    if (options.samples < 1) revchain::detail::throw_invalid(place, "samples must be at least 1", options.samples);
+    detail::require_positive(place, "tolerance", options.tolerance);
+    if (options.samples < 1) detail::throw_invalid(place, "samples must be at least 1", options.samples);
     constexpr bool is_rig = std::is_same_v<System, Rig>;
     const BranchTrace& trace = trace_of(branch);
     if (trace.system && (trace.system->rig.has_value() != is_rig ||
                          trace.system->links.bodies() != static_cast<std::size_t>(system.size())))
-        revchain::detail::throw_invalid(place,
-                                        is_rig ? "the branch is not of this rig; its links number"
-                                               : "the branch is not of this chain; its links number",
-                                        trace.system->links.bodies());
+        detail::throw_invalid(place,
+                              is_rig ? "the branch is not of this rig; its links number"
+                                     : "the branch is not of this chain; its links number",
+                              trace.system->links.bodies());
     std::vector<StabilityWindow> windows;
     std::size_t first = 0;
     while (trace.onset && first < branch.size() && largest_rise(trace.points[first].state) == 0) ++first;
@@ -68,7 +65,7 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     };
     Judged last = judge(first, branch.arc[first]);
     windows.push_back({last.arc, last.arc, last.height, last.height, last.verdict});
-    // the part from `last` on to one judged, cut in two until it is short or of one verdict
+    // extends the windows to a judged point, by bisection until a part is short or of one verdict
     const auto extend = [&](std::size_t index, const Judged& to) {
         std::vector<Judged> ahead{to};
         while (!ahead.empty()) {
@@ -94,10 +91,10 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     for (std::size_t i = first; i + 1 < branch.size(); ++i) {
         const double step = branch.arc[i + 1] - branch.arc[i];
         for (int k = 1; k < options.samples; ++k) extend(i, judge(i, branch.arc[i] + step * k / options.samples));
-        // the next point, told from this one: halving stays within one step
+        // from point to point: bisection stays within one step
         extend(i, judge(i + 1, branch.arc[i + 1]));
     }
-    // between two verdicts a shape may be too near the change to be judged: within the tolerance that is the change
+    // a short undecided window between two verdicts is the change itself
     for (std::size_t i = 1; i + 1 < windows.size(); ++i) {
         StabilityWindow &before = windows[i - 1], &after = windows[i + 1];
         const StabilityWindow& change = windows[i];
