@@ -14,7 +14,6 @@
 #include "revchain/special/tip_mass.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// A mode of a uniform cord without tip weight.

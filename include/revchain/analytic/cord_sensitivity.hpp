@@ -8,7 +8,6 @@
 #include "revchain/questions/held_tension.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// d lambda / d(tension) of a cord held at both ends, from the slopes of a mode: - lambda integral of y'^2 over

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
 
 #include "revchain/numeric/double_word.hpp"

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <string>
-#include <string_view>
-
 #include "revchain/batch.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/questions/batch_workers.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 template <Real T>

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <limits>
-#include <vector>
 
 #include "revchain/linear/batch_plan.hpp"
 #include "revchain/modes.hpp"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <ios>
 #include <sstream>
-#include <string>
 #include <utility>
 
 #include "revchain/explain.hpp"
@@ -14,7 +12,6 @@
 #include "revchain/questions/mode_range.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 inline std::string bound_text(double bound) {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <limits>
-#include <optional>
 
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/models/for_modes.hpp"
@@ -13,66 +11,61 @@
 #include "revchain/system/converted.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 template <Real T>
 ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
     return chosen(
-        chain.mode_count(), options, [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
-        [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
+        chain.mode_count(), options,
+        [&](const T& height) { return assembled.counter().above_height(height); },
+        [&](const T& speed) { return assembled.counter().below_speed(speed, options.gravity); });
 }
 
 /// Room for these modes, nothing computed yet.
 template <Real T>
-Modes<T> room_for_modes(const ModeRange& range, bool certified = false) {
+Modes<T> room_for_modes(const ModeRange& range) {
     Modes<T> result;
     result.first = range.first;
     result.conical_height.resize(range.count);
     result.error_bound.resize(range.count);
-    if (certified) result.certificate = room_for_certificate<T>(range.count);
     return result;
 }
 
-/// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
-/// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
+/// Stores height number `j`, given in units of 2^exponent. The bound takes up what is lost where the
+/// height leaves the normal range of T. A bound beyond the tolerance asked is `tolerance_not_met`.
 template <Real T>
-void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent,
-                const std::optional<T>& rtol) {
-    using std::abs;
-    using std::ldexp;
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const std::optional<T>& rtol) {
+    using std::abs, std::ldexp;
     const T stored = ldexp(height, exponent);
     const T lost = abs(ldexp(stored, -exponent) - height);
-    if (lost > T(0)) bound = stored > T(0) ? bound + T(2) * (lost / height) : std::numeric_limits<T>::infinity();
+    if (lost > T(0)) bound = bound + T(2) * (lost / height);
+    if (lost > T(0) && !(stored > T(0))) bound = std::numeric_limits<T>::infinity();
     modes.conical_height[j] = stored;
     modes.error_bound[j] = bound;
     if (!(bound <= rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
 }
 
 template <Real T, Real P>
-void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_count) {
-    certify(modes.certificate, j, modes.conical_height[j], modes.error_bound[j], modes.first - 1 + j, mode_count,
-            [&](const T& lower, const T& upper) {
-                return pencils.template certified_count<2>(
-                    {pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
-            });
+void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
+    certify(modes, mode_count, [&](const T& lower, const T& upper) {
+        return pencils.template certified_count<2>(
+            {pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
+    });
 }
 
-template <Real T, Real P>
-void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
-    parallel_for(modes.size(), 1, [&](Index begin, Index end) {
-        for (Index j = begin; j < end; ++j) {
-            look();
-            certify(modes, j, pencils, mode_count);
-        }
+template <Real T>
+LazyModeShapes<T> shapes_when_read(ShapeFinder<T> finder, Index threads) {
+    return LazyModeShapes<T>([finder = std::move(finder), threads](Index first, Index count,
+                                                                   bool details, Progress* progress) {
+        const Threads used("modes", threads);
+        return finder(first, count, details, progress);
     });
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
-                                                    const models::Answer& answer) {
+inline Heights<double> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
-    std::vector<Height<double>> heights;
+    Heights<double> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
     for (Index j = 0; j < answer.conical_height.size(); ++j) {
         const Wide<double> height = answer.unrounded.empty()
@@ -83,16 +76,16 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
     return heights;
 }
 
-/// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
-/// a template, so that only a program that asks for modes compiles the models.
+/// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
+/// A template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
-models::Solution solved(const Chain<T>& chain, const ModeRange& range,
-                        const ModesOptions<T>& options) {
+models::Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
     const models::Question question = models::question_of(range, options.rtol, options.progress);
     if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
     const models::ChainKind kind(chain);
     const auto by = [&](const auto& model) {
-        return models::Solution{models::detail::answer_by(model, chain, kind, question), model.name, Status::success};
+        auto answer = models::detail::answer_by(model, chain, kind, question);
+        return models::Solution{std::move(answer), model.name, Status::success};
     };
     models::Solution found{models::Answer::none(), {}, Status::success};
     if (options.method == ModesMethod::aberth) found = by(models::Aberth{});
@@ -106,32 +99,28 @@ template <std::same_as<double> T>
 Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) {
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes<T>(range, options.certify);
+    Modes<T> result = room_for_modes<T>(range);
     result.method = "bisection";
-    if (range.count == 0) {
-        ShapesBehind::of(result) = LazyModeShapes<T>(room_for_shapes(chain, 0));
-        return result;
+    Heights<T> heights;
+    if (range.count > 0) {
+        const models::Solution found = solved(chain, range, options);
+        result.method = found.model;
+        const models::Answer& answer = found.answer;
+        for (Index j = 0; j < range.count; ++j)
+            set_height(result, j, answer.conical_height[j], answer.error_bound[j], 0, options.rtol);
+        heights = heights_in_units(chain, answer);
     }
-    models::Solution found = solved(chain, range, options);
-    result.method = found.model;
-    for (Index j = 0; j < range.count; ++j)
-        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    ShapesBehind::of(result) =
-        LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
-                           condense = options.method != ModesMethod::bisection,
-                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
-            const Threads used("modes", threads);
-            return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
-                                                                                                  progress);
-        });
-    if (options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
-    advance(options.progress, 1.0);
+    const bool condense = options.method != ModesMethod::bisection;
+    ShapesBehind::of(result) = shapes_when_read(
+        ShapeFinder<T>(chain, range.first, std::move(heights), loose, condense), options.threads);
+    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
+    if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }
 
-/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half an ulp of float to
-/// the bound. A template, so that a program without floats does not compile it.
+/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half
+/// an ulp of float to the bound. A template, so that a program without floats does not compile it.
 template <std::same_as<float> T>
 Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) {
     const double half_ulp = 0.50001 * static_cast<double>(epsilon<float>());
@@ -139,27 +128,25 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     ModesOptions<double> asked{.first = options.first, .count = options.count};
     if (options.conical_height) asked.conical_height = {options.conical_height->low, options.conical_height->high};
     if (options.angular_speed) asked.angular_speed = {options.angular_speed->low, options.angular_speed->high};
-    asked.gravity = options.gravity;
     if (options.rtol && *options.rtol > 4 * half_ulp) asked.rtol = *options.rtol - half_ulp;
-    asked.threads = options.threads;
-    asked.progress = options.progress;
-    asked.method = options.method;
+    asked.gravity = options.gravity, asked.method = options.method;
+    asked.threads = options.threads, asked.progress = options.progress;
     const Modes<double> fine = modes(wide, asked);
 
-    Modes<float> result = room_for_modes<float>(fine.range(), options.certify);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Modes<float> result = room_for_modes<float>(fine.range());
     result.method = fine.method;
     for (Index j = 0; j < fine.size(); ++j) {
-        const float height = static_cast<float>(fine.conical_height[j]);
-        const double off = std::abs(static_cast<double>(height) - fine.conical_height[j]) / fine.conical_height[j];
-        const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
-                                                                 : std::numeric_limits<double>::infinity();
-        set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),
-                   0, options.rtol);
+        const double exact = fine.conical_height[j];
+        const float height = static_cast<float>(exact);
+        const double off = std::abs(static_cast<double>(height) - exact) / exact;
+        double bound = (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15);
+        if (!(height > 0 && std::isfinite(height))) bound = std::numeric_limits<double>::infinity();
+        set_height(result, j, height, std::nextafter(static_cast<float>(bound), infinity), 0, options.rtol);
     }
-    if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
-    const Vector<float> heights = result.conical_height;
-    ShapesBehind::of(result) =
-        LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
+    if (fine.size() > 0 && options.certify) certify(result, Pencils<double>(wide), chain.mode_count());
+    ShapesBehind::of(result) = LazyModeShapes<float>(
+        [wide, fine, heights = result.conical_height](Index first, Index count, bool details, Progress* progress) {
             const ModeShapes<double> found = ShapesBehind::of(fine).some(first, count, details, progress);
             ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
             if (count == 0 || !details) return shapes;
@@ -181,21 +168,19 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
     const HeightsOptions<T> stage{options.rtol, options.progress};
-    Modes<T> result = room_for_modes<T>(range, options.certify);
+    Modes<T> result = room_for_modes<T>(range);
     result.method = "bisection";
     Heights<T> found;
     if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
     for (Index j = 0; j < range.count; ++j) {
         const auto& height = found[static_cast<std::size_t>(j)];
-        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options.rtol);
+        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent,
+                   options.rtol);
     }
-    if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
-    ShapesBehind::of(result) =
-        LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
-                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
-            const Threads used("modes", threads);
-            return finder(from, count, details, progress);
-        });
+    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
+    const bool loose = is_loose(chain, stage);
+    ShapesBehind::of(result) = shapes_when_read(
+        ShapeFinder<T>(chain, range.first, std::move(found), loose, false), options.threads);
     return result;
 }
 

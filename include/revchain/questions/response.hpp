@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 #include "revchain/linear/driven_chain.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/response.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 inline void require_height(std::string_view place, const Wide<double>& scaled, double given, std::string_view name) {

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/sensitivity.hpp"
 #include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// Data that all derivatives of a whirl speed n use: the offsets y of its mode, and the change dn for a change of the

@@ -9,7 +9,6 @@
 #include "revchain/sensitivity.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of the centre of gravity,
@@ -50,9 +49,7 @@ std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const
 template <Real T>
 void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLink<Wide<T>>>& links,
                      const ChainUnits& units, const WideMode<T>& mode, const Narrow<Wide<T>>& entry_error) {
-    using std::abs;
-    using std::ldexp;
-    using std::sqrt;
+    using std::abs, std::ldexp, std::sqrt;
     using S = Wide<T>;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return M(abs(static_cast<M>(x))); };
@@ -131,9 +128,7 @@ template <Real T>
 Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                            const std::type_identity_t<Vector<T>>& conical_height,
                            const Deviations<T>& deviations) {
-    using std::abs;
-    using std::isfinite;
-    using std::sqrt;
+    using std::abs, std::isfinite, std::sqrt;
     constexpr std::string_view place = "uncertainty";
     const Index k = sensitivity.size(), n = sensitivity.weight().value.cols();
     if (conical_height.size() != k)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
-
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/paper/two_links.hpp"

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
@@ -15,7 +10,6 @@
 #include "revchain/tune.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// One question of `tune`: the chain with any value of the datum, and on which side of the height wanted its mode is.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "revchain/linear/pencils.hpp"
 #include "revchain/linear/scaled_links.hpp"
 #include "revchain/pencil/twisted.hpp"

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/special/jacobi.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic {
-
 namespace detail {
 
 /// Duplication stops where the differences over the mean are at most this; the series omit its sixth power.

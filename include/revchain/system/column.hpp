@@ -120,8 +120,7 @@ Summary<T> summary(const T* x, Index count) {
 /// count times x: one operation, whatever the unit of x.
 template <Real T>
 Wide<T> times(const T& x, Index count) {
-    using std::frexp;
-    using std::ldexp;
+    using std::frexp, std::ldexp;
     int exponent = 0;
     const Wide<T> digits(frexp(x, &exponent));
     return ldexp(digits * Wide<T>(static_cast<Narrow<Wide<T>>>(count)), exponent);

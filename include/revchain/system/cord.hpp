@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <variant>
 
 #include "revchain/system/line_density.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <vector>
-
 #include "revchain/chain.hpp"
 
 /// Chains made from others: a weight attached, a thread put in between, two links clamped together.
@@ -10,7 +8,6 @@
 /// and (rho/a)^2 stays in two words. Conical heights are those of the exact body within 3 ulp, measured
 /// (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// A rigid body of a link: its weight, centroid and squared radius of gyration, both over the link's length.
@@ -25,8 +22,7 @@ struct Body {
 /// and of their distance, all positive.
 template <Real T>
 Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
-    using std::frexp;
-    using std::ldexp;
+    using std::frexp, std::ldexp;
     using S = Wide<T>;
     const T weight = one.weight + other.weight;
     if (weight == T(0)) return plummet<T>(weight, length);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "revchain/numeric/scalar.hpp"

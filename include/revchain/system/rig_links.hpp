@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
-#include <vector>
-
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/rig.hpp"
 
