@@ -38,7 +38,7 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
     return values;
 }
 
-/// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
+/// The chain in another scalar: the same numbers where that is wider, else rounded. Cost O(N).
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
