@@ -5,13 +5,11 @@
 #include "revchain/cord.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
 #include "revchain/special/tapered_chain.hpp"
 #include "revchain/special/taut_cord.hpp"
-#include "revchain/special/tip_mass.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {

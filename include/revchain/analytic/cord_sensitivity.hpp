@@ -3,9 +3,7 @@
 
 #include "revchain/analytic/cord.hpp"
 #include "revchain/cord.hpp"
-#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
-#include "revchain/questions/held_tension.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {

@@ -4,11 +4,9 @@
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
-#include "revchain/linear/counted_roots.hpp"
 #include "revchain/linear/rig_shape.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
-#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -46,8 +44,7 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
     return height;
 }
 
-/// The conical height times the tension at the upper end; without gravity, tension over speed
-/// squared.
+/// The conical height times the upper tension; without gravity, tension over speed squared.
 inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                          const std::optional<double>& angular_speed) {
     const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
@@ -78,7 +75,6 @@ struct TautChain {
           heights(counted_heights(pencil)) {}
 
     Index mode_count() const { return heights.available.count; }
-    /// The number of heights that exceed `height`.
     Index above(std::string_view place, const Wide<double>& height) const {
         return heights.above(scaled(height), place, height.high);
     }
@@ -108,7 +104,6 @@ inline double span_asked(std::string_view place, const HeldBy& by) {
     return *by.span;
 }
 
-/// The span and the least conical height of a diagram.
 inline std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = span_asked(place, by);

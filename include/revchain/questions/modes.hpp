@@ -21,7 +21,6 @@ ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOp
         [&](const T& speed) { return assembled.counter().below_speed(speed, options.gravity); });
 }
 
-/// Room for these modes, nothing computed yet.
 template <Real T>
 Modes<T> room_for_modes(const ModeRange& range) {
     Modes<T> result;

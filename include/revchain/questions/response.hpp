@@ -80,7 +80,6 @@ inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const D
     return result;
 }
 
-/// Stores the answer at one speed.
 inline void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
                   const DrivenChain& chain, double radius) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

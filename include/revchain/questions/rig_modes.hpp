@@ -59,8 +59,7 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
     return proved;
 }
 
-/// Finds the modes of one sense by counts; reports progress from one share to another.
-/// Returns whether all are proved.
+/// Finds the modes of one sense by counts; returns whether all are proved.
 inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
                            bool forward, const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
@@ -179,7 +178,6 @@ inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPen
     return proved;
 }
 
-/// By counts.
 inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();

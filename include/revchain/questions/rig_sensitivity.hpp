@@ -46,8 +46,7 @@ struct LinksAtSpeed {
     }
 };
 
-/// Data that all derivatives of a whirl speed n use: the offsets y of its mode, and the change dn
-/// for a change of the balance of forces.
+/// The offsets y of a mode, and the change dn of its speed for a change of the balance of forces.
 struct RigMode : LinksAtSpeed {
     const Vector<double>& offset;
     std::vector<S> slope;  ///< s of each link
@@ -77,15 +76,13 @@ struct RigMode : LinksAtSpeed {
                           angular_speed);
     }
     S top() const { return S(offset[rig.size()]); }
-    /// dn for a change x of y^T (stiffness - n^2/g mass) y, over units of weight and length to
-    /// these powers.
+    /// dn for a change x of y^T (stiffness - n^2/g mass) y, over these powers of the units.
     double rate(const S& x, int weight_power, int length_power) const {
         return std::ldexp(static_cast<double>(-x / denominator),
                           -weight_power * units.weight_exponent - length_power * units.length_exponent);
     }
 
-    /// A body of a link: where its centre of gravity is, and what a unit of its weight bears and
-    /// resists.
+    /// A body of a link, the offset of its centre, and the parts of dn of a unit of its weight.
     struct Body {
         S weight, centroid, gyration, centre, bears, moves;
         S resists(const S& s) const { return weight * s * (centroid * centre + gyration * s); }
@@ -100,8 +97,7 @@ struct RigMode : LinksAtSpeed {
     }
 };
 
-/// Derivatives for the numbers of link m; `above` is the sum of a s^2 over the links above it, less
-/// those that stand.
+/// Derivatives for the numbers of link m; `above` sums a s^2 over the links above, standing ones less.
 inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above,
                              RigSensitivity& result) {
     using S = Wide<double>;

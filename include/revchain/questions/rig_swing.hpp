@@ -3,7 +3,6 @@
 
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/superposed.hpp"
 #include "revchain/rig_modes.hpp"
 #include "revchain/swing.hpp"
@@ -28,8 +27,7 @@ inline Rig swinging(std::string_view place, const Rig& rig) {
     return {rig.chain(), std::move(with)};
 }
 
-/// The modes of a rig. Throws InvalidArgument where small offsets from the straight rig grow, or
-/// nothing draws them back.
+/// The modes of a rig. Throws InvalidArgument where small offsets grow, or nothing draws them back.
 inline RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil,
                              double gravity, Index count, Progress* progress) {
     if (pencil.idle > 0)
@@ -124,8 +122,7 @@ inline std::vector<RoughWhirl> merged(const RigModes& found) {
     return all;
 }
 
-/// Finds the amplitude of each whirl, in double words, and takes it from the start; see
-/// `whirl_swing`.
+/// Finds the amplitude of each whirl, in double words, and takes it from the start.
 inline Superposition split_start(WhirlSwing& result, const RigPencil& rig,
                                  const WhirlForms& forms, const std::vector<RoughWhirl>& rough,
                                  PlaneOffsets& rest, PlaneOffsets& rest_speed, Progress* progress) {

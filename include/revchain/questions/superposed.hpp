@@ -10,7 +10,6 @@
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/progress.hpp"
-#include "revchain/pencil/twisted.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -80,28 +79,12 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
     const ChainUnits& units() const { return units_; }
     Index size() const { return pencil().size(); }
 
-    /// Bound on the norm of (height K - M) y in the inverse of K, over the height: the sum of
-    /// force^2 / k over the links, whose forces are summed from the free end up, with rounding.
+    /// Bound on the norm of (height K - M) y in the inverse of K, over the height.
     double residual(const S& height, const Offsets& y) const {
-        S inertial(0), pin(0);
-        const double h = height.high(), entry = static_cast<double>(pencil().entry_error);
-        double size = 0, squares = 0, rounding = 16 * 0x1p-100;
-        for (Index m = 0; m < this->size(); ++m) {
-            const Element& e = element(m);
-            const S lower = e.lower * y[m] + e.cross * y[m + 1];
-            const S spring = height * e.stiffness * (y[m] - y[m + 1]);
-            inertial += pin + lower;
-            pin = e.cross * y[m] + e.upper * y[m + 1];
-            const double k = e.stiffness.high();
-            const double l = std::abs(y[m].high()), u = std::abs(y[m + 1].high());
-            const double x = std::abs(e.cross.high()) + 2 * e.turning.high();
-            size += e.lower.high() * l + x * (u + l) + e.upper.high() * u;
-            rounding += 4 * 0x1p-100;
-            const double force = std::abs((spring - inertial).high()) +
-                                 (entry + rounding) * (size + h * k * (l + u));
-            squares += force * force / k;
-        }
-        return std::sqrt(squares) / h * (1 + 1e-10);
+        S energy;
+        const std::vector<S> offset(y.begin(), y.end());
+        const double size = static_cast<double>(residual_size(pencil(), height, offset, &energy));
+        return size * std::sqrt(energy.high()) * (1 + 1e-10);
     }
     /// The offsets of least y^T K y with the same M y: of equilibrium where there is no inertia. By
     /// (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the
@@ -246,7 +229,6 @@ auto checked_start(std::string_view place, Index links, bool yields, const Optio
     return start;
 }
 
-/// The number of modes asked for, of `all` there are.
 inline Index checked_count(std::string_view place, const std::optional<Index>& asked, Index all) {
     const Index count = asked.value_or(all);
     if (count >= 0 && count <= all) return count;

@@ -4,7 +4,6 @@
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/tune_candidates.hpp"
 #include "revchain/system/edit.hpp"

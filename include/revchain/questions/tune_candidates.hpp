@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/linear/pencils.hpp"
-#include "revchain/linear/scaled_links.hpp"
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/sensitivity.hpp"
 

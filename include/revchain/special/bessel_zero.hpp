@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_of_j0.hpp"
 #include "revchain/numeric/zeros_of_j.hpp"
 #include "revchain/special/bessel_recurrence.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/numeric/progress.hpp"
-#include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 

@@ -50,8 +50,7 @@ class Mode : private detail::EitherMode {
     double conical_height() const { return height_; }
 
     /// Offset at x: the largest, at the lowest vertical point, is 1.
-    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0). Cost: 0.1 microseconds where z_0 > 30,
-    /// else 2.
+    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0). Cost: 0.1 microseconds (z_0 > 30), else 2.
     double shape(double x) const {
         const double w = apart_at(x, "analytic::taut_cord::Mode::shape"), z = end_.z + w;
         if (end_.is_far())

@@ -4,7 +4,6 @@
 #include <array>
 #include <numbers>
 
-#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
@@ -55,8 +54,8 @@ struct OrderZero {
     }
 };
 
-/// The lower end z_0: J and Y of the order (2 with a particle, 0 where the end is held) and, of
-/// their phase theta, the slope `rate` and the value to about a tenth, `rough`.
+/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the slope
+/// `rate` of their phase theta, and `rough`, theta to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
 
@@ -81,13 +80,11 @@ struct LowerEnd {
     bool is_far() const { return z >= series_from; }
 };
 
-/// A function and its derivative.
 struct ValueAndRate {
     double value, rate;
 };
 
-/// A zero of an increasing function between `low` and `high`, by Newton's method from w, in two
-/// words: what the last step leaves is its square.
+/// A zero of an increasing function by Newton's method from w, in two words.
 template <class F>
 TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate) {
     const auto last = revchain::detail::newton_between(low, high, value_and_rate, w, 1e-9);
@@ -175,8 +172,7 @@ struct Ends {
     }
 };
 
-/// One mode of a cord with either lower end, of that order; `lower` is the tension there as the
-/// length of cord that weighs as much.
+/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a length.
 class EitherMode {
    protected:
     EitherMode(int order, Index mode, double length, const TwoDoubles& lower)

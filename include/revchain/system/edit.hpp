@@ -10,7 +10,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// A rigid body of a link: its weight, centroid and squared radius of gyration, both over the link's length.
+/// A rigid body of a link; centroid and squared radius of gyration over the link's length.
 template <Real T>
 struct Body {
     T weight{};

@@ -51,7 +51,7 @@ T length_span() {
     return ldexp(T(1), std::numeric_limits<T>::max_exponent / 4);
 }
 
-/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are more than `length_span` apart.
+/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are too far apart.
 template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());
@@ -141,7 +141,8 @@ T radius_of_gyration(const Link<T>& link) {
     return detail::times_length<T>(sqrt(link.gyration_ratio), link.length);
 }
 
-/// l = h + rho^2 / h, length of the equivalent simple pendulum about the upper pin (infinite where h = 0 < rho).
+/// l = h + rho^2 / h, length of the equivalent simple pendulum about the upper pin; infinite where
+/// h = 0 < rho.
 template <Real T>
 T pendulum_length(const Link<T>& link) {
     if (link.gyration_ratio == Wide<T>(T(0))) return link.centroid;

@@ -6,7 +6,6 @@
 
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
-#include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
