@@ -93,31 +93,6 @@ models::Solution solved(const Chain<T>& chain, const ModeRange& range, const Mod
     return found.answer.found ? found : by(models::Bisection{});
 }
 
-/// A chain of doubles: every method is open.
-template <std::same_as<double> T>
-Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) {
-    LazyCounter<T> assembled(chain);
-    const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes<T>(range);
-    result.method = "bisection";
-    Heights<T> heights;
-    if (range.count > 0) {
-        const models::Solution found = solved(chain, range, options);
-        result.method = found.model;
-        const models::Answer& answer = found.answer;
-        for (Index j = 0; j < range.count; ++j)
-            set_height(result, j, answer.conical_height[j], answer.error_bound[j], 0, options.rtol);
-        heights = heights_in_units(chain, answer);
-    }
-    const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    const bool condense = options.method != ModesMethod::bisection;
-    ShapesBehind::of(result) = shapes_when_read(
-        ShapeFinder<T>(chain, range.first, std::move(heights), loose, condense), options.threads);
-    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
-    if (range.count > 0) advance(options.progress, 1.0);
-    return result;
-}
-
 /// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half
 /// an ulp of float to the bound. A template, so that a program without floats does not compile it.
 template <std::same_as<float> T>
@@ -161,7 +136,7 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     return result;
 }
 
-/// Every other scalar: by bisection in T itself.
+/// In T itself: every method in double, bisection in other scalars.
 template <Real T>
 Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) {
     LazyCounter<T> assembled(chain);
@@ -169,17 +144,29 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     const HeightsOptions<T> stage{options.rtol, options.progress};
     Modes<T> result = room_for_modes<T>(range);
     result.method = "bisection";
-    Heights<T> found;
-    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
-    for (Index j = 0; j < range.count; ++j) {
-        const auto& height = found[static_cast<std::size_t>(j)];
-        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent,
-                   options.rtol);
+    Heights<T> heights;
+    bool condense = false;
+    if (range.count == 0) {  // nothing to find
+    } else if constexpr (std::is_same_v<T, double>) {
+        const models::Solution found = solved(chain, range, options);
+        const models::Answer& answer = found.answer;
+        for (Index j = 0; j < range.count; ++j)
+            set_height(result, j, answer.conical_height[j], answer.error_bound[j], 0, options.rtol);
+        heights = heights_in_units(chain, answer);
+        result.method = found.model, condense = options.method != ModesMethod::bisection;
+    } else {
+        heights = heights_by_bisection(chain, assembled, range, stage);
+        const int unit = chain.units().length_exponent;
+        for (Index j = 0; j < range.count; ++j) {
+            const Height<T>& height = heights[static_cast<std::size_t>(j)];
+            set_height(result, j, height.eigenvalue, height.error_bound, unit, options.rtol);
+        }
     }
     if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
-    const bool loose = is_loose(chain, stage);
     ShapesBehind::of(result) = shapes_when_read(
-        ShapeFinder<T>(chain, range.first, std::move(found), loose, false), options.threads);
+        ShapeFinder<T>(chain, range.first, std::move(heights), is_loose(chain, stage), condense),
+        options.threads);
+    if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }
 
@@ -194,8 +181,6 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     const detail::Threads threads("modes", options.threads);
     if constexpr (std::is_same_v<T, float>)
         return detail::modes_in_double(chain, options);
-    else if constexpr (std::is_same_v<T, double>)
-        return detail::modes_by_models(chain, options);
     else
         return detail::modes_in_scalar(chain, options);
 }

@@ -200,7 +200,7 @@ inline TortuousRope::TortuousRope(const TortuousGiven& given)
                              given.gravity);
     height_ = conical_pendulum::height(given.angular_speed, given.gravity);
     strength2_ = height_ * given.tension;
-    if (!(strength2_ >= std::numeric_limits<double>::min() && std::isfinite(strength2_)))
+    if (!std::isnormal(strength2_))
         detail::throw_invalid(place, "tension times gravity / angular speed^2 must be at least 2^-1022 and finite",
                               strength2_);
     root_ = std::hypot(first_ * second_, 2 * strength2_);

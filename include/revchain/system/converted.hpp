@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A number of one or two words as another scalar: rounded, or exact where the other one is as wide.
+/// A number of one or two words as another scalar, rounded where that is narrower.
 template <class To, class From>
 To from_words(const From& x) {
     if constexpr (std::is_same_v<To, From>) {
@@ -42,7 +42,7 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    // in this order, so that the refusal names the first
+    // in this order, so that the error names the first
     const auto weight = converted<To>("weight", chain.weight());
     const auto length = converted<To>("length", chain.length());
     const auto centroid = converted<To>("centroid", chain.centroid());
