@@ -158,14 +158,12 @@ inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& 
     result.held = straight.held;
     if (!method.is_closed && range.count > 0) {
         const finite::ContinuousChain chain(straight.cord);
-        result.conical_height =
-            finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
+        result.conical_height = finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
         // The first half wave of a mode is longer than its conical height: from there up the weight
         // must be right. Heights of smooth densities without error are within 2e-15.
         for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
             const double from = std::min(result.conical_height[j], chain.length);
-            const double density =
-                2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
+            const double density = 2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
             result.error_bound[j] = std::max(method.error_bound, 2e-15 + density);
         }
     }
@@ -194,8 +192,7 @@ REVCHAIN_INLINE_ANALYTIC Index count_modes(const Cord& cord, const CountOptions<
     return detail::modes_above(cord, detail::height_given("count_modes", options));
 }
 
-REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held,
-                                           const CountOptions<double>& options) {
+REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
     return detail::modes_above({"count_modes", held, options.gravity},
                                detail::height_given("count_modes", options));
 }
@@ -221,8 +218,7 @@ REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::nodes(Index j) const {
-    return detail::with_mode("CordModes::nodes", *this, j,
-                             [](const auto& mode) { return mode.nodes(); });
+    return detail::with_mode("CordModes::nodes", *this, j, [](const auto& mode) { return mode.nodes(); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::vertical_points(Index j) const {
@@ -236,8 +232,7 @@ REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::angular_speed(double gravity)
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::period(double gravity) const {
-    return conical_height.unaryExpr(
-        [=](double height) { return conical_pendulum::period(height, gravity); });
+    return conical_height.unaryExpr([=](double height) { return conical_pendulum::period(height, gravity); });
 }
 
 namespace detail {
@@ -297,8 +292,7 @@ REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const OnBranch
 }
 
 /// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
-///     lambda integral of V y_k' f' / N,  N = lambda integral of V y_k'^2.
-/// So no density is needed, which may jump.
+/// lambda integral of V y_k' f' / N, N = lambda integral of V y_k'^2. The density may jump.
 REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "swing";

@@ -18,8 +18,7 @@ inline double by_tension(const CordModes& modes, Index j, double lower) {
     double ratio = 0;  // of the two integrals
     if (lower < length) {
         const double a = modes.slope(j, 0), b = modes.slope(j, length);
-        ratio = (lower * a * a - upper * b * b) /
-                ((upper * b - lower * a) * (upper * b + lower * a));
+        ratio = (lower * a * a - upper * b * b) / ((upper * b - lower * a) * (upper * b + lower * a));
     } else {
         const auto rule = gauss_rule(16);
         const Index panels = modes.first + j + 4, nodes = static_cast<Index>(rule.size());

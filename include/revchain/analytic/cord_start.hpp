@@ -15,14 +15,15 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// value, also at the ends and in the middle.
 class CordStartOnPanels {
    public:
-    static constexpr int nodes = 16;
+    static constexpr std::size_t nodes = 16;
+    using Values = std::array<double, nodes>;
     static constexpr double narrowest = 0x1p-40, rounding = 1e-13, jump = 1e-8;
 
     CordStartOnPanels() : rule_(gauss_rule(nodes)) {
-        for (int i = 0; i < nodes; ++i) {  // barycentric weights
-            weight_[at(i)] = 1;
-            for (int k = 0; k < nodes; ++k)
-                if (k != i) weight_[at(i)] /= rule_[at(i)].first - rule_[at(k)].first;
+        for (std::size_t i = 0; i < nodes; ++i) {  // barycentric weights
+            weight_[i] = 1;
+            for (std::size_t k = 0; k < nodes; ++k)
+                if (k != i) weight_[i] /= rule_[i].first - rule_[k].first;
         }
     }
     const std::vector<std::pair<double, double>>& rule() const { return rule_; }
@@ -30,35 +31,34 @@ class CordStartOnPanels {
     /// Whether the polynomial through the values at the nodes of a panel gives the function.
     template <class F>
     bool is_resolved(const F& f, double low, double high, double tolerance) const {
-        std::array<double, nodes> values{};
-        for (int i = 0; i < nodes; ++i) values[at(i)] = f(low + (high - low) * rule_[at(i)].first);
+        Values values{};
+        for (std::size_t i = 0; i < nodes; ++i) values[i] = f(low + (high - low) * rule_[i].first);
         for (const double t : {0.0, 0.5, 1.0})
             if (!(std::abs(value(values, t) - f(low + (high - low) * t)) <= tolerance)) return false;
         return true;
     }
     /// Slopes by t, from 0 to 1 over the panel, at its nodes.
-    std::array<double, nodes> slopes(const std::array<double, nodes>& values) const {
-        std::array<double, nodes> result{};
-        for (int i = 0; i < nodes; ++i)
-            for (int k = 0; k < nodes; ++k)
+    Values slopes(const Values& values) const {
+        Values result{};
+        for (std::size_t i = 0; i < nodes; ++i)
+            for (std::size_t k = 0; k < nodes; ++k)
                 if (k != i)
-                    result[at(i)] += weight_[at(k)] / weight_[at(i)] * (values[at(k)] - values[at(i)]) /
-                                     (rule_[at(i)].first - rule_[at(k)].first);
+                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) /
+                                 (rule_[i].first - rule_[k].first);
         return result;
     }
 
    private:
-    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-    double value(const std::array<double, nodes>& values, double t) const {
+    double value(const Values& values, double t) const {
         double above = 0, below = 0;
-        for (int i = 0; i < nodes; ++i) {
-            const double share = weight_[at(i)] / (t - rule_[at(i)].first);
-            above += share * values[at(i)], below += share;
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const double share = weight_[i] / (t - rule_[i].first);
+            above += share * values[i], below += share;
         }
         return above / below;
     }
     std::vector<std::pair<double, double>> rule_;
-    std::array<double, nodes> weight_{};
+    Values weight_{};
 };
 
 /// Offsets and velocities at the start, and the weights with which sums over nodes are integrals
@@ -157,7 +157,7 @@ inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 
                               length * low * low);
         }
         const double wide = high - low;
-        std::array<std::array<double, CordStartOnPanels::nodes>, 2> values{};
+        std::array<CordStartOnPanels::Values, 2> values{};
         std::vector<double> x;
         for (const auto& [t, weight] : panels.rule()) {
             const double at = low + wide * t, s = length * at * at;

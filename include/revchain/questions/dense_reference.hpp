@@ -49,8 +49,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
 
 }  // namespace detail
 
-/// By the assembled symmetric-definite pencil, a dense O(N^3) solver. Arguments and errors as for
-/// `modes`.
+/// By the assembled symmetric-definite pencil, dense, O(N^3). Arguments and errors as for `modes`.
 template <Real T>
 Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "dense", [](const detail::Pencils<T>& pencils) {
@@ -59,7 +58,7 @@ Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {})
     });
 }
 
-/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3). Arguments and errors as for `modes`.
+/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3); otherwise as `modes_dense`.
 template <Real T>
 Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "recurrence", [&chain](const detail::Pencils<T>&) {

@@ -172,8 +172,7 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     return result;
 }
 
-REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
-                                                     const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
     const auto [span, least] = detail::span_and_height(held.by(), options);
     std::vector<HeldCordBranch> result;
     for (int k = 1; k <= 1000; ++k) {
@@ -184,8 +183,7 @@ REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held,
     return result;
 }
 
-REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held,
-                                       const HeldOnBranchOptions& options) {
+REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});

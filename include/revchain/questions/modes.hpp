@@ -61,20 +61,6 @@ LazyModeShapes<T> shapes_when_read(ShapeFinder<T> finder, Index threads) {
     });
 }
 
-/// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline Heights<double> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
-    const int exponent = -chain.units().length_exponent;
-    Heights<double> heights;
-    heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
-    for (Index j = 0; j < answer.conical_height.size(); ++j) {
-        const Wide<double> height = answer.unrounded.empty()
-                                        ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
-                                        : answer.unrounded[static_cast<std::size_t>(j)];
-        heights.push_back({static_cast<double>(height), answer.error_bound[j], height});
-    }
-    return heights;
-}
-
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
 /// A template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
@@ -144,19 +130,23 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     const HeightsOptions<T> stage{options.rtol, options.progress};
     Modes<T> result = room_for_modes<T>(range);
     result.method = "bisection";
+    const int unit = chain.units().length_exponent;
     Heights<T> heights;
     bool condense = false;
     if (range.count == 0) {  // nothing to find
     } else if constexpr (std::is_same_v<T, double>) {
         const models::Solution found = solved(chain, range, options);
         const models::Answer& answer = found.answer;
-        for (Index j = 0; j < range.count; ++j)
-            set_height(result, j, answer.conical_height[j], answer.error_bound[j], 0, options.rtol);
-        heights = heights_in_units(chain, answer);
+        for (Index j = 0; j < range.count; ++j) {
+            const T given = answer.conical_height[j], bound = answer.error_bound[j];
+            set_height(result, j, given, bound, 0, options.rtol);
+            const Wide<T> height = answer.unrounded.empty() ? Wide<T>(std::ldexp(given, -unit))
+                                                            : answer.unrounded[static_cast<std::size_t>(j)];
+            heights.push_back({static_cast<T>(height), bound, height});
+        }
         result.method = found.model, condense = options.method != ModesMethod::bisection;
     } else {
         heights = heights_by_bisection(chain, assembled, range, stage);
-        const int unit = chain.units().length_exponent;
         for (Index j = 0; j < range.count; ++j) {
             const Height<T>& height = heights[static_cast<std::size_t>(j)];
             set_height(result, j, height.eigenvalue, height.error_bound, unit, options.rtol);

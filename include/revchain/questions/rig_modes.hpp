@@ -22,8 +22,7 @@ inline ModeRange numbered(const RigModesOptions& options, Index available) {
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
-                        Index available) {
+inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
     if (!options.conical_height && !options.angular_speed) return numbered(options, available);
     const auto above = [&](const RigWord& x, double given) {
         return roots.above(x, forward, "modes", given);
@@ -73,8 +72,7 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
     const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
     const double guess = roots.pencil().quadratic ? std::sqrt(height) : height;
     const auto report = [&](double share, Index done, double of) {
-        advance(options.progress,
-                from + (to - from) * (share + of * static_cast<double>(done) / all));
+        advance(options.progress, from + (to - from) * (share + of * static_cast<double>(done) / all));
     };
     const auto finished = [&](Index done) { report(0, done, 0.4); };
     bool proved = true;
@@ -163,21 +161,6 @@ inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& 
     return {{in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
-/// Lists all heights below 0; returns whether all are proved.
-inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil,
-                                  const CountedSense& negative) {
-    const Index count = negative.available.count;
-    if (count <= 0) return true;
-    const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
-    bool proved = true;
-    for (const FoundRoot& root : refined_roots(negative.roots, 0, count, start, {}, {})) {
-        const double height = -static_cast<double>(root.x);
-        result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
-        proved = proved && std::isfinite(result.other.back().error_bound);
-    }
-    return proved;
-}
-
 inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
@@ -193,17 +176,23 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigMo
     }
     if (!roots.has_momentum())
         if (const auto negative = counted_negative_heights(pencil)) {
-            result.other_available = std::max<Index>(0, negative->available.count);
+            const Index count = std::max<Index>(0, negative->available.count);
+            const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+            result.other_available = count;
             result.complete &= negative->available.proved;
-            if (options.other) proved &= list_negative_heights(result, rig, pencil, *negative);
+            if (options.other && count > 0)
+                for (const FoundRoot& root : refined_roots(negative->roots, 0, count, start, {}, {})) {
+                    const double height = -static_cast<double>(root.x);
+                    result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
+                    proved &= std::isfinite(result.other.back().error_bound);
+                }
         }
     if (!proved || !result.complete) result.status = Status::tolerance_not_met;
     return result;
 }
 
 /// By discs around all roots, where counts cannot find them.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots,
-                               const RigModesOptions& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
@@ -329,8 +318,7 @@ REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {
     detail::require_positive("count_modes", "conical height", height);
     if (plain_) return plain_->above_height(height);
     const auto above = [&](bool forward) {
-        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height",
-                             height);
+        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height", height);
     };
     return above(true) + (roots_->has_momentum() ? above(false) : 0);
 }
@@ -340,8 +328,7 @@ REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
         detail::throw_invalid("count_modes", "angular speed must be finite and not 0", angular_speed);
     if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
     const bool forward = angular_speed > 0 || !roots_->has_momentum();
-    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed",
-                         angular_speed);
+    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed", angular_speed);
 }
 
 REVCHAIN_INLINE Index count_modes(const Rig& rig, const CountOptions<double>& options) {

@@ -98,8 +98,7 @@ struct RigMode : LinksAtSpeed {
 };
 
 /// Derivatives for the numbers of link m; `above` sums a s^2 over the links above, standing ones less.
-inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above,
-                             RigSensitivity& result) {
+inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, RigSensitivity& result) {
     using S = Wide<double>;
     const Rig& rig = mode.rig;
     const RigLink& link = mode.link(m);
@@ -113,8 +112,7 @@ inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& a
     const auto fluid = mode.body(m, moved, displaced.centroid, displaced.gyration_ratio, above);
     result.weight[m] = mode.rate(solid.bears - solid.moves, 1, 0);
     result.momentum[m] = mode.rate(sign * mode.speed * square, 1, 1);
-    result.displaced_weight[m] =
-        mode.rate(turns ? fluid.moves - fluid.bears : -fluid.bears, 1, 0);
+    result.displaced_weight[m] = mode.rate(turns ? fluid.moves - fluid.bears : -fluid.bears, 1, 0);
     result.added_weight[m] = turns ? 0 : mode.rate(-fluid.moves, 1, 0);
 
     // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
@@ -157,8 +155,7 @@ REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed,
     return result;
 }
 
-REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
-                                          double gravity) {
+REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double angular_speed, double gravity) {
     using S = Wide<double>;
     constexpr std::string_view place = "momentum_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
@@ -192,8 +189,7 @@ REVCHAIN_INLINE double stiffness_for_speed(const Rig& rig, double angular_speed,
     constexpr std::string_view place = "stiffness_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
     const Wide<double> sum = links.turning * links.carriage_weight() - links.below(rig.size());
-    const double needed =
-        std::ldexp(sum.high, links.units.weight_exponent - links.units.length_exponent);
+    const double needed = std::ldexp(sum.high, links.units.weight_exponent - links.units.length_exponent);
     if (needed > 0 && std::isfinite(needed)) return needed;
     detail::throw_invalid(
         place, "no positive stiffness of the support makes this a whirl speed; choose another",

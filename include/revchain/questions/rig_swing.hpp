@@ -34,8 +34,7 @@ inline RigModes stable_modes(std::string_view place, const Rig& rig, const RigPe
         throw_invalid(place, "lowest links that weigh nothing and move nothing have no motion of "
                              "their own; leave out",
                       pencil.idle);
-    RigModes found = modes(
-        rig, {.count = std::max<Index>(count, 1), .gravity = gravity, .progress = progress});
+    RigModes found = modes(rig, {.count = std::max<Index>(count, 1), .gravity = gravity, .progress = progress});
     double growth = 0;
     for (const OtherMode& mode : found.other) growth = std::max(growth, mode.growth_rate);
     if (growth > 0)
@@ -96,11 +95,9 @@ class WhirlForms : public PencilForms<pencil::SignedPencil<Wide<double>>> {
 };
 
 inline PlaneOffsets in_double_words(const Vector<std::complex<double>>& given, std::size_t pins) {
-    PlaneOffsets result{std::vector<Wide<double>>(pins), std::vector<Wide<double>>(pins)};
-    for (Index m = 0; m < given.size(); ++m) {
-        const auto i = static_cast<std::size_t>(m);
-        result[0][i] = given[m].real(), result[1][i] = given[m].imag();
-    }
+    PlaneOffsets result;
+    for (const auto& y : given) result[0].push_back(y.real()), result[1].push_back(y.imag());
+    for (auto& offsets : result) offsets.resize(pins);
     return result;
 }
 
@@ -178,8 +175,7 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
         asked.gravity = options.gravity, asked.progress = options.progress;
         return modes(rig, asked).forward;
     };
-    const Index all =
-        stable_modes(place, rig, pencil, options.gravity, 1, nullptr).forward.available;
+    const Index all = stable_modes(place, rig, pencil, options.gravity, 1, nullptr).forward.available;
     const auto elements = pencil::positive_elements<false>(pencil.pencil);
     if (!pencil.stiffness_positive || !pencil.mass_not_negative || !elements)
         throw_invalid(place,

@@ -125,8 +125,7 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
                 guess = std::min(guess, (apart > M(0) ? apart : -apart) * M(0.75));
             }
         if (!(guess > M(0))) guess = M(0.5);
-        const auto mode =
-            detail::wide_mode<T>(pencils, modes.first + j, pencils.scaled(height), guess);
+        const auto mode = detail::wide_mode<T>(pencils, modes.first + j, pencils.scaled(height), guess);
         detail::set_derivatives(result, j, links, chain.units(), mode, pencils.wide().entry_error);
     }
     return result;

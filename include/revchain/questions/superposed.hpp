@@ -68,8 +68,7 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
    public:
     using Offsets = Vector<S>;
 
-    explicit OscillatingChain(const Chain<double>& chain)
-        : OscillatingChain(assemble(converted<S>(chain))) {
+    explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(assemble(converted<S>(chain))) {
         if (!pencil().units.empty())
             throw_invalid("swing", "weights must not be more than 1e123 apart",
                           chain.total_weight());
@@ -221,8 +220,7 @@ auto checked_start(std::string_view place, Index links, bool yields, const Optio
             throw_invalid(place, name + " of the support must be 0", std::abs(result[links]));
         return result;
     };
-    const std::array start{checked("offset", options.offset),
-                           checked("velocity", options.velocity)};
+    const std::array start{checked("offset", options.offset), checked("velocity", options.velocity)};
     require_positive(place, "gravity", options.gravity);
     for (const double t : options.time)
         if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);

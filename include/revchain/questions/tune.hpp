@@ -60,12 +60,11 @@ class Tuning {
     Wide<double> wanted_;
 };
 
-/// A value between whose neighbours the mode passes the height wanted.
 struct Enclosed {
     double value, error_bound;
 };
 
-/// By proved counts between two values on different sides.
+/// The value where the mode passes the height wanted, by proved counts on both sides.
 inline Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
     const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
     const double value = low + (high - low) / 2;
@@ -167,8 +166,7 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
     }
     require_positive(place, "conical height", wanted.high);
     Tuned result;
-    const auto range =
-        tune_range(place, chain, options.link, options.datum, options.low, options.high);
+    const auto range = tune_range(place, chain, options.link, options.datum, options.low, options.high);
     result.present = range.present, result.low = range.low, result.high = range.high;
     const Tuning tuning(chain, options, wanted);
     std::vector<Enclosed> found;
@@ -191,8 +189,7 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
             proved = proved && candidate.explained;
         }
         const int low_side = tuning.side(range.low), high_side = tuning.side(range.high);
-        proved = proved && low_side != 0 && high_side != 0 &&
-                 (low_side != high_side) == (found.size() % 2 == 1);
+        proved = proved && low_side != 0 && high_side != 0 && (low_side != high_side) == (found.size() % 2 == 1);
         result.complete = proved;
     }
     if (!found.empty()) {

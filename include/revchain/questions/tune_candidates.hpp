@@ -56,8 +56,7 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
 /// w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W included,
 /// and W/kappa monotone in W, both follow from the ends. At most 1 where all centroids are at or
 /// below their pins, since W dM <= M and W dK <= K. Cost O(N).
-inline double weight_influence(const Chain<double>& chain, Index link, double low, double high,
-                               double least) {
+inline double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {

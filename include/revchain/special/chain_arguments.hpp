@@ -5,12 +5,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
-/// Throws InvalidArgument unless the mode or count called `name` is at least 1 and the length
-/// positive and finite.
-inline void check(std::string_view where, std::string_view name, Index number, double length) {
+/// Returns the mode or count called `name`. Throws InvalidArgument unless it is at least 1 and the
+/// length positive and finite.
+inline Index check(std::string_view where, std::string_view name, Index number, double length) {
     if (number < 1)
         revchain::detail::throw_invalid(where, std::string(name) + " must be at least 1", number);
     revchain::detail::require_positive(where, "length", length);
+    return number;
 }
 
 /// Throws InvalidArgument unless 0 <= x <= length.

@@ -8,8 +8,7 @@
 /// The uniform flexible chain hung from one end, at small amplitude: the limit of many links.
 /// Greenhill (1908) §4. x is the distance from the FREE end. Functions throw InvalidArgument for a
 /// mode or count below 1, a length or amplitude that is not positive and finite, and x outside
-/// [0, length]. With a particle at the free end: special/tip_mass.hpp; with varying density:
-/// special/tapered_chain.hpp.
+/// [0, length]. With a particle at the free end: tip_mass.hpp; of other density: tapered_chain.hpp.
 namespace revchain::inline REVCHAIN_BUILD::analytic::heavy_chain {
 namespace detail {
 using namespace analytic::detail;

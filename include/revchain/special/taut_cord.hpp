@@ -7,25 +7,21 @@
 /// `lower` is the tension at its lower end, as the length of cord that weighs as much. x is the
 /// distance from the lower end.
 ///
-/// With z = 2 sqrt((lower + x)/lambda), z_0 at the lower end and z_L at the upper, the offset is a
-/// cylinder function of order 0 of z. The heights solve J_0(z_0) Y_0(z_L) = Y_0(z_0) J_0(z_L), or
-/// with theta the phase of J_0 + iY_0
+/// With z = 2 sqrt((lower + x)/lambda) as in special/tip_mass.hpp, the heights solve
+/// J_0(z_0) Y_0(z_L) = Y_0(z_0) J_0(z_L), or with theta the phase of J_0 + iY_0
 ///     theta(z_L) - theta(z_0) = mode pi.
-/// At a fixed z_0/z_L the left side rises from 0 to infinity, because M(z_L) < M(z_0) in
-/// z theta' = 2/(pi M^2). So every mode has exactly one height. Far out it is that of a string
-/// under the mean tension.
-/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and
-/// finite, a tension below 1e-20 lengths or above 1e250, and x outside [0, length].
+/// Every mode has one height, because M(z_L) < M(z_0) in z theta' = 2/(pi M^2). Far out it is that
+/// of a string under the mean tension.
+/// Errors as in special/heavy_chain.hpp, and for a tension below 1e-20 lengths or above 1e250.
 namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 namespace detail {
 
 using namespace tip_mass::detail;
 
-inline void check(std::string_view where, Index mode, double length, const TwoDoubles& lower) {
+inline Index check(std::string_view where, Index mode, double length, const TwoDoubles& lower) {
     analytic::detail::check(where, "mode", mode, length);
-    if (!(lower.high >= 1e-20 * length && lower.high / length <= 1e250))
-        revchain::detail::throw_invalid(where, "lower must lie between 1e-20 and 1e250 lengths",
-                                        lower.high);
+    if (lower.high >= 1e-20 * length && lower.high / length <= 1e250) return mode;
+    revchain::detail::throw_invalid(where, "lower must lie between 1e-20 and 1e250 lengths", lower.high);
 }
 
 }  // namespace detail
@@ -42,7 +38,7 @@ inline double conical_height(Index mode, double length, const detail::TwoDoubles
 class Mode : private detail::EitherMode {
    public:
     Mode(Index mode, double length, const detail::TwoDoubles& lower)
-        : EitherMode(0, checked(mode, length, lower), length, lower) {
+        : EitherMode(0, detail::check("analytic::taut_cord::Mode", mode, length, lower), length, lower) {
         const double node = mode > 1 ? place_of(node_apart(1)) : length;
         largest_ = shape(vertical_points(Vector<double>::Zero(1), node)[0]);
     }
@@ -89,10 +85,6 @@ class Mode : private detail::EitherMode {
     }
 
    private:
-    static Index checked(Index mode, double length, const detail::TwoDoubles& lower) {
-        detail::check("analytic::taut_cord::Mode", mode, length, lower);
-        return mode;
-    }
     /// The modulus far out.
     double far_out(int order, double z) const {
         return std::sqrt(2 * density(order, z) / (std::numbers::pi * z));

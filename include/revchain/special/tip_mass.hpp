@@ -16,10 +16,9 @@
 /// cylinder function of order 0 of z. The heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L), or
 /// with theta the phase of J + iY
 ///     theta_0(z_L) - theta_2(z_0) = mode pi.
-/// At a fixed z_0/z_L the left side rises from 0 to infinity, because M_0(z_L) < M_2(z_0) in
-/// theta' = 2/(pi z M^2). So every mode has exactly one height.
-/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and
-/// finite, a tip that is negative or above 1e250 lengths, and x outside [0, length].
+/// Every mode has exactly one height: at a fixed z_0/z_L the left side rises from 0 to infinity,
+/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2).
+/// Errors as in special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tip_mass {
 namespace detail {
 
@@ -92,8 +91,7 @@ TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate
 }
 
 /// theta_0(z_0 + apart) - theta(z_0) - i pi, and theta_0' there.
-inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart,
-                           Index i) {
+inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
     const double z = place.high, turns = static_cast<double>(i), pi = std::numbers::pi;
     if (end.is_far())
         return {(apart - two_word_pi * (turns - end.order / 2)).high +
@@ -107,11 +105,10 @@ inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const T
     return {value + pi * whole, at.rate};
 }
 
-inline void check(std::string_view where, std::string_view name, Index number, double length,
-                  double tip) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length, double tip) {
     analytic::detail::check(where, name, number, length);
-    if (!(tip >= 0 && tip / length <= 1e250))
-        revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
+    if (tip >= 0 && tip / length <= 1e250) return number;
+    revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
 
 /// What all modes share, and z_L - z_0 of each mode.
@@ -198,8 +195,7 @@ class EitherMode {
         return phase_zero(0, high, start, off).high;
     }
     double place_of(double apart) const {
-        return length_ * (apart / apart_.high) *
-               ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
+        return length_ * (apart / apart_.high) * ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
     }
 
     Index mode_;
@@ -227,7 +223,7 @@ inline Vector<double> conical_heights(Index count, double length, double tip) {
 class Mode : private detail::EitherMode {
    public:
     Mode(Index mode, double length, double tip)
-        : EitherMode(2, checked(mode, length, tip), length, tip) {
+        : EitherMode(2, detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), length, tip) {
         if (end_.is_far()) return;
         const detail::TwoDoubles quarter = ldexp(place_ * place_, -2);
         const detail::TwoDoubles scale = detail::two_word_pi * quarter;
@@ -275,8 +271,8 @@ class Mode : private detail::EitherMode {
         return points;
     }
 
-    /// Distances x at which the chain is vertical, one above each node.
-    /// Accuracy: 1e-15 length. Cost: seven slopes each.
+    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length.
+    /// Cost: seven slopes each.
     Vector<double> vertical_points() const {
         return revchain::detail::zeros_between(nodes(), length_, [&](double x) {
             const double steep = slope(x);
@@ -285,10 +281,6 @@ class Mode : private detail::EitherMode {
     }
 
    private:
-    static Index checked(Index mode, double length, double tip) {
-        detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip);
-        return mode;
-    }
     /// The modulus of an order over that of order 2 at z_0, where both are far out.
     double far_out(int order, double z) const {
         return std::sqrt(density(order, z) * density(2, end_.z) * (end_.z / z));

@@ -63,8 +63,7 @@ struct Summary {
     T most{};
 };
 
-/// Lanes that are summed side by side, so that compilers make SIMD code of the loops (0.5 ns a
-/// number with SSE2).
+/// Lanes summed side by side: compilers make SIMD code of the loops (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
 
 /// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12
@@ -127,8 +126,7 @@ Wide<T> times(const T& x, Index count) {
 }
 
 /// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives
-/// the sums of the numbers below each segment and, last, of all, within one operation of the
-/// segments' own errors.
+/// the sums of the numbers below each segment and, last, of all, with errors of one more operation.
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;

@@ -8,15 +8,12 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// A number of one or two words as another scalar, rounded where that is narrower.
 template <class To, class From>
 To from_words(const From& x) {
-    if constexpr (std::is_same_v<To, From>) {
-        return x;
-    } else if constexpr (is_double_word<From> && std::floating_point<To>) {
-        return static_cast<To>(x.high);
-    } else if constexpr (is_double_word<From> && is_double_word<To>) {
+    if constexpr (is_double_word<From> && is_double_word<To>)
         return two_sum(static_cast<Narrow<To>>(x.high), static_cast<Narrow<To>>(x.low));
-    } else {
+    else if constexpr (is_double_word<From> && std::floating_point<To>)
+        return static_cast<To>(x.high);
+    else
         return To(x);
-    }
 }
 
 /// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.

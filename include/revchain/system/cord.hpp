@@ -62,9 +62,8 @@ class Cord {
     /// The exponent of the density; absent where it was given as a function.
     std::optional<double> exponent() const { return exponent_; }
     bool is_uniform() const { return exponent_ == 0.0; }
-    /// The proportions of the density as polynomials; null for a uniform cord. For a power they are
-    /// computed at each call.
-    /// Throws InvalidArgument for an exponent above 20: s^p would underflow close to the free end.
+    /// The density as polynomials up to a factor, for a power computed at each call; null for a
+    /// uniform cord. Throws InvalidArgument for an exponent above 20: s^p would underflow.
     std::shared_ptr<const LineDensity> line_density() const {
         if (!exponent_ || is_uniform()) return density_;
         if (!(*exponent_ <= 20))

@@ -4,9 +4,8 @@
 #include "revchain/chain.hpp"
 
 /// Chains made from others: a weight attached, a thread put in between, two links clamped together.
-/// Two joined bodies are computed in two words. Weight and centroid are then rounded once, as every
-/// link stores them; (rho/a)^2 stays in two words. Conical heights are those of the exact body
-/// within 3 ulp, measured (tests/cpp/system/edit.cpp). Cost O(N).
+/// Joined bodies are computed in two words; weight and centroid are then rounded once. Conical
+/// heights are those of the exact body within 3 ulp, measured (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
@@ -51,8 +50,7 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 }  // namespace detail
 
 /// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free
-/// end, else the pin that links number `pin` and `pin` + 1 share. The body turns with that link. A
-/// point weight has radius of gyration 0.
+/// end, else the pin that links number `pin` and `pin` + 1 share. The body turns with that link.
 /// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not
 /// positive, a negative radius of gyration, and where the result is not a valid chain.
 template <Real T>

@@ -202,13 +202,10 @@ class LineDensity {
         }
     };
     double on_grid(int i) const { return length_ * (i + 0.5) / grid; }
-    /// The first place of the grid that is not below s.
-    int grid_from(double s) const { return std::max(0, static_cast<int>(std::ceil(s / length_ * grid - 0.5))); }
 
     [[noreturn]] static void throw_rough(const std::string& how, double s) {
-        detail::throw_invalid("LineDensity",
-                              "weight per length " + how +
-                                  " (use a chain of many short links instead of a cord); near s",
+        detail::throw_invalid("LineDensity", "weight per length " + how +
+                                                 " (use a chain of many short links instead of a cord); near s",
                               s);
     }
 
@@ -303,7 +300,8 @@ class LineDensity {
         const double first = std::nextafter(low, high), last = std::nextafter(high, low);
         if (low > 0 && !alike(off(first, f(first)))) return false;
         if (!alike(off(last, f(last)))) return false;
-        for (int i = grid_from(low); i < grid && on_grid(i) < high; ++i)
+        const int from = std::max(0, static_cast<int>(std::ceil(low / length_ * grid - 0.5)));
+        for (int i = from; i < grid && on_grid(i) < high; ++i)
             if (!alike(off(on_grid(i), f.on_grid[static_cast<std::size_t>(i)]))) return false;
         double sum = 0, shares = 0;
         for (std::size_t i = 1; i <= degree; ++i) {

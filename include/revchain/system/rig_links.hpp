@@ -6,12 +6,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`.
-///
-/// Greenhill (1908) §8 with two weights for each body: the one that bears (less the buoyancy) and
-/// the one that moves (with the added weight of the fluid). At any inclination, with the offsets y,
-/// the tangent t and sine s of the inclination, the speed n, lambda = g/n^2, and R the moment about
-/// the upper pin, as if the link hung vertically, divided by the distance between the pins:
+/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`: Greenhill
+/// (1908) §8 with two weights for each body, the one that bears (less the buoyancy) and the one that
+/// moves (with the added weight of the fluid). With the offsets y, the tangent t and sine s of the
+/// inclination, the speed n, lambda = g/n^2, and R the moment about the upper pin, as if the link
+/// hung vertically, over the distance between the pins:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
 /// For small inclinations the stiffness is (tension + n spin)/length, negative where the link
