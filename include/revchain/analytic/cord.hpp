@@ -193,8 +193,7 @@ REVCHAIN_INLINE_ANALYTIC Index count_modes(const Cord& cord, const CountOptions<
 }
 
 REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
-    return detail::modes_above({"count_modes", held, options.gravity},
-                               detail::height_given("count_modes", options));
+    return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
@@ -227,8 +226,7 @@ REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::vertical_points(Index j) cons
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::angular_speed(double gravity) const {
-    return conical_height.unaryExpr(
-        [=](double height) { return conical_pendulum::angular_speed(height, gravity); });
+    return conical_height.unaryExpr([=](double height) { return conical_pendulum::angular_speed(height, gravity); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::period(double gravity) const {
@@ -345,8 +343,7 @@ REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOption
         kept += result.energy[k];
     }
     const double height = sum([&](std::size_t i) { return std::pow(nodes.slope[0][i], 2); }) / 2;
-    const double motion =
-        sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
+    const double motion = sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
     result.energy_left_out = std::max(0.0, height - motion - kept);
     whole += before;
     result.error_estimate = tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();

@@ -77,8 +77,7 @@ using CordFunction = std::function<double(double)>;
 /// The function of a start, empty where there is none. Between values given at points it is
 /// straight.
 template <class Start>
-CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places,
-                         double length) {
+CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places, double length) {
     static constexpr std::string_view place = "swing";  // static: Clang 14 captures no constant
     CordFunction given;
     if (const auto* function = std::get_if<CordFunction>(&start)) {

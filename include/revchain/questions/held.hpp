@@ -154,8 +154,7 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldC
     return finite::held_cord_shapes_under_tension(held.system(), tension, height, most);
 }
 
-REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
-                                                 const HeldDiagramOptions& options) {
+REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
     const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
@@ -201,8 +200,7 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
                 "the speed of a tension between springs is not available: a spring gives way without "
                 "end as the speed grows; give angular_speed, or read it from branches; top_tension",
                 tension);
-        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension,
-                                             options.mode);
+        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
     });
 }
 

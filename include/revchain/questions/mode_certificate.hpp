@@ -44,8 +44,7 @@ void certify(Found& modes, Index mode_count, const Count& count) {
     parallel_for(size, 1, [&](Index begin, Index end) {
         for (Index j = begin; j < end; ++j) {
             look();
-            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j,
-                    mode_count, count);
+            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j, mode_count, count);
         }
     });
 }

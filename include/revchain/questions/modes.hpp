@@ -47,8 +47,7 @@ void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent
 template <Real T, Real P>
 void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
     certify(modes, mode_count, [&](const T& lower, const T& upper) {
-        return pencils.template certified_count<2>(
-            {pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
+        return pencils.template certified_count<2>({pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
     });
 }
 

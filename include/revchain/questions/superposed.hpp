@@ -28,8 +28,7 @@ class PencilForms {
     S inertia(const Offsets& x, const Offsets& y) const {
         const S *u = x.data(), *v = y.data();
         return sum([&](const Element& e, std::size_t m) {
-            return u[m] * (e.lower * v[m] + e.cross * v[m + 1]) +
-                   u[m + 1] * (e.cross * v[m] + e.upper * v[m + 1]);
+            return u[m] * (e.lower * v[m] + e.cross * v[m + 1]) + u[m + 1] * (e.cross * v[m] + e.upper * v[m + 1]);
         });
     }
     template <class Offsets>

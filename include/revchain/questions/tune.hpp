@@ -193,13 +193,11 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
         result.complete = proved;
     }
     if (!found.empty()) {
-        std::sort(found.begin(), found.end(),
-                  [](const Enclosed& x, const Enclosed& y) { return x.value < y.value; });
+        std::sort(found.begin(), found.end(), [](const Enclosed& x, const Enclosed& y) { return x.value < y.value; });
         for (const Enclosed& one : found) result.values.push_back(one.value);
-        const auto nearest = std::min_element(
-            found.begin(), found.end(), [&](const Enclosed& x, const Enclosed& y) {
-                return distance(x.value) < distance(y.value);
-            });
+        const auto nearest = std::min_element(found.begin(), found.end(), [&](const Enclosed& x, const Enclosed& y) {
+            return distance(x.value) < distance(y.value);
+        });
         result.status = TuneStatus::found;
         result.value = nearest->value, result.error_bound = nearest->error_bound;
         result.chain = tuning.with(nearest->value);

@@ -147,8 +147,7 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
     for (std::size_t m = n; m-- > at + 1;) {
         const auto& e = elements[m];
         const S stiffness = lambda * e.stiffness;
-        E = m + 1 == n ? stiffness - e.lower
-                       : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
+        E = m + 1 == n ? stiffness - e.lower : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
     }
     const ScaledLink<S> link = scaled_links(chain)[at];
     const auto& [W, a, h, rho, below] = link;
