@@ -5,16 +5,13 @@
 #include "revchain/cord.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
 #include "revchain/special/tapered_chain.hpp"
 #include "revchain/special/taut_cord.hpp"
-#include "revchain/special/tip_mass.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 /// A mode of a uniform cord without tip weight.
@@ -26,7 +23,9 @@ struct HeavyChainMode {
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
     double slope(double s) const { return analytic::heavy_chain::slope(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
-    Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
+    Vector<double> vertical_points() const {
+        return analytic::heavy_chain::vertical_points(mode, length);
+    }
 };
 
 /// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as much.
@@ -34,39 +33,40 @@ struct StringMode {
     Index mode;
     double length;
     Wide<double> taut;
+    double number = static_cast<double>(mode), waves = number * std::numbers::pi;
 
-    double waves() const { return static_cast<double>(mode) * std::numbers::pi; }
     double conical_height() const {
-        const Wide<double> turn = two_word_pi * static_cast<double>(mode), one = Wide<double>(length) / turn;
-        return static_cast<double>(one / taut * one);
+        const Wide<double> one = Wide<double>(length) / (two_word_pi * number);
+        return (one / taut * one).high;
     }
-    double shape(double s) const { return s < length ? std::sin(waves() * s / length) : 0.0; }
-    double slope(double s) const { return waves() / length * std::cos(waves() * s / length); }
-    Vector<double> nodes() const { return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1); }
+    double shape(double s) const { return s < length ? std::sin(waves * s / length) : 0.0; }
+    double slope(double s) const { return waves / length * std::cos(waves * s / length); }
+    Vector<double> nodes() const {
+        return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1);
+    }
     Vector<double> vertical_points() const {
-        return (Vector<double>::LinSpaced(mode, 0.5, static_cast<double>(mode) - 0.5) *
-                (length / static_cast<double>(mode)));
+        return Vector<double>::LinSpaced(mode, 0.5, number - 0.5) * (length / number);
     }
 };
+
+/// The tension at the lower end as the length of cord that weighs as much.
+inline Wide<double> lower_length(std::string_view place, const Held<Cord>& of, double gravity) {
+    return lower_tension(place, of, gravity).tension / Wide<double>(of.system().weight()) *
+           Wide<double>(of.system().length());
+}
 
 /// A cord that hangs straight or is held straight.
 struct StraightCord {
     const Cord& cord;
     std::optional<HeldBy> held{};
-    std::optional<Wide<double>> taut{};  ///< held: tension at the lower end as the length of cord that weighs as much
+    Wide<double> taut{};  ///< of a held cord: `lower_length`
 
     StraightCord(const Cord& of) : cord(of) {}
     StraightCord(std::string_view place, const Held<Cord>& of, double gravity)
-        : cord(of.system()), held(of.by()), taut(as_length(place, of, gravity)) {}
-    /// For shapes, which are those of a string under any gravity.
+        : cord(of.system()), held(of.by()), taut(lower_length(place, of, gravity)) {}
+    /// For shapes. A string has the same ones under any gravity.
     explicit StraightCord(const CordModes& modes) : cord(modes.cord), held(modes.held) {
-        if (held) taut = as_length("CordModes", {cord, *held}, 1.0);
-    }
-
-   private:
-    static Wide<double> as_length(std::string_view place, const Held<Cord>& of, double gravity) {
-        return lower_tension(place, of, gravity).tension / Wide<double>(of.system().weight()) *
-               Wide<double>(of.system().length());
+        if (held) taut = lower_length("CordModes", {cord, *held}, 1.0);
     }
 };
 
@@ -81,7 +81,8 @@ inline CordMethod method_for(const StraightCord& straight) {
     const double ulp = epsilon<double>();
     const Cord& cord = straight.cord;
     if (straight.held && straight.held->weightless) return {"half waves of a string", 2 * ulp, true};
-    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0) return {"zeros of J_0", 3 * ulp, true};
+    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0)
+        return {"zeros of J_0", 3 * ulp, true};
     if (cord.is_uniform()) return {"zeros of a cross product of Bessel functions", 2 * ulp, true};
     if (cord.exponent() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
     return {"power series", 4e-15, false};
@@ -90,20 +91,20 @@ inline CordMethod method_for(const StraightCord& straight) {
 /// The result of `f` for one mode in closed form.
 template <class F>
 auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
-    namespace forms = analytic;
     const Cord& cord = straight.cord;
-    if (straight.held) {
-        if (straight.held->weightless) return f(StringMode{mode, cord.length(), *straight.taut});
-        return f(forms::taut_cord::Mode(mode, cord.length(), *straight.taut));
-    }
-    if (!cord.is_uniform()) return f(forms::tapered_chain::Mode(mode, cord.length(), *cord.exponent()));
-    if (cord.tip_weight() == 0) return f(HeavyChainMode{mode, cord.length()});
-    return f(forms::tip_mass::Mode(mode, cord.length(), cord.tip_length()));
+    const double length = cord.length();
+    if (straight.held && straight.held->weightless)
+        return f(StringMode{mode, length, straight.taut});
+    if (straight.held) return f(analytic::taut_cord::Mode(mode, length, straight.taut));
+    if (!cord.is_uniform())
+        return f(analytic::tapered_chain::Mode(mode, length, *cord.exponent()));
+    if (cord.tip_weight() == 0) return f(HeavyChainMode{mode, length});
+    return f(analytic::tip_mass::Mode(mode, length, cord.tip_length()));
 }
 
 inline double closed_height(const StraightCord& straight, Index mode) {
     if (straight.held && !straight.held->weightless)
-        return analytic::taut_cord::conical_height(mode, straight.cord.length(), *straight.taut);
+        return analytic::taut_cord::conical_height(mode, straight.cord.length(), straight.taut);
     return in_closed_form(straight, mode, [](const auto& form) { return form.conical_height(); });
 }
 
@@ -114,10 +115,11 @@ auto with_mode(std::string_view place, const CordModes& modes, Index j, const F&
         throw_invalid(place, "the index must be from 0 to " + std::to_string(modes.size() - 1), j);
     const StraightCord straight(modes);
     if (method_for(straight).is_closed) return in_closed_form(straight, modes.first + j, f);
-    return f(finite::CordModeShape(finite::ContinuousChain(modes.cord), modes.conical_height[j], modes.first + j));
+    const finite::ContinuousChain chain(modes.cord);
+    return f(finite::CordModeShape(chain, modes.conical_height[j], modes.first + j));
 }
 
-/// The number of conical heights that exceed `height`. Heights in closed form fall with the number of the mode.
+/// The number of conical heights that exceed `height`.
 inline Index modes_above(const StraightCord& straight, double height) {
     if (!method_for(straight).is_closed)
         return finite::critical_heights_above(finite::ContinuousChain(straight.cord), height);
@@ -126,7 +128,8 @@ inline Index modes_above(const StraightCord& straight, double height) {
     while (closed_height(straight, not_above) > height) {
         above = not_above, not_above *= 2;
         if (not_above > most)
-            throw_invalid("count_modes", "there are more than 1e15 modes above conical height", height);
+            throw_invalid("count_modes", "there are more than 1e15 modes above conical height",
+                          height);
     }
     const auto side = [&](Index mode) { return closed_height(straight, mode) > height ? -1 : 1; };
     return halved(above, not_above, side).first;
@@ -136,26 +139,28 @@ inline Index modes_above(const StraightCord& straight, double height) {
 inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
     if (options.count == all_modes)
         throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
-    const auto within = [&](const HeightWindow<double>& window) {
-        if (!(window.low > 0))
-            throw_invalid("modes",
-                          "a cord has infinitely many modes; the window must end at a height above 0, "
-                          "or at a finite speed; its lowest height is",
-                          window.low);
-        return modes_within(window, 0, [&](double height) { return modes_above(straight, height); });
-    };
-    const ModeRange range = chosen(all_modes, options, within, [&](const SpeedWindow<double>& window) {
-        return within(window_of_heights(window, options.gravity));
+    double lowest = 1;
+    if (options.conical_height) lowest = options.conical_height->low;
+    if (options.angular_speed)
+        lowest = window_of_heights(*options.angular_speed, options.gravity).low;
+    if (!(lowest > 0))
+        throw_invalid("modes", "a cord has infinitely many modes; the window must end at a height "
+                               "above 0, or at a finite speed; its lowest height is",
+                      lowest);
+    const auto above = [&](double height) { return modes_above(straight, height); };
+    const ModeRange range = chosen(all_modes, options, above, [&](double speed) {
+        return above(options.gravity / speed / speed);
     });
     const CordMethod method = method_for(straight);
     CordModes result{straight.cord, range.first, Vector<double>(range.count),
-                     Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
+                     Vector<double>::Constant(range.count, method.error_bound),
+                     std::string(method.name)};
     result.held = straight.held;
     if (!method.is_closed && range.count > 0) {
         const finite::ContinuousChain chain(straight.cord);
         result.conical_height = finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
-        // The first half wave of a mode is longer than its conical height: from there up the weight must be right.
-        // Heights of smooth densities without error are within 2e-15.
+        // The first half wave of a mode is longer than its conical height: from there up the weight
+        // must be right. Heights of smooth densities without error are within 2e-15.
         for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
             const double from = std::min(result.conical_height[j], chain.length);
             const double density = 2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
@@ -166,7 +171,8 @@ inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& 
         result.conical_height[j] = closed_height(straight, range.first + j);
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all()) result.status = Status::tolerance_not_met;
+    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all())
+        result.status = Status::tolerance_not_met;
     return result;
 }
 
@@ -177,8 +183,7 @@ REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const CordModesOption
     return detail::modes_of(cord, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held,
-                                         const CordModesOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held, const CordModesOptions& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }
@@ -191,39 +196,24 @@ REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held, const CountOp
     return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
 }
 
-namespace detail {
-
-/// f at each place; it can be interrupted.
-template <class F>
-Vector<double> at_places(const Vector<double>& places, const F& f) {
-    Vector<double> found(places.size());
-    for (Index i = 0; i < places.size(); ++i) {
-        if (i % 1024 == 0) look();
-        found[i] = f(places[i]);
-    }
-    return found;
-}
-
-}  // namespace detail
-
-REVCHAIN_INLINE_ANALYTIC double CordModes::offset(Index j, double s) const {
-    return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) { return mode.shape(s); });
-}
-
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) {
-        return detail::at_places(s, [&](double at) { return mode.shape(at); });
+        return analytic::detail::for_numbers(s.size(), [&](Index i) { return mode.shape(s[i - 1]); });
     });
 }
 
-REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
-    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) { return mode.slope(s); });
+REVCHAIN_INLINE_ANALYTIC double CordModes::offset(Index j, double s) const {
+    return detail::with_mode("CordModes::offset", *this, j, [&](const auto& m) { return m.shape(s); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
-        return detail::at_places(s, [&](double at) { return mode.slope(at); });
+        return analytic::detail::for_numbers(s.size(), [&](Index i) { return mode.slope(s[i - 1]); });
     });
+}
+
+REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
+    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& m) { return m.slope(s); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::nodes(Index j) const {
@@ -260,18 +250,20 @@ REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions
     const double critical = detail::critical_height("branch", cord, options.mode);
     if (!(height < critical))
         detail::throw_invalid("branch",
-                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
-                                  detail::in_digits(critical) + ": the height to follow it to must be less",
+                              "mode " + std::to_string(options.mode) +
+                                  " leaves the vertical at the conical height " +
+                                  detail::in_digits(critical) +
+                                  ": the height to follow it to must be less",
                               height);
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord,
-                                               const CordDiagramOptions& options) {
+REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
-    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1)
+        detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     Index count = count_modes(cord, {.conical_height = height});
     Vector<double> critical;
     if (count > 0) critical = modes(cord, {.count = count}).conical_height;
@@ -290,37 +282,39 @@ REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const OnBranch
     CordShapesOnBranch found = shapes_on_branch(cord, options, 1);
     if (found.shapes.empty())
         detail::throw_invalid("steady_shape",
-                              "the number is not met on the branch of mode " + std::to_string(options.mode) +
+                              "the number is not met on the branch of mode " +
+                                  std::to_string(options.mode) +
                                   ", which was followed to the conical height",
                               found.searched_to);
     return std::move(found.shapes.front());
 }
 
 /// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
-///     lambda integral of V y_k' f' / N,  N = lambda integral of V y_k'^2:
-/// no density is needed, however it jumps.
+/// lambda integral of V y_k' f' / N, N = lambda integral of V y_k'^2. The density may jump.
 REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
+    using namespace detail;
     constexpr std::string_view place = "swing";
-    detail::require_positive(place, "gravity", options.gravity);
+    require_positive(place, "gravity", options.gravity);
     if (options.count < 1 || options.count > 10'000)
-        detail::throw_invalid(place, "count must be from 1 to 10000", options.count);
+        throw_invalid(place, "count must be from 1 to 10000", options.count);
     for (const double t : options.time)
-        if (!std::isfinite(t)) detail::throw_invalid(place, "times must be finite", t);
+        if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);
     CordSwing result;
     result.arc_length = options.arc_length;
-    if (result.arc_length.size() == 0) result.arc_length = Vector<double>::LinSpaced(101, 0, cord.length());
+    const double length = cord.length();
+    if (result.arc_length.size() == 0)
+        result.arc_length = Vector<double>::LinSpaced(101, 0, length);
     const Vector<double>& arc = result.arc_length;
     for (Index i = 0; i < arc.size(); ++i)
-        if (!(arc[i] >= 0 && arc[i] <= cord.length() && (i == 0 || arc[i] > arc[i - 1])))
-            detail::throw_invalid(place, "arc lengths must ascend from the free end, 0, to the length", arc[i]);
-    const std::array<detail::CordFunction, 2> start{
-        detail::function_of("offset", options.offset, arc, cord.length()),
-        detail::function_of("velocity", options.velocity, arc, cord.length())};
+        if (!(arc[i] >= 0 && arc[i] <= length && (i == 0 || arc[i] > arc[i - 1])))
+            throw_invalid(place, "arc lengths must ascend from the free end, 0, to the length", arc[i]);
+    const std::array start{function_of("offset", options.offset, arc, length),
+                           function_of("velocity", options.velocity, arc, length)};
     const bool listed = options.offset.index() == 1 || options.velocity.index() == 1;
     const Index count = options.count, all = 2 * count;
-    const detail::CordStartNodes nodes = detail::nodes_of(cord, start, listed ? &arc : nullptr, all);
+    const CordStartNodes nodes = nodes_of(cord, start, listed ? &arc : nullptr, all);
     const CordModes found = modes(cord, {.count = all, .progress = options.progress});
-    const Vector<double> at = Eigen::Map<const Vector<double>>(nodes.arc.data(), static_cast<Index>(nodes.arc.size()));
+    const Vector<double> at = nodes.arcs();
     const auto sum = [&](const auto& f) {
         double total = 0;
         for (std::size_t i = 0; i < nodes.arc.size(); ++i) total += nodes.weight[i] * nodes.below[i] * f(i);
@@ -334,33 +328,35 @@ REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOption
     for (Index k = 0; k < all; ++k) {
         const Vector<double> slope = found.slope(k, at), shape = found.offset(k, arc);
         const auto part = [&](std::size_t of) {
-            return sum([&](std::size_t i) { return slope[static_cast<Index>(i)] * nodes.slope[of][i]; });
+            return sum([&](std::size_t i) { return slope.data()[i] * nodes.slope[of][i]; });
         };
-        const double norm = sum([&](std::size_t i) { return std::pow(slope[static_cast<Index>(i)], 2); });
+        const double norm = sum([&](std::size_t i) { return std::pow(slope.data()[i], 2); });
         const double frequency = std::sqrt(options.gravity / found.conical_height[k]);
-        const double cosine = start[0] ? part(0) / norm : 0.0, sine = start[1] ? part(1) / norm / frequency : 0.0;
+        const double cosine = start[0] ? part(0) / norm : 0.0;
+        const double sine = start[1] ? part(1) / norm / frequency : 0.0;
         const Vector<double> size = std::hypot(cosine, sine) * shape.cwiseAbs();
         (k >= count ? after : k >= count / 2 ? before : whole) += size;
         if (k >= count) continue;
-        result.shape.row(k) = shape.transpose(), result.cosine[k] = cosine, result.sine[k] = sine;
+        result.shape.row(k) = shape.transpose();
+        result.cosine[k] = cosine, result.sine[k] = sine;
         result.energy[k] = 0.5 * norm * (cosine * cosine + sine * sine);
         kept += result.energy[k];
     }
     const double height = sum([&](std::size_t i) { return std::pow(nodes.slope[0][i], 2); }) / 2;
-    const double motion = -sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
-    result.energy_left_out = std::max(0.0, height + motion - kept);
+    const double motion = sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
+    result.energy_left_out = std::max(0.0, height - motion - kept);
     whole += before;
-    result.error_estimate = detail::tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();
+    result.error_estimate = tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();
     // Sums in double: the errors of the modes exceed theirs. `superpose` (questions/superposed.hpp)
     // takes seven times as many instructions for 40 modes at 101 places.
     const auto times = static_cast<Index>(options.time.size());
     result.offset.resize(times, arc.size()), result.velocity.resize(times, arc.size());
     for (Index i = 0; i < times; ++i) {
-        const Vector<double> angle = options.time[static_cast<std::size_t>(i)] * result.angular_frequency;
-        const Vector<double> c = angle.array().cos(), s = angle.array().sin();
-        const Vector<double> now = result.cosine.cwiseProduct(c) + result.sine.cwiseProduct(s);
-        const Vector<double> rate =
-            (result.sine.cwiseProduct(c) - result.cosine.cwiseProduct(s)).cwiseProduct(result.angular_frequency);
+        const auto speed = result.angular_frequency.array();
+        const Eigen::ArrayXd angle = options.time[static_cast<std::size_t>(i)] * speed;
+        const Eigen::ArrayXd c = angle.cos(), s = angle.sin();
+        const auto a = result.cosine.array(), b = result.sine.array();
+        const Vector<double> now = a * c + b * s, rate = (b * c - a * s) * speed;
         result.offset.row(i) = (result.shape.transpose() * now).transpose();
         result.velocity.row(i) = (result.shape.transpose() * rate).transpose();
     }

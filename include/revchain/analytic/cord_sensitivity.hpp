@@ -3,18 +3,16 @@
 
 #include "revchain/analytic/cord.hpp"
 #include "revchain/cord.hpp"
-#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
-#include "revchain/questions/held_tension.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// d lambda / d(tension) of a cord held at both ends, from the slopes of a mode: - lambda integral of y'^2 over
-/// integral of T y'^2, T the tension, from a to b in lengths of cord. Moving an end b moves lambda by lambda b y_b'^2
-/// over that integral (Hadamard), and lambda is homogeneous in a and b, so that it is b^2 y_b'^2 - a^2 y_a'^2. Where
-/// the pull is great that is a small difference, and Gauss's rule serves.
+/// d lambda / d(tension) of a cord held at both ends, from the slopes of a mode: -lambda times the
+/// integral of y'^2 over that of T y'^2, T the tension, from a to b in lengths of cord. Moving end b
+/// moves lambda by lambda b y_b'^2 over the second integral (Hadamard), and lambda is homogeneous in
+/// a and b, so that the integral is b^2 y_b'^2 - a^2 y_a'^2. With a great pull that is a small
+/// difference, and Gauss's rule is used.
 inline double by_tension(const CordModes& modes, Index j, double lower) {
     const double length = modes.cord.length(), upper = lower + length, height = modes.conical_height[j];
     double ratio = 0;  // of the two integrals
@@ -23,17 +21,16 @@ inline double by_tension(const CordModes& modes, Index j, double lower) {
         ratio = (lower * a * a - upper * b * b) / ((upper * b - lower * a) * (upper * b + lower * a));
     } else {
         const auto rule = gauss_rule(16);
-        const Index panels = modes.first + j + 4;
-        Vector<double> arc(panels * static_cast<Index>(rule.size()));
-        for (Index i = 0; i < arc.size(); ++i) {
-            const auto nodes = static_cast<Index>(rule.size());
-            const double part = static_cast<double>(i / nodes) + rule[static_cast<std::size_t>(i % nodes)].first;
-            arc[i] = length * part / static_cast<double>(panels);
-        }
+        const Index panels = modes.first + j + 4, nodes = static_cast<Index>(rule.size());
+        const auto node = [&](Index i) { return rule[static_cast<std::size_t>(i % nodes)]; };
+        Vector<double> arc(panels * nodes);
+        for (Index i = 0; i < arc.size(); ++i)
+            arc[i] = length * (static_cast<double>(i / nodes) + node(i).first) /
+                     static_cast<double>(panels);
         const Vector<double> slope = modes.slope(j, arc);
         double free = 0, pulled = 0;
         for (Index i = 0; i < arc.size(); ++i) {
-            const double part = rule[static_cast<std::size_t>(i) % rule.size()].second * slope[i] * slope[i];
+            const double part = node(i).second * slope[i] * slope[i];
             free += part, pulled += part * (lower + arc[i]);
         }
         ratio = free / pulled;
@@ -51,26 +48,27 @@ REVCHAIN_INLINE_ANALYTIC CordSensitivity sensitivity(const CordModes& modes) {
         v->setZero(modes.size());
     if (modes.held) {
         const double tension = modes.held->tension->high;
-        const Wide<double> below = detail::lower_tension("sensitivity", Held<Cord>(cord, *modes.held), 1.0).tension;
-        const double lower = static_cast<double>(below / Wide<double>(cord.weight()) * Wide<double>(cord.length()));
+        const double lower = detail::lower_length("sensitivity", {cord, *modes.held}, 1.0).high;
         for (Index j = 0; j < modes.size(); ++j)
-            result.tension[j] =
-                modes.held->weightless ? -modes.conical_height[j] / tension : detail::by_tension(modes, j, lower);
+            result.tension[j] = modes.held->weightless ? -modes.conical_height[j] / tension
+                                                       : detail::by_tension(modes, j, lower);
         result.weight = -tension / cord.weight() * result.tension;  // heights depend on the ratio alone
         return result;
     }
     const auto nodes = detail::nodes_of(cord, {}, nullptr, modes.first + modes.size());
-    const Vector<double> at = Eigen::Map<const Vector<double>>(nodes.arc.data(), static_cast<Index>(nodes.arc.size()));
+    const Vector<double> at = nodes.arcs();
     for (Index j = 0; j < modes.size(); ++j) {
         const Vector<double> offset = modes.offset(j, at), slope = modes.slope(j, at);
         const double height = modes.conical_height[j];
         double whole = 0, tip = 0, exponent = 0;
         for (Index i = 0; i < at.size(); ++i) {
             const auto k = static_cast<std::size_t>(i);
-            const double share = nodes.weight[k] * slope[i], form = -share * (2 * offset[i] + height * slope[i]);
+            const double share = nodes.weight[k] * slope[i];
+            const double form = -share * (2 * offset[i] + height * slope[i]);
             const double part = at[i] / cord.length();
             whole += share * slope[i] * nodes.below[k], tip += form;
-            if (cord.exponent()) exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
+            if (cord.exponent())
+                exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
         }
         result.tip_weight[j] = tip / whole, result.exponent[j] = exponent * cord.weight() / whole;
     }

@@ -10,19 +10,20 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A start of a cord as polynomials of x = sqrt(s / length): values and slopes (by x) at the nodes of Gauss's rule, on
-/// panels that are halved until a polynomial of degree 15 gives the function to 1e-13 of its largest value, also at the
-/// ends and in the middle. Offsets at places are straight between them.
+/// A start of a cord as polynomials of x = sqrt(s / length) by values at the nodes of Gauss's rule.
+/// Panels are halved until a polynomial of degree 15 gives the function to 1e-13 of its largest
+/// value, also at the ends and in the middle.
 class CordStartOnPanels {
    public:
-    static constexpr int nodes = 16;
+    static constexpr std::size_t nodes = 16;
+    using Values = std::array<double, nodes>;
     static constexpr double narrowest = 0x1p-40, rounding = 1e-13, jump = 1e-8;
 
     CordStartOnPanels() : rule_(gauss_rule(nodes)) {
-        for (int i = 0; i < nodes; ++i) {  // barycentric weights
-            weight_[at(i)] = 1;
-            for (int k = 0; k < nodes; ++k)
-                if (k != i) weight_[at(i)] /= rule_[at(i)].first - rule_[at(k)].first;
+        for (std::size_t i = 0; i < nodes; ++i) {  // barycentric weights
+            weight_[i] = 1;
+            for (std::size_t k = 0; k < nodes; ++k)
+                if (k != i) weight_[i] /= rule_[i].first - rule_[k].first;
         }
     }
     const std::vector<std::pair<double, double>>& rule() const { return rule_; }
@@ -30,69 +31,74 @@ class CordStartOnPanels {
     /// Whether the polynomial through the values at the nodes of a panel gives the function.
     template <class F>
     bool is_resolved(const F& f, double low, double high, double tolerance) const {
-        std::array<double, nodes> values{};
-        for (int i = 0; i < nodes; ++i) values[at(i)] = f(low + (high - low) * rule_[at(i)].first);
+        Values values{};
+        for (std::size_t i = 0; i < nodes; ++i) values[i] = f(low + (high - low) * rule_[i].first);
         for (const double t : {0.0, 0.5, 1.0})
             if (!(std::abs(value(values, t) - f(low + (high - low) * t)) <= tolerance)) return false;
         return true;
     }
     /// Slopes by t, from 0 to 1 over the panel, at its nodes.
-    std::array<double, nodes> slopes(const std::array<double, nodes>& values) const {
-        std::array<double, nodes> result{};
-        for (int i = 0; i < nodes; ++i)
-            for (int k = 0; k < nodes; ++k)
+    Values slopes(const Values& values) const {
+        Values result{};
+        for (std::size_t i = 0; i < nodes; ++i)
+            for (std::size_t k = 0; k < nodes; ++k)
                 if (k != i)
-                    result[at(i)] += weight_[at(k)] / weight_[at(i)] * (values[at(k)] - values[at(i)]) /
-                                     (rule_[at(i)].first - rule_[at(k)].first);
+                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) /
+                                 (rule_[i].first - rule_[k].first);
         return result;
     }
 
    private:
-    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-    double value(const std::array<double, nodes>& values, double t) const {
+    double value(const Values& values, double t) const {
         double above = 0, below = 0;
-        for (int i = 0; i < nodes; ++i) {
-            const double share = weight_[at(i)] / (t - rule_[at(i)].first);
-            above += share * values[at(i)], below += share;
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const double share = weight_[i] / (t - rule_[i].first);
+            above += share * values[i], below += share;
         }
         return above / below;
     }
     std::vector<std::pair<double, double>> rule_;
-    std::array<double, nodes> weight_{};
+    Values weight_{};
 };
 
-/// Offsets and velocities at the start, and the weights with which sums over the nodes are integrals by s.
+/// Offsets and velocities at the start, and the weights with which sums over nodes are integrals
+/// by s.
 struct CordStartNodes {
-    std::vector<double> arc, weight, below;           // weight below, of tip and all
+    std::vector<double> arc, weight, below;           // `below`: the weight below, with the tip
     std::array<std::vector<double>, 2> value, slope;  // of offset and velocity, the slope by s
+
+    Vector<double> arcs() const {
+        return Eigen::Map<const Vector<double>>(arc.data(), static_cast<Index>(arc.size()));
+    }
 };
 
 using CordFunction = std::function<double(double)>;
 
-/// The function of a start: nothing where there is none.
+/// The function of a start, empty where there is none. Between values given at points it is
+/// straight.
 template <class Start>
-CordFunction function_of(std::string_view name, const Start& start, const Vector<double>& places, double length) {
-    static constexpr std::string_view place = "swing";  // static: clang 14 refuses it uncaptured in the lambda
+CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places, double length) {
+    static constexpr std::string_view place = "swing";  // static: Clang 14 captures no constant
     CordFunction given;
     if (const auto* function = std::get_if<CordFunction>(&start)) {
-        if (!*function) throw_invalid(place, std::string(name) + " must be a function, not an empty one");
+        if (!*function) throw_invalid(place, name + " must be a function, not an empty one");
         given = [f = *function, name](double s) {
             const double y = f(s);
-            if (!std::isfinite(y))
-                throw_invalid(place, std::string(name) + " must be finite; at " + in_digits(s) + " it is", y);
-            return y;
+            if (std::isfinite(y)) return y;
+            throw_invalid(place, name + " must be finite; at " + in_digits(s) + " it is", y);
         };
     } else if (const auto* values = std::get_if<Vector<double>>(&start)) {
         if (values->size() != places.size())
-            throw_invalid(
-                place,
-                std::string(name) + " must have a number for each of the " + std::to_string(places.size()) + " places",
-                values->size());
+            throw_invalid(place, name + " must have a number for each of the " +
+                                     std::to_string(places.size()) + " places",
+                          values->size());
         for (const double y : *values)
-            if (!std::isfinite(y)) throw_invalid(place, std::string(name) + " must be finite", y);
-        if (places[0] != 0 || places[places.size() - 1] != length)
-            throw_invalid(place, "places at which offsets are given must begin at 0 and end at the length, not at",
-                          places[0] != 0 ? places[0] : places[places.size() - 1]);
+            if (!std::isfinite(y)) throw_invalid(place, name + " must be finite", y);
+        const double last = places[places.size() - 1];
+        if (places[0] != 0 || last != length)
+            throw_invalid(place, "places at which offsets are given must begin at 0 and end at the "
+                                 "length, not at",
+                          places[0] != 0 ? places[0] : last);
         given = [v = *values, places](double s) {
             const double* after = std::upper_bound(places.data() + 1, places.data() + places.size() - 1, s);
             const Index i = after - places.data();
@@ -100,14 +106,15 @@ CordFunction function_of(std::string_view name, const Start& start, const Vector
             return v[i - 1] + share * (v[i] - v[i - 1]);
         };
     }
-    if (given && !(std::abs(given(length)) <= 1e-12 * std::abs(given(length / 2)) + 1e-300) && given(length) != 0)
-        throw_invalid(place, std::string(name) + " of the support must be 0", given(length));
+    const double at_support = given ? given(length) : 0;
+    if (at_support != 0 && !(std::abs(at_support) <= 1e-12 * std::abs(given(length / 2)) + 1e-300))
+        throw_invalid(place, name + " of the support must be 0", at_support);
     return given;
 }
 
 /// Panels fine enough for modes up to number `modes`, and for a start.
-inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start, const Vector<double>* places,
-                               Index modes) {
+inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
+                               const Vector<double>* places, Index modes) {
     const CordStartOnPanels panels;
     const double length = cord.length();
     std::vector<double> ends{0, 1};
@@ -116,14 +123,17 @@ inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 
     if (places != nullptr)
         for (const double s : *places) ends.push_back(std::sqrt(s / length));
     if (!cord.is_uniform()) {
-        for (int i = 1; i < 40; ++i) ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
-        if (const auto density = cord.line_density())
-            for (const auto& piece : density->pieces()) ends.push_back(std::sqrt((piece.middle + piece.half) / length));
+        for (int i = 1; i < 40; ++i)
+            ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
+        const auto density = cord.line_density();
+        for (const auto& piece : density->pieces())
+            ends.push_back(std::sqrt((piece.middle + piece.half) / length));
     }
     std::sort(ends.begin(), ends.end());
     std::vector<double> kept{0};
     for (const double x : ends)
-        if (x > kept.back() + 1e-7 || (x > 0 && kept.size() == 1)) kept.push_back(std::min(x, 1.0));
+        if (x > kept.back() + 1e-7 || (x > 0 && kept.size() == 1))
+            kept.push_back(std::min(x, 1.0));
     kept.back() = 1;
     const finite::ContinuousChain chain(cord);  // keeps the density
     const finite::PathKind kind = finite::kind_of(chain, 1, 1);
@@ -137,22 +147,21 @@ inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 
             if (!start[i]) continue;
             const auto f = [&](double x) { return start[i](std::min(length * x * x, length)); };
             if (panels.is_resolved(f, low, high, CordStartOnPanels::rounding * largest[i])) continue;
-            if (high - low > CordStartOnPanels::narrowest) {
-                divide(low, low + (high - low) / 2), divide(low + (high - low) / 2, high);
-                return;
-            }
+            const double middle = low + (high - low) / 2;
+            if (high - low > CordStartOnPanels::narrowest)
+                return divide(low, middle), divide(middle, high);
+            const std::string name = i == 0 ? "offset" : "velocity";
             if (!panels.is_resolved(f, low, high, CordStartOnPanels::jump * largest[i]))
-                throw_invalid("swing",
-                              i == 0 ? "offset must be continuous; it is not at arc length"
-                                     : "velocity must be continuous; it is not at arc length",
+                throw_invalid("swing", name + " must be continuous; it is not at arc length",
                               length * low * low);
         }
         const double wide = high - low;
-        std::array<std::array<double, CordStartOnPanels::nodes>, 2> values{};
+        std::array<CordStartOnPanels::Values, 2> values{};
         std::vector<double> x;
         for (const auto& [t, weight] : panels.rule()) {
             const double at = low + wide * t, s = length * at * at;
-            x.push_back(at), result.arc.push_back(s), result.weight.push_back(weight * wide * 2 * length * at);
+            x.push_back(at), result.arc.push_back(s);
+            result.weight.push_back(weight * wide * 2 * length * at);
             result.below.push_back(kind.weight_below(s) * cord.line_weight());
             for (std::size_t i = 0; i < 2; ++i) values[i][x.size() - 1] = start[i] ? start[i](s) : 0.0;
         }
@@ -168,8 +177,8 @@ inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 
     return result;
 }
 
-/// Sums of amplitude times shape over modes K/2 ... K and K ... 2K, at each place: their ratio says how fast they fall;
-/// twice what follows from it.
+/// Twice the sum of the modes left out, from the sums of amplitude times shape over modes K/2 ... K
+/// and K ... 2K at each point, whose ratio says how fast they fall.
 inline Vector<double> tail_estimate(const Vector<double>& before, const Vector<double>& after) {
     Vector<double> result(before.size());
     for (Index i = 0; i < before.size(); ++i) {

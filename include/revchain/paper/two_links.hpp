@@ -21,7 +21,8 @@ T inverse_power_near(const T& x) {
     return ldexp(T(1), std::min(-exponent, std::numeric_limits<T>::max_exponent - 1));
 }
 
-/// Roots of (lambda - p)(lambda - q) = coupling, the larger first, for positive numbers with rest = p q - coupling > 0.
+/// Roots of (lambda - p)(lambda - q) = coupling, the larger first, for positive numbers with
+/// rest = p q - coupling > 0.
 template <Real T>
 std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const T& rest) {
     using std::sqrt;
@@ -30,7 +31,7 @@ std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const 
     return {larger, rest / larger};
 }
 
-/// Computes these roots for numbers whose products may overflow or underflow.
+/// These roots for numbers whose products may overflow or underflow.
 template <Real T>
 std::array<T, 2> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
                                const Product<Wide<T>>& rest) {
@@ -91,10 +92,9 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
     const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));
     const auto too_small = [](const T& share) { return share * length_span<T>() < T(1); };
     if (too_small(links.upper_length * unit) || too_small(links.lower.centroid * unit))
-        throw_invalid(
-            place,
-            "lengths, the lower link's pendulum length among them, must not be more than 1e77 apart; upper length",
-            links.upper_length);
+        throw_invalid(place, "lengths, the lower link's pendulum length among them, must not be more than "
+                             "1e77 apart; upper length",
+                      links.upper_length);
     if (too_small(links.lower_weight * by) || too_small(links.upper_weight * by))
         throw_invalid(place, "weights must not be more than 1e77 apart; lower weight", links.lower_weight);
     using S = Wide<T>;  // the moment of a bell hung below its centroid is a difference
@@ -103,8 +103,8 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
     const S hung = w1 * a2 + w2 * h2;  // W1 a2 (m + 1)
     if (!(hung > S(T(0))))
         throw_invalid(place,
-                      "the upper link would stand, not hang: upper weight x upper centroid + upper length x lower "
-                      "weight must be positive, with an upper centroid of",
+                      "the upper link would stand, not hang: upper weight x upper centroid + upper "
+                      "length x lower weight must be positive, with an upper centroid of",
                       links.upper_centroid);
     const CompoundLink<S> lower{S(links.lower.centroid * unit), S(links.lower.radius_of_gyration * unit)};
     const S l1 = lower.pendulum_length(), turn = w2 * (h2 * h2 + k2 * k2), pull = w1 * a2 * a2;

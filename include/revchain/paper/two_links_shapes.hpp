@@ -1,31 +1,29 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
 
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/system/link.hpp"
 
-/// Two links at any inclination: all shapes at a given speed, and the proof that there are no others.
-/// Greenhill (1908) §2 (4), (8), §6 (10).
+/// Two links at any inclination: all shapes at a given speed, and the proof that there are no
+/// others. Greenhill (1908) §2 (4), (8), §6 (10).
 ///
-/// Lengths are in units of the conical height. l1 and l2 are the lengths, s l1 l2 is the coupling with s = W1/(W1+W2)
-/// or h/l, and A = sec d1 - l1. The paper's (4) and A sin d1 = l2 sin d2 leave one equation in A,
+/// Lengths are in units of the conical height. l1 and l2 are the lengths, s l1 l2 is the coupling
+/// with s = W1/(W1+W2) or h/l, and A = sec d1 - l1. The paper's (4) and A sin d1 = l2 sin d2 leave
+/// one equation in A,
 ///     F = A^2 (1 - cos^2 d1) - l2^2 (1 - cos^2 d2) = 0,      sec d2 = l2 + s l1 l2 / A.
-/// A > 0: both links lean to one side. F grows with A, so there is one shape if the height lies below the first of (5),
-/// else none.
+/// A > 0: both links lean to one side. F grows with A, so there is one shape if the height is below
+/// the first of (5), else none.
 /// A < 0: the links lean to opposite sides. With B = -A,
 ///     dF/dB = 2B (1 - l1/(l1-B)^3 - s l1/(B - s l1)^3).
-/// The bracket is concave with its maximum at B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)). F grows between the two zeros of
-/// the bracket and falls elsewhere, so there are one or three shapes if the height lies below the second of (5), else
-/// none.
+/// The bracket is concave with its maximum at B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)). F grows
+/// between its two zeros and falls elsewhere, so there are one or three shapes if the height is
+/// below the second of (5), else none.
 ///
-/// For jointed links the distance a2 between the pins of the upper link is not the l2 in sec d2. Then a2 replaces l2 in
-/// front of (1 - cos^2 d2), the bracket is 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at
+/// For jointed links a2, between the pins of the upper link, replaces the l2 before (1 - cos^2 d2).
+/// The bracket is then 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at
 /// B - s l1 : l1 - B = (s (a2/l2)^2)^(1/4) : 1, and the rest holds unchanged.
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -34,8 +32,8 @@ struct PairShape;  // two_links.hpp
 
 namespace detail {
 
-/// Two links at a speed. Lengths are over the height, in two words: near a fold and near the vertical inclinations are
-/// ill-conditioned.
+/// Two links at a speed. Lengths are over the height, in two words, because inclinations are
+/// ill-conditioned near a fold and near the vertical.
 template <Real T>
 struct Pair {
     using S = Wide<T>;
@@ -43,14 +41,15 @@ struct Pair {
     T height;
     S upper = l2;  ///< a2, between the pins of the upper link
 
-    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights. Of two forms the one with smaller terms.
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights: the form with the
+    /// smaller terms.
     S characteristic() const {
         using std::abs;
         const S one(1), p = (one - l1) * (one - l2), q = share * l1 * l2, r = other * l1 * l2, rest = l1 + l2 - one;
         return abs(p) + q < r + abs(rest) ? p - q : r - rest;
     }
-    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm or falls as `direction` says,
-    /// `rest` = arm (sec d2 - 1), and `joint` = +- s l1, so that arm sec d2 = l2 (arm + joint).
+    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm (`direction` 1)
+    /// or falls, `rest` = arm (sec d2 - 1), and arm sec d2 = l2 (arm + joint), joint = +- s l1.
     std::pair<S, S> balance(int direction, const S& joint, const S& arm, const S& versed, const S& rest) const {
         const S cosine1 = S(1) / (S(1) + versed), sine1_squared = versed * cosine1 * (S(1) + cosine1);
         const S lever = arm + rest, cosine2 = arm / lever, ratio = arm / upper;
@@ -69,14 +68,14 @@ struct Pair {
     }
 };
 
-/// A place within a width, measured from both ends, each distance accurate to its last digit.
+/// A point within a width: its distances from both ends, each accurate to its last digit.
 template <Real S>
 struct Place {
     S x, left;
 };
 
-/// The place between `low` and `high` where a function of x and of what is left of the width goes through zero once,
-/// upwards (sign 1) or downwards (sign -1).
+/// The point between `low` and `high` where a function of x and of the width left goes through zero
+/// once, upwards (sign 1) or downwards (sign -1).
 template <Real S, class F>
 Place<S> zero_within(const S& width, const Place<S>& low, const Place<S>& high, const S& sign,
                      const F& value_and_slope) {
@@ -97,8 +96,8 @@ Place<S> zero_within(const S& width, const Place<S>& low, const Place<S>& high, 
     return {x, S(width - x)};
 }
 
-/// The one shape with arm = arm0 + x, sec d1 - 1 = versed0 + x, rest = rest0 + (l2 - 1) x for 0 <= x <= farthest: F
-/// grows with x. Where l2 < 1 the range ends at d2 = 0 instead, where the rest is 0.
+/// The one shape with arm = arm0 + x, sec d1 - 1 = versed0 + x, rest = rest0 + (l2 - 1) x for
+/// 0 <= x <= farthest or, where l2 < 1, up to d2 = 0, where the rest is 0. F grows with x.
 template <Real T, class S>
 PairShape<T> growing_shape(const Pair<T>& pair, const S& joint, const S& arm0, const S& versed0, const S& rest0,
                            const S& farthest) {
@@ -120,7 +119,7 @@ PairShape<T> growing_shape(const Pair<T>& pair, const S& joint, const S& arm0, c
     return pair.shape(1, S(arm0 + x), S(versed0 + x), rest);
 }
 
-/// Appends the shape that leans to one side, if there is one. It is sought from where A = 0 or d1 = 0;
+/// Appends the shape that leans to one side, if there is one. The search begins at A = 0 or d1 = 0.
 /// rest = (l2 - 1) A + s l1 l2, which is -chi where d1 = 0.
 template <Real T>
 void add_same_side(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) {
@@ -132,7 +131,7 @@ void add_same_side(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) {
                       pair.l1 < one ? S(-chi) : S(pair.share * pair.l1 * pair.l2), S(pair.l1 + pair.upper + one)));
 }
 
-/// The shape in which the lower link stands, if there is one: A = l1 + sec d1, with d1 from the upward vertical.
+/// The shape in which the lower link stands, if any: A = l1 + sec d1, d1 from the upward vertical.
 template <Real T>
 std::optional<PairShape<T>> standing_shape(const Pair<T>& pair) {
     using S = Wide<T>;
@@ -150,7 +149,7 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     using S = Wide<T>;
     const S chi = pair.characteristic();
     if (!(chi > S(0) && pair.l1 > S(1) && pair.l2 > S(1))) return;
-    // B runs from s l1 l2/(l2 - 1), where d2 = 0, over a width of chi/(l2 - 1) to l1 - 1, where d1 = 0.
+    // B runs from s l1 l2/(l2 - 1), where d2 = 0, over chi/(l2 - 1) to l1 - 1, where d1 = 0.
     const S rises = pair.l2 - S(1), first = pair.share * pair.l1 * (pair.l2 / rises), width = chi / rises;
     const auto at = [&](const S& x, const S& versed) {
         return pair.balance(-1, S(-pair.share * pair.l1), S(first + x), versed, S(rises * x));
@@ -169,15 +168,12 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     const auto turning = [&](const S& p, const S& q) { return S(1) - first_part(p) - second_part(q); };
     Place<S> low = start, high = start;  // F grows between the two
     if (turning(top_p, top_q) > S(0)) {
-        const auto slope = [&](const S& p, const S& q) {  // along Q
-            return S(3) * (second_part(q) / q - first_part(p) / p);
+        const auto at_place = [&](const S& p, const S& q, int sign) {  // value, slope along +- Q
+            const S slope = S(3) * (second_part(q) / q - first_part(p) / p);
+            return std::pair<S, S>(turning(p, q), S(sign) * slope);
         };
-        const S q = zero_between(S(0), top_q, [&](const S& at_q) {
-            return std::pair<S, S>(turning(S(both - at_q), at_q), slope(S(both - at_q), at_q));
-        });
-        const S p = zero_between(S(0), top_p, [&](const S& at_p) {
-            return std::pair<S, S>(turning(at_p, S(both - at_p)), -slope(at_p, S(both - at_p)));
-        });
+        const S q = zero_between(S(0), top_q, [&](const S& x) { return at_place(both - x, x, 1); });
+        const S p = zero_between(S(0), top_p, [&](const S& x) { return at_place(x, both - x, -1); });
         const S x = std::clamp(S(q - lower / rises), S(0), width), versed = std::clamp(S(p - S(1)), S(0), width);
         low = {x, S(width - x)}, high = {S(width - versed), versed};
     }
@@ -190,7 +186,7 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     if (zero_before) add_between(start, low, -1);
 }
 
-/// All shapes that hang, sorted as the public functions return them.
+/// All shapes that hang, sorted for the public functions.
 template <Real T>
 std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     std::vector<PairShape<T>> shapes;
@@ -199,7 +195,7 @@ std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     return shapes;
 }
 
-/// A pair from lengths in the unit of the height. Throws InvalidArgument where cubes of them would leave the range.
+/// A pair of links. Throws InvalidArgument where cubes of lengths over the height overflow.
 template <Real T>
 Pair<T> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper, const Wide<T>& share,
                 const Wide<T>& other, const T& height) {

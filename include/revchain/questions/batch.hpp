@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <string>
-#include <string_view>
-
 #include "revchain/batch.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/questions/batch_workers.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 template <Real T>
@@ -22,18 +16,21 @@ void check(const ChainBatch<T>& batch, const BatchOptions& options) {
     if (!batch.centroid && (batch.pendulum_length || batch.radius_of_gyration))
         throw_invalid(place, "pendulum_length and radius_of_gyration need the centroid");
     if (batch.centroid && batch.pendulum_length.has_value() == batch.radius_of_gyration.has_value())
-        throw_invalid(place, "a centroid needs either pendulum_length or radius_of_gyration (not both)");
-    if (options.count && *options.count < 1) throw_invalid(place, "count must be at least 1", *options.count);
-    if (options.count && *options.count > batch.size)
-        throw_invalid(place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain",
-                      *options.count);
+        throw_invalid(place,
+                      "a centroid needs either pendulum_length or radius_of_gyration (not both)");
+    const Index count = options.count.value_or(1);
+    if (count < 1) throw_invalid(place, "count must be at least 1", count);
+    if (count > batch.size)
+        throw_invalid(place,
+                      "count must not exceed the " + std::to_string(batch.size) + " links of a chain",
+                      count);
 }
 
-/// All heights. With `looking`, every chain is looked at just before it is needed, while it is in the cache, and false
-/// returned as soon as one is not ordinary.
+/// Finds all heights. With `looking`, checks every chain just before it is needed, while it is in
+/// the cache, and returns false as soon as one is not ordinary.
 template <Real T>
-bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptions& options, bool looking,
-             Table<T>& heights) {
+bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptions& options,
+             bool looking, Table<T>& heights) {
     constexpr Index together = 256;  // chains; a multiple of the lanes
     std::atomic<bool> unusual = false;
     parallel_for(batch.chains, together, [&](Index begin, Index end) {
@@ -45,7 +42,8 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
                 return;
             }
             worker.run(first, last);
-            advance(options.progress, static_cast<double>(last) / static_cast<double>(batch.chains));
+            const double share = static_cast<double>(last) / static_cast<double>(batch.chains);
+            advance(options.progress, share);
         }
         if (!unusual) worker.finish(options.progress);
     });

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <limits>
-#include <vector>
 
 #include "revchain/linear/batch_plan.hpp"
 #include "revchain/modes.hpp"
@@ -19,7 +16,8 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
     const Modes<T> m = modes(chain_of(batch, c), {.count = count});
     if (!(m.error_bound.maxCoeff() < sqrt(epsilon<T>())))
         throw_invalid("conical_heights",
-                      name_of_chain(batch, c) + ": its heights cannot be proved in this scalar; the error bound is",
+                      name_of_chain(batch, c) +
+                          ": its heights cannot be proved in this scalar; the error bound is",
                       m.error_bound.maxCoeff());
     heights.row(c) = m.conical_height.transpose();
 }
@@ -27,7 +25,7 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
 template <class T>
 inline constexpr bool fits_lanes = std::is_same_v<T, double> || std::is_same_v<T, float>;
 
-/// The chains first ... last - 1 of a batch: `block_lanes` at a time, in scalars that do not fit the lanes one by one.
+/// Chains of a batch, `block_lanes` at a time, or one by one in scalars that do not fit the lanes.
 template <Real T>
 class BatchWorker {
    public:
@@ -51,7 +49,7 @@ class BatchWorker {
         }
     }
 
-    /// What could not be proved at once.
+    /// Solves the chains that are waiting, and those that could not be proved at once.
     void finish(Progress* progress) {
         if constexpr (fits_lanes<T>) {
             solve(first_method());
@@ -71,7 +69,8 @@ class BatchWorker {
 
    private:
     pencil::LaneMethod first_method() const {
-        return batch_.size <= 16 ? pencil::LaneMethod::coefficients : pencil::LaneMethod::recurrence;
+        using enum pencil::LaneMethod;
+        return batch_.size <= 16 ? coefficients : recurrence;
     }
 
     void take(Index c, pencil::LaneMethod method) {
@@ -91,7 +90,7 @@ class BatchWorker {
             *to = static_cast<double>(*from);
     }
 
-    /// Empty lanes get a chain that is there: nothing they compute is read.
+    /// Empty lanes get a copy of the first chain; their results are not read.
     void solve(pencil::LaneMethod method) {
         if (waiting_ == 0) return;
         const Index column = batch_.size * pencil::block_lanes;

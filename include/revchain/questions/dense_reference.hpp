@@ -4,22 +4,18 @@
 #include "revchain/modes.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
-#include "revchain/pencil/twisted.hpp"
-#include "revchain/questions/modes.hpp"
 #include "revchain/recurrence.hpp"
 
-/// Modes by two formulations that share no step with `modes`. They are slow and less accurate, and serve as its
-/// references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
+/// Modes by two formulations that share no step with `modes`: slow, less accurate references of it.
+/// The same counts prove their error bounds, which say what a dense solver costs in digits.
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// The proved relative error of `height` as the eigenvalue number j: the least power of two times an ulp that two
-/// counts confirm, infinite if none up to 1/2 does.
+/// The proved relative error of `height` as eigenvalue number j: the least power of two times an ulp
+/// that two counts confirm, infinite if none up to 1/2 does.
 template <Real T>
 T proved_error(const pencil::ElementPencil<Wide<T>>& pencil, Index j, const T& height) {
-    if (!(height > T(0))) return std::numeric_limits<T>::infinity();
-    for (T margin = T(2) * epsilon<T>(); margin <= T(0.5); margin = margin * T(2))
+    for (T margin = T(2) * epsilon<T>(); height > T(0) && margin <= T(0.5); margin = margin * T(2))
         if (pencil::lies_within<Wide<T>>(pencil, j, height, static_cast<Narrow<Wide<T>>>(margin)))
             return pencil::bound_of_margin<Wide<T>>(margin);
     return std::numeric_limits<T>::infinity();
@@ -31,7 +27,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
     check(options);
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes<T>(range, options.certify);
+    Modes<T> result = room_for_modes<T>(range);
     result.method = method;
     ModeShapes<T> shapes = room_for_shapes(chain, range.count);
     const Pencils<T>& pencils = assembled.pencils();
@@ -39,21 +35,21 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
     for (Index j = 0; j < range.count; ++j) {
         const Index before = range.first - 1 + j;
         const T height = system.values[before];
-        set_height(result, j, height, proved_error(pencils.wide(), before, height), chain.units().length_exponent,
-                   options.rtol);
+        set_height(result, j, height, proved_error(pencils.wide(), before, height),
+                   chain.units().length_exponent, options.rtol);
         Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
         offset.head(chain.size()) = system.vectors.col(before);
         set_shape(shapes, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
-        if (options.certify) certify(result, j, pencils, chain.mode_count());
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
+    if (options.certify) certify(result, pencils, chain.mode_count());
     ShapesBehind::of(result) = LazyModeShapes<T>(std::move(shapes));
     return result;
 }
 
 }  // namespace detail
 
-/// By the assembled symmetric-definite pencil, a dense O(N^3) solver. Arguments and errors as for `modes`.
+/// By the assembled symmetric-definite pencil, dense, O(N^3). Arguments and errors as for `modes`.
 template <Real T>
 Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "dense", [](const detail::Pencils<T>& pencils) {
@@ -62,7 +58,7 @@ Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {})
     });
 }
 
-/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3). Arguments and errors as for `modes`.
+/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3); otherwise as `modes_dense`.
 template <Real T>
 Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "recurrence", [&chain](const detail::Pencils<T>&) {

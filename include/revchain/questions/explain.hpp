@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <ios>
 #include <sstream>
-#include <string>
 #include <utility>
 
 #include "revchain/explain.hpp"
@@ -14,19 +12,12 @@
 #include "revchain/questions/mode_range.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
-
-inline std::string bound_text(double bound) {
-    std::ostringstream text;
-    text.precision(1);
-    text << std::scientific << bound;
-    return text.str();
-}
 
 /// Seconds with the unit that suits them.
 inline std::string time_text(double seconds) {
-    constexpr std::array<std::pair<const char*, double>, 4> units{{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
+    using Unit = std::pair<const char*, double>;
+    constexpr std::array units{Unit("s", 1), Unit("ms", 1e-3), Unit("us", 1e-6), Unit("ns", 1e-9)};
     std::size_t i = 0;
     while (i + 1 < units.size() && !(seconds >= units[i].second)) ++i;
     std::ostringstream text;
@@ -42,21 +33,24 @@ REVCHAIN_INLINE std::string Explanation::text() const {
     std::vector<Line> lines{Line{"", "model", "error bound", "expected to take", ""}};
     for (std::size_t i = 0; i < methods.size(); ++i) {
         const Estimate& model = methods[i];
-        Line line{i == chosen ? "->" : "", std::string(model.name), "-", "-", ""};
-        if (model.fit.applies)
-            line[2] = detail::bound_text(model.error_bound), line[3] = detail::time_text(model.cost);
-        else
-            line[4] = model.fit.reason;
-        lines.push_back(std::move(line));
+        std::ostringstream bound;
+        bound.precision(1);
+        bound << std::scientific << model.error_bound;
+        const std::string arrow = i == chosen ? "->" : "", name(model.name);
+        lines.push_back(model.fit.applies
+                            ? Line{arrow, name, bound.str(), detail::time_text(model.cost), ""}
+                            : Line{arrow, name, "-", "-", std::string(model.fit.reason)});
     }
     std::array<std::size_t, 4> width{};
     for (const Line& line : lines)
         for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
     std::string result = meets_tolerance ? "" : "no model keeps the tolerance\n";
     for (const Line& line : lines) {
-        const auto space = [&](std::size_t i) { return std::string(width[i] - line[i].size(), ' '); };
-        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] + "  " + space(3) +
-                          line[3] + "  " + line[4];
+        const auto space = [&](std::size_t i) {
+            return std::string(width[i] - line[i].size(), ' ');
+        };
+        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] +
+                          "  " + space(3) + line[3] + "  " + line[4];
         row.erase(row.find_last_not_of(' ') + 1);
         result += row + '\n';
     }

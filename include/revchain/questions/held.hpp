@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <vector>
-
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
-#include "revchain/linear/counted_roots.hpp"
 #include "revchain/linear/rig_shape.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/held_tension.hpp"
-#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
-
-inline void require_half_waves(int most) {
-    if (most < 1) throw_invalid("steady_shapes", "max_half_waves must be at least 1", most);
-}
 
 /// The conical height of the speed asked for; 0 without gravity.
 template <class Options>
 Wide<double> height_asked(const HeldBy& by, const Options& options) {
     constexpr std::string_view place = "steady_shapes";
+    if constexpr (requires { options.max_half_waves; })
+        if (options.max_half_waves < 1)
+            throw_invalid(place, "max_half_waves must be at least 1", options.max_half_waves);
     if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
     if (by.weightless) {
         if (options.conical_height)
-            throw_invalid(place, "without gravity there is no conical height; give angular_speed instead of it",
+            throw_invalid(place,
+                          "without gravity there is no conical height; give angular_speed instead of it",
                           *options.conical_height);
         if (by.tension && !options.angular_speed)
-            throw_invalid(place, "without gravity the shape under a tension depends on the speed; give angular_speed");
+            throw_invalid(place, "without gravity the shape under a tension depends on the speed; "
+                                 "give angular_speed");
         return Wide<double>(0);
     }
     require_one_speed(place, options);
@@ -40,15 +36,15 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
         return Wide<double>(*options.conical_height);
     }
     if (options.gravity == 0)
-        throw_invalid(place, "gravity must be positive; for none, hold the system with weightless = true");
+        throw_invalid(place,
+                      "gravity must be positive; for none, hold the system with weightless = true");
     require_positive(place, "gravity", options.gravity);
     const Wide<double> height = finite::height_at_speed(*options.angular_speed, options.gravity);
     require_positive(place, "gravity / angular_speed^2", static_cast<double>(height));
     return height;
 }
 
-/// The conical height times the tension at the upper end; without gravity, tension over speed
-/// squared.
+/// The conical height times the upper tension; without gravity, tension over speed squared.
 inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                          const std::optional<double>& angular_speed) {
     const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
@@ -57,14 +53,13 @@ inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& h
     return product;
 }
 
-/// What holds the ends at a speed; without gravity stiffnesses are divided by the square of the
-/// speed.
+/// The supports at a speed; without gravity stiffnesses are divided by the square of the speed.
 inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                         const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
     if (!angular_speed)
-        throw_invalid("steady_shapes",
-                      "without gravity shapes between springs depend on the speed; give angular_speed");
+        throw_invalid("steady_shapes", "without gravity shapes between springs depend on the speed; "
+                                       "give angular_speed");
     const Wide<double> speed(*angular_speed), unit(1.0);
     return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
 }
@@ -80,7 +75,6 @@ struct TautChain {
           heights(counted_heights(pencil)) {}
 
     Index mode_count() const { return heights.available.count; }
-    /// How many heights exceed one.
     Index above(std::string_view place, const Wide<double>& height) const {
         return heights.above(scaled(height), place, height.high);
     }
@@ -98,26 +92,35 @@ struct TautChain {
     }
 };
 
-/// The span of what is held, of whose shapes at every speed a question is.
+/// The span, for questions about shapes at every speed.
 inline double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
-        throw_invalid(place, "is for what is held at a span; under a tension use steady_shapes at each speed, or modes",
+        throw_invalid(place, "is for what is held at a span; under a tension use steady_shapes at "
+                             "each speed, or modes",
                       by.tension->high);
     if (by.weightless)
-        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) use steady_shapes");
+        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) "
+                             "use steady_shapes");
     return *by.span;
 }
 
-/// `at_height(span, height)` and `of_tension(span, tension)` look for the shape that is asked for.
+inline std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOptions& options) {
+    constexpr std::string_view place = "branches";
+    const double span = span_asked(place, by);
+    require_positive(place, "max_step", options.max_step);
+    return {span, finite::lowest_height(place, options)};
+}
+
+/// `at_height(span, height)` and `of_tension(span, tension)` return the shape asked for, if any.
 template <class AtHeight, class OfTension>
 auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHeight& at_height,
                 const OfTension& of_tension) {
     constexpr std::string_view place = "steady_shape";
     const double span = span_asked(place, by);
     if (options.mode < 1) throw_invalid(place, "mode must be at least 1", options.mode);
-    const int given =
-        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
-    if (given != 1) throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
+    if (options.conical_height.has_value() + options.angular_speed.has_value() +
+            options.top_tension.has_value() != 1)
+        throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
     if (options.top_tension) {
         require_positive(place, "top_tension", *options.top_tension);
         if (auto shape = of_tension(span, *options.top_tension)) return *shape;
@@ -125,36 +128,34 @@ auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHe
     }
     const Wide<double> height = height_asked(by, options);
     if (auto shape = at_height(span, height)) return *shape;
-    throw_invalid(place, "the branch does not reach this conical height; branches says how far it goes",
+    throw_invalid(place,
+                  "the branch does not reach this conical height; branches says how far it goes",
                   static_cast<double>(height));
 }
 
 }  // namespace detail
 
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
-    detail::require_half_waves(options.max_half_waves);
-    const Wide<double> height = detail::height_asked(held.by(), options);
+    const HeldBy& by = held.by();
+    const Wide<double> height = detail::height_asked(by, options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
-    const finite::HeldSupports supports = detail::supports_at(held.by(), height, options.angular_speed);
-    if (held.by().span) return finite::held_shapes(held.system(), supports, *held.by().span, height, wanted);
-    const Wide<double> tension = detail::height_times_tension(held.by(), height, options.angular_speed);
+    const finite::HeldSupports supports = detail::supports_at(by, height, options.angular_speed);
+    if (by.span) return finite::held_shapes(held.system(), supports, *by.span, height, wanted);
+    const auto tension = detail::height_times_tension(by, height, options.angular_speed);
     return finite::held_shapes_under_tension(held.system(), supports, tension, height, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options) {
-    detail::require_half_waves(options.max_half_waves);
-    const Wide<double> height = detail::height_asked(held.by(), options);
+    const HeldBy& by = held.by();
+    const double height = detail::height_asked(by, options).high;
     const int most = options.max_half_waves;
-    if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height.high, most);
-    const Wide<double> tension = detail::height_times_tension(held.by(), height, options.angular_speed);
-    return finite::held_cord_shapes_under_tension(held.system(), tension.high, height.high, most);
+    if (by.span) return finite::held_cord_shapes(held.system(), *by.span, height, most);
+    const double tension = detail::height_times_tension(by, height, options.angular_speed).high;
+    return finite::held_cord_shapes_under_tension(held.system(), tension, height, most);
 }
 
 REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
-    constexpr std::string_view place = "branches";
-    const double span = detail::span_asked(place, held.by());
-    detail::require_positive(place, "max_step", options.max_step);
-    const double least = finite::lowest_height(place, options);
+    const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
     std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
@@ -162,12 +163,8 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
     for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
         auto branch = finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
-        if (!branch) {
-            ++without;
-            continue;
-        }
-        without = 0;
-        if (branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
+        without = branch ? 0 : without + 1;
+        if (!branch || branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
         if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
         result.push_back(std::move(*branch));
     }
@@ -175,10 +172,7 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
 }
 
 REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
-    constexpr std::string_view place = "branches";
-    const double span = detail::span_asked(place, held.by());
-    detail::require_positive(place, "max_step", options.max_step);
-    const double least = finite::lowest_height(place, options);
+    const auto [span, least] = detail::span_and_height(held.by(), options);
     std::vector<HeldCordBranch> result;
     for (int k = 1; k <= 1000; ++k) {
         auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
@@ -192,26 +186,27 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
-        const finite::HeldStart start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
+        const auto start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
         const int exponent = chain.links().units.length_exponent;
         const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-        const auto state = chain.at_height(start.half_waves, apart, static_cast<double>(lambda), start.outwards);
+        const auto state = chain.at_height(start.half_waves, apart, lambda.high, start.outwards);
         if (!state) return {};
         return chain.finished(*state, apart, lambda, true);
     };
     return detail::held_shape(by, options, at_height, [&](double span, double tension) {
         if (!by.firm())
-            detail::throw_invalid("steady_shape",
-                                  "the speed of a tension between springs is not available: a spring gives way without "
-                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
-                                  tension);
+            detail::throw_invalid(
+                "steady_shape",
+                "the speed of a tension between springs is not available: a spring gives way without "
+                "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                tension);
         return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
     });
 }
 
 REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options) {
     const auto at_height = [&](double span, const Wide<double>& height) {
-        return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
+        return finite::held_cord_shape(held.system(), span, height.high, options.mode);
     };
     return detail::held_shape(held.by(), options, at_height, [&](double span, double tension) {
         return finite::held_shape_of_tension(held.system(), span, tension, options.mode);
@@ -219,52 +214,44 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnB
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& options) {
+    using namespace detail;
     constexpr std::string_view place = "modes";
-    detail::check(options);
-    const detail::Threads used(place, options.threads);
-    const detail::TautChain taut(place, held, options.gravity);
-    const detail::CountedRoots& roots = taut.heights.roots;
+    check(options);
+    const Threads used(place, options.threads);
+    const TautChain taut(place, held, options.gravity);
+    const CountedRoots& roots = taut.heights.roots;
     const Index available = taut.mode_count();
-    const ModeRange range = detail::chosen(
-        available, options,
-        [&](const HeightWindow<double>& window) {
-            return detail::modes_within(window, available, [&](double height) { return taut.above(place, height); });
-        },
-        [&](const SpeedWindow<double>& window) {
-            detail::require_positive(place, "gravity", options.gravity);
-            return detail::modes_within(window, available, [&](double speed) {
-                return taut.above(place, finite::height_at_speed(speed, options.gravity));
-            });
+    const ModeRange range = chosen(
+        available, options, [&](double height) { return taut.above(place, height); },
+        [&](double speed) {
+            return taut.above(place, finite::height_at_speed(speed, options.gravity));
         });
-    Modes<double> result = detail::room_for_modes<double>(range, options.certify);
+    Modes<double> result = room_for_modes<double>(range);
     result.method = "bisection";
-    std::vector<detail::RigWord> found;
+    std::vector<RigWord> found;
     if (range.count > 0) {
         const double length = taut.scaled(held.system().total_length()).high;
         const auto finished = [&](Index done) {
-            detail::advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
+            advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
         };
-        for (const auto& root : detail::refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
-            const auto j = static_cast<Index>(found.size());
-            const double bound = pencil::bound_of_margin<detail::RigWord>(root.margin);
-            detail::set_height(result, j, static_cast<double>(root.x), bound, taut.pencil.units.length_exponent,
-                               options.rtol);
-            if (options.certify)
-                detail::certify(
-                    result.certificate, j, result.conical_height[j], bound, range.first - 1 + j, available,
-                    [&](double lower, double upper) {
-                        return std::array{roots.certified(taut.scaled(lower)), roots.certified(taut.scaled(upper))};
-                    });
+        for (const auto& root : refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
+            set_height(result, static_cast<Index>(found.size()), static_cast<double>(root.x),
+                       pencil::bound_of_margin<RigWord>(root.margin), taut.pencil.units.length_exponent,
+                       options.rtol);
             found.push_back(root.x);
         }
     }
-    detail::ShapesBehind::of(result) = detail::LazyModeShapes<double>(
-        [shape = detail::RigShape(held.system(), taut.pencil.idle, roots.pencil()), found = std::move(found)](
+    if (options.certify)
+        certify(result, available, [&](double lower, double upper) {
+            return std::array{roots.certified(taut.scaled(lower)), roots.certified(taut.scaled(upper))};
+        });
+    ShapesBehind::of(result) = LazyModeShapes<double>(
+        [shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()), found = std::move(found)](
             Index first, Index count, bool details, Progress* progress) {
-            auto shapes = detail::room_for_shapes(shape.chain(), count, details);
+            auto shapes = room_for_shapes(shape.chain(), count, details);
             for (Index j = 0; j < count; ++j) {
                 shape.find(shapes, j, found[static_cast<std::size_t>(first + j)]);
-                detail::advance(progress, 1.0);  // may be cancelled
+                advance(progress, 1.0);  // may be cancelled
             }
             return shapes;
         });
@@ -273,10 +260,10 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const HeldM
 
 REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
     constexpr std::string_view place = "count_modes";
-    const double height = detail::height_given(place, options);
-    return detail::TautChain(place, held, options.gravity)
-        .above(place, options.conical_height ? Wide<double>(height)
-                                             : finite::height_at_speed(*options.angular_speed, options.gravity));
+    Wide<double> height = detail::height_given(place, options);
+    if (options.angular_speed)
+        height = finite::height_at_speed(*options.angular_speed, options.gravity);
+    return detail::TautChain(place, held, options.gravity).above(place, height);
 }
 
 }  // namespace revchain

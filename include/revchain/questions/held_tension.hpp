@@ -20,14 +20,15 @@ struct LowerTension {
 };
 
 /// The tension at the lower end of a straight chain or cord, in the unit of the weights. Without
-/// gravity it is that of the upper end, and weights are masses times `gravity`. The tension given
-/// is exact if its second word is 0; else it may be a quotient that was rounded once.
+/// gravity it is the tension at the upper end, and weights are masses times `gravity`. The tension
+/// given is exact if its second word is 0; else it may be a quotient that was rounded once.
 template <class System>
 LowerTension lower_tension(std::string_view place, const Held<System>& held, double gravity) {
     if (held.by().span)
         throw_invalid(place,
-                      "a chain or cord whose ends are a span apart is bent, and has no modes of a straight one; use "
-                      "steady_shapes for its shapes and stability for small motions about one; span",
+                      "a chain or cord whose ends are a span apart is bent, and has no modes of a "
+                      "straight one; use steady_shapes for its shapes and stability for small motions "
+                      "about one; span",
                       *held.by().span);
     constexpr double rounding = operation_error<Wide<double>>();
     const Wide<double> upper = *held.by().tension;
@@ -47,14 +48,13 @@ LowerTension lower_tension(std::string_view place, const Held<System>& held, dou
         weight = held.system().total_weight(), sums += static_cast<double>(held.system().size());
     }
     const Wide<double> tension = lower.value();
-    const double parts = sums * epsilon<double>(), given = upper.low == 0 ? 0 : rounding * upper.high;
+    const double parts = sums * epsilon<double>();
+    const double given = upper.low == 0 ? 0 : rounding * upper.high;
     const double error = given + parts * parts * parts * upper.high + 2 * rounding * tension.high;
-    if (!(tension.high > error))
-        throw_invalid(place,
-                      "tension at the upper end must exceed the weight " + in_digits(weight) +
-                          ", or the lower part is slack",
-                      upper.high);
-    return {tension, error};
+    if (tension.high > error) return {tension, error};
+    throw_invalid(place, "tension at the upper end must exceed the weight " + in_digits(weight) +
+                             ", or the lower part is slack",
+                  upper.high);
 }
 
 }  // namespace detail

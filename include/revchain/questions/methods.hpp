@@ -81,7 +81,7 @@ template <class Methods>
 Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const ModesOptions<double>& options) {
     LazyCounter<double> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<double> result = room_for_modes<double>(range, options.certify);
+    Modes<double> result = room_for_modes<double>(range);
     result.method = models::Bisection::name;
     if (range.count == 0) {
         ShapesBehind::of(result) = LazyModeShapes<double>(room_for_shapes(chain, 0));
@@ -103,7 +103,7 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
                 if (auto shapes = shapes_of_long_chain(methods, chain, first + from, some, progress)) return *shapes;
             return ShapeFinder<double>(chain, some, loose)(0, count, details, progress);
         });
-    if (options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
+    if (options.certify) certify(result, assembled.pencils(), chain.mode_count());
     advance(options.progress, 1.0);
     return result;
 }

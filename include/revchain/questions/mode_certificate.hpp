@@ -1,31 +1,22 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "revchain/modes.hpp"
 #include "revchain/pencil/sturm.hpp"
 
 /// The certificates that modes carry where the option `certify` is set.
+/// `count(lower, upper)` returns the certified counts of heights above the two.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-template <Real T>
-Certificate<T> room_for_certificate(Index count) {
-    return {Vector<T>(count), Vector<T>(count), Vector<Index>(count), Vector<Index>(count)};
-}
-
-/// Proved counts at other numbers of T on either side of the height at index j, that of mode number `before` + 1 of
-/// `mode_count`, as far away as its error bound says, and where rounding to T leaves that in doubt a little farther.
-/// `count(lower, upper)` returns the certified counts of heights above the two.
+/// Proved counts at numbers of T on either side of the height at index j, that of mode number
+/// `before` + 1 of `mode_count`. They are as far away as its error bound says, or where rounding to
+/// T leaves that in doubt a little farther.
 template <Real T, class Count>
 void certify(Certificate<T>& certificate, Index j, const T& height, const T& bound, Index before, Index mode_count,
              const Count& count) {
     using std::isfinite;
-    certificate.lower[j] = T(0);
-    certificate.upper[j] = std::numeric_limits<T>::infinity();
-    certificate.above_lower[j] = mode_count;
-    certificate.above_upper[j] = 0;
+    certificate.lower[j] = T(0), certificate.above_lower[j] = mode_count;
+    certificate.upper[j] = std::numeric_limits<T>::infinity(), certificate.above_upper[j] = 0;
     if (!(bound < T(1))) return;
     bool below = false, above = false;
     T reach = height * std::max(bound, epsilon<T>() / T(2));
@@ -34,16 +25,28 @@ void certify(Certificate<T>& certificate, Index j, const T& height, const T& bou
         if (!(lower > T(0)) || !isfinite(upper)) return;
         const std::array<pencil::CertifiedCount, 2> ends = count(lower, upper);
         if (!below && ends[0].proved && ends[0].above > before) {
-            certificate.lower[j] = lower;
-            certificate.above_lower[j] = ends[0].above;
+            certificate.lower[j] = lower, certificate.above_lower[j] = ends[0].above;
             below = true;
         }
         if (!above && ends[1].proved && ends[1].above <= before) {
-            certificate.upper[j] = upper;
-            certificate.above_upper[j] = ends[1].above;
+            certificate.upper[j] = upper, certificate.above_upper[j] = ends[1].above;
             above = true;
         }
     }
+}
+
+/// Certifies every mode of `modes`, of a system that has `mode_count`.
+template <class Found, class Count>
+void certify(Found& modes, Index mode_count, const Count& count) {
+    const Index size = modes.size();
+    const auto& height = modes.conical_height;
+    modes.certificate = {height, height, Vector<Index>(size), Vector<Index>(size)};
+    parallel_for(size, 1, [&](Index begin, Index end) {
+        for (Index j = begin; j < end; ++j) {
+            look();
+            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j, mode_count, count);
+        }
+    });
 }
 
 }  // namespace revchain::detail

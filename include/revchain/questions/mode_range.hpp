@@ -24,33 +24,31 @@ template <class Options>
 ModeRange numbered_range(Index all, const Options& options) {
     const std::string of = std::to_string(all) + " modes of this chain";
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
-    if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
+    if (options.first > all)
+        throw_invalid("modes", "first must not exceed the " + of, options.first);
     const Index left = all - options.first + 1;
     const Index wanted = options.count.value_or(std::min(left, default_count));
     const Index count = wanted == all_modes ? left : wanted;
     if (count < 1) throw_invalid("modes", "count must be at least 1", count);
-    if (count > left)
-        throw_invalid(
-            "modes",
-            "count must not exceed the " + (left == all ? of
-                                                        : std::to_string(left) + " from number " +
-                                                              std::to_string(options.first) + " on of the " + of),
-            count);
+    std::string most = of;
+    if (left < all)
+        most = std::to_string(left) + " from number " + std::to_string(options.first) + " on of the " + of;
+    if (count > left) throw_invalid("modes", "count must not exceed the " + most, count);
     return {options.first, count};
 }
 
-/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those
-/// in a window.
-template <class Options, class InHeights, class InSpeeds>
-ModeRange chosen(Index all, const Options& options, const InHeights& in_heights,
-                 const InSpeeds& in_speeds) {
+/// The numbers of the modes asked for, of `all` there are. For a window, `above(height)` counts the
+/// modes above a height and `below(speed)` those slower than a speed.
+template <class Options, class Above, class Below>
+ModeRange chosen(Index all, const Options& options, const Above& above, const Below& below) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        throw_invalid("modes",
-                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
-    if (options.conical_height) return in_heights(*options.conical_height);
-    if (options.angular_speed) return in_speeds(*options.angular_speed);
-    return numbered_range(all, options);
+        throw_invalid("modes", "give one of mode numbers (first, count), conical_height and "
+                               "angular_speed, not several");
+    if (options.conical_height) return modes_within(*options.conical_height, all, above);
+    if (!options.angular_speed) return numbered_range(all, options);
+    require_positive("modes", "gravity", options.gravity);
+    return modes_within(*options.angular_speed, all, below);
 }
 
 }  // namespace revchain::detail

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <limits>
-#include <optional>
 
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/modes.hpp"
@@ -12,63 +10,57 @@
 #include "revchain/system/converted.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
 template <Real T>
 ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
     return chosen(
-        chain.mode_count(), options, [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
-        [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
+        chain.mode_count(), options,
+        [&](const T& height) { return assembled.counter().above_height(height); },
+        [&](const T& speed) { return assembled.counter().below_speed(speed, options.gravity); });
 }
 
-/// Room for these modes, nothing computed yet.
 template <Real T>
-Modes<T> room_for_modes(const ModeRange& range, bool certified = false) {
+Modes<T> room_for_modes(const ModeRange& range) {
     Modes<T> result;
     result.first = range.first;
     result.conical_height.resize(range.count);
     result.error_bound.resize(range.count);
-    if (certified) result.certificate = room_for_certificate<T>(range.count);
     return result;
 }
 
-/// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
-/// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
+/// Stores height number `j`, given in units of 2^exponent. The bound takes up what is lost where the
+/// height leaves the normal range of T. A bound beyond the tolerance asked is `tolerance_not_met`.
 template <Real T>
-void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent,
-                const std::optional<T>& rtol) {
-    using std::abs;
-    using std::ldexp;
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const std::optional<T>& rtol) {
+    using std::abs, std::ldexp;
     const T stored = ldexp(height, exponent);
     const T lost = abs(ldexp(stored, -exponent) - height);
-    if (lost > T(0)) bound = stored > T(0) ? bound + T(2) * (lost / height) : std::numeric_limits<T>::infinity();
+    if (lost > T(0)) bound = bound + T(2) * (lost / height);
+    if (lost > T(0) && !(stored > T(0))) bound = std::numeric_limits<T>::infinity();
     modes.conical_height[j] = stored;
     modes.error_bound[j] = bound;
     if (!(bound <= rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
 }
 
 template <Real T, Real P>
-void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_count) {
-    certify(modes.certificate, j, modes.conical_height[j], modes.error_bound[j], modes.first - 1 + j, mode_count,
-            [&](const T& lower, const T& upper) {
-                return pencils.template certified_count<2>(
-                    {pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
-            });
-}
-
-template <Real T, Real P>
-void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
-    parallel_for(modes.size(), 1, [&](Index begin, Index end) {
-        for (Index j = begin; j < end; ++j) {
-            look();
-            certify(modes, j, pencils, mode_count);
-        }
+void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
+    certify(modes, mode_count, [&](const T& lower, const T& upper) {
+        return pencils.template certified_count<2>({pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
     });
 }
 
-/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half an ulp of float to
-/// the bound. `in_double(wide, asked)` returns the modes in double.
+template <Real T>
+LazyModeShapes<T> shapes_when_read(ShapeFinder<T> finder, Index threads) {
+    return LazyModeShapes<T>([finder = std::move(finder), threads](Index first, Index count,
+                                                                   bool details, Progress* progress) {
+        const Threads used("modes", threads);
+        return finder(first, count, details, progress);
+    });
+}
+
+/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half
+/// an ulp of float to the bound. `in_double(wide, asked)` returns the modes in double.
 template <std::same_as<float> T, class InDouble>
 Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options, const InDouble& in_double) {
     const double half_ulp = 0.50001 * static_cast<double>(epsilon<T>());
@@ -76,27 +68,25 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options, 
     ModesOptions<double> asked{.first = options.first, .count = options.count};
     if (options.conical_height) asked.conical_height = {options.conical_height->low, options.conical_height->high};
     if (options.angular_speed) asked.angular_speed = {options.angular_speed->low, options.angular_speed->high};
-    asked.gravity = options.gravity;
     if (options.rtol && *options.rtol > 4 * half_ulp) asked.rtol = *options.rtol - half_ulp;
-    asked.threads = options.threads;
-    asked.progress = options.progress;
-    asked.method = options.method;
+    asked.gravity = options.gravity, asked.method = options.method;
+    asked.threads = options.threads, asked.progress = options.progress;
     const Modes<double> fine = in_double(wide, asked);
 
-    Modes<T> result = room_for_modes<T>(fine.range(), options.certify);
+    constexpr T infinity = std::numeric_limits<T>::infinity();
+    Modes<T> result = room_for_modes<T>(fine.range());
     result.method = fine.method;
     for (Index j = 0; j < fine.size(); ++j) {
-        const T height = static_cast<T>(fine.conical_height[j]);
-        const double off = std::abs(static_cast<double>(height) - fine.conical_height[j]) / fine.conical_height[j];
-        const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
-                                                                 : std::numeric_limits<double>::infinity();
-        set_height(result, j, height, std::nextafter(static_cast<T>(bound), std::numeric_limits<T>::infinity()),
-                   0, options.rtol);
+        const double exact = fine.conical_height[j];
+        const T height = static_cast<T>(exact);
+        const double off = std::abs(static_cast<double>(height) - exact) / exact;
+        double bound = (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15);
+        if (!(height > 0 && std::isfinite(height))) bound = std::numeric_limits<double>::infinity();
+        set_height(result, j, height, std::nextafter(static_cast<T>(bound), infinity), 0, options.rtol);
     }
-    if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
-    const Vector<T> heights = result.conical_height;
-    ShapesBehind::of(result) =
-        LazyModeShapes<T>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
+    if (fine.size() > 0 && options.certify) certify(result, Pencils<double>(wide), chain.mode_count());
+    ShapesBehind::of(result) = LazyModeShapes<T>(
+        [wide, fine, heights = result.conical_height](Index first, Index count, bool details, Progress* progress) {
             const ModeShapes<double> found = ShapesBehind::of(fine).some(first, count, details, progress);
             ModeShapes<T> shapes{found.offset.template cast<T>(), Vector<T>(details ? count : 0), {}};
             if (count == 0 || !details) return shapes;
@@ -118,21 +108,18 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
     const HeightsOptions<T> stage{options.rtol, options.progress};
-    Modes<T> result = room_for_modes<T>(range, options.certify);
+    Modes<T> result = room_for_modes<T>(range);
     result.method = "bisection";
-    Heights<T> found;
-    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
+    Heights<T> heights;
+    if (range.count > 0) heights = heights_by_bisection(chain, assembled, range, stage);
     for (Index j = 0; j < range.count; ++j) {
-        const auto& height = found[static_cast<std::size_t>(j)];
+        const Height<T>& height = heights[static_cast<std::size_t>(j)];
         set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options.rtol);
     }
-    if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
+    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
     ShapesBehind::of(result) =
-        LazyModeShapes<T>([finder = ShapeFinder<T>(chain, std::move(found), is_loose(chain, stage)),
-                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
-            const Threads used("modes", threads);
-            return finder(from, count, details, progress);
-        });
+        shapes_when_read(ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage)), options.threads);
+    if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }
 

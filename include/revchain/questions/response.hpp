@@ -3,20 +3,13 @@
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 #include "revchain/linear/driven_chain.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/response.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
-
-inline void require_height(std::string_view place, const Wide<double>& scaled, double given, std::string_view name) {
-    if (!(scaled.high > 0x1p-250 && scaled.high < 0x1p250))
-        throw_invalid(place, std::string(name) + " must not be that far from the chain's own", given);
-}
 
 /// Heights and speeds in the units of a chain.
 template <class Carried>
@@ -27,27 +20,25 @@ std::vector<Driving> drives(const Carried& carried, const ResponseOptions& optio
     if (speeds && !options.conical_height.empty())
         throw_invalid(place, "give conical_height or angular_speed, not both");
     const std::vector<double>& given = speeds ? options.angular_speed : options.conical_height;
-    const double gravity = options.gravity;
-    const char* name = speeds ? "angular speed" : "conical height";
+    const S gravity(options.gravity);
+    const std::string name = speeds ? "angular speed" : "conical height";
     const bool either_sense = speeds && tells_senses_apart(carried);
-    require_positive(place, "gravity", gravity);
+    require_positive(place, "gravity", options.gravity);
     const int down = -base_chain(carried).units().length_exponent;
     std::vector<Driving> result;
     result.reserve(given.size());
     for (const double x : given) {
-        if (either_sense && x < 0)
-            require_positive(place, name, -x);
-        else
-            require_positive(place, name, x);
-        const S height = speeds ? S(gravity) / S(x) / S(x) : S(x);
-        const S swing = speeds ? S(gravity) / S(x) : sqrt(S(gravity) * height);
-        result.push_back({ldexp(height, down), ldexp(swing, down)});
-        require_height(place, result.back().height, x, name);
+        require_positive(place, name, either_sense ? std::abs(x) : x);
+        const S height = ldexp(speeds ? gravity / S(x) / S(x) : S(x), down);
+        const S swing = ldexp(speeds ? gravity / S(x) : sqrt(gravity * S(x)), down);
+        if (!(height.high > 0x1p-250 && height.high < 0x1p250))
+            throw_invalid(place, name + " must not be that far from the chain's own", x);
+        result.push_back({height, swing});
     }
     return result;
 }
 
-/// Where the offsets asked for come from.
+/// The source of each offset asked for.
 struct PinsAsked {
     std::vector<Index> asked;
     pencil::DrivenPins wanted;
@@ -55,10 +46,12 @@ struct PinsAsked {
     std::vector<Index> carried_columns;       ///< of the moved end itself
 };
 
-/// The pins asked for, of a chain with so many `links`. A pin of an idle link is where the lowest other pin is.
+/// The pins asked for. A pin of an idle link moves with the lowest other pin.
 inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.pencil.elements.size();
-    const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
+    const auto place = [&](Index pin) {
+        return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle));
+    };
     PinsAsked result;
     if (options.pins) {
         result.asked = *options.pins;
@@ -87,11 +80,10 @@ inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const D
     return result;
 }
 
-/// Stores what was found of one speed.
-inline void store(Response& result, Index row, const pencil::Driven& found, const Driving& at, const DrivenChain& chain,
-                  double radius) {
-    constexpr double infinity = std::numeric_limits<double>::infinity(),
-                     unknown = std::numeric_limits<double>::quiet_NaN();
+inline void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
+                  const DrivenChain& chain, double radius) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const bool finite = found.decided && result.offset.row(row).allFinite();
     result.resonant[static_cast<std::size_t>(row)] = found.decided ? 0 : 1;
     result.modes_below[row] = found.negative - chain.standing;
@@ -104,7 +96,8 @@ inline void store(Response& result, Index row, const pencil::Driven& found, cons
     }
     const double rounding = 0x1.00001p-53 + std::numeric_limits<double>::denorm_min() / radius;
     result.error_bound[row] = found.error_bound * (1 + 0x1p-50) + rounding;
-    const double over = std::ldexp(radius / at.height.high, chain.units.weight_exponent - chain.units.length_exponent);
+    const double over = std::ldexp(radius / at.height.high,
+                                   chain.units.weight_exponent - chain.units.length_exponent);
     result.support_force[row] = -found.stiffness * over;
     result.support_force_error[row] = found.stiffness_error * over * (1 + 0x1p-40) +
                                       0x1p-50 * std::abs(result.support_force[row]) +

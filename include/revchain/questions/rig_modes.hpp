@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/linear/rig_roots.hpp"
 #include "revchain/linear/rig_shape.hpp"
@@ -17,33 +11,25 @@
 #include "revchain/questions/mode_certificate.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// The mode numbers asked for, of those available; fewer, or none, where there are not as many.
+/// The mode numbers asked for; fewer, or none, where there are not as many.
 inline ModeRange numbered(const RigModesOptions& options, Index available) {
+    const Index count = options.count.value_or(default_count);
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
-    if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
-    const Index left = std::max<Index>(0, available - options.first + 1);
-    return {options.first, std::min(left, options.count.value_or(default_count))};
+    if (count < 1) throw_invalid("modes", "count must be at least 1", count);
+    return {options.first, std::clamp<Index>(available - options.first + 1, 0, count)};
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
 inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
-    if (options.conical_height || options.angular_speed)
-        return chosen(
-            available, options,
-            [&](const HeightWindow<double>& window) {
-                return modes_within(window, available, [&](double height) {
-                    return roots.above(roots.at_height(height), forward, "modes", height);
-                });
-            },
-            [&](const SpeedWindow<double>& window) {
-                return modes_within(window, available, [&](double speed) {
-                    return roots.above(roots.at_speed(speed), forward, "modes", speed);
-                });
-            });
-    return numbered(options, available);
+    if (!options.conical_height && !options.angular_speed) return numbered(options, available);
+    const auto above = [&](const RigWord& x, double given) {
+        return roots.above(x, forward, "modes", given);
+    };
+    return chosen(
+        available, options, [&](double height) { return above(roots.at_height(height), height); },
+        [&](double speed) { return above(roots.at_speed(speed), speed); });
 }
 
 inline void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
@@ -53,28 +39,28 @@ inline void make_room(WhirlModes& modes, const ModeRange& range, Index available
         column->resize(range.count);
 }
 
-/// Stores mode number j (from 0) of those found; false where nothing was proved of it.
-inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
-                     const FoundRoot& root) {
+/// Stores mode number j (from 0) of those found; returns whether it is proved.
+inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
+                     const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
     const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
     modes.angular_speed[j] = static_cast<double>(speed);
-    // The margin is about what is given out; the other takes in half an ulp for each of the two
-    // roundings.
-    const double ulp = epsilon<double>(), few = 32 * operation_error<RigWord>();
-    const double margin = root.margin * (1 + 4 * root.margin) + few;
+    // The margin bounds the root; the bound of its square or root takes in two roundings.
+    const double ulp = epsilon<double>();
+    const double margin = root.margin * (1 + 4 * root.margin) + 32 * operation_error<RigWord>();
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
-    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    if (pencil.quadratic)
+        of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
     const bool proved = of_height < 1;
-    modes.error_bound[j] = proved ? of_height : std::numeric_limits<double>::infinity();
-    modes.speed_error_bound[j] = proved ? of_speed : std::numeric_limits<double>::infinity();
+    if (!proved) of_height = of_speed = std::numeric_limits<double>::infinity();
+    modes.error_bound[j] = of_height, modes.speed_error_bound[j] = of_speed;
     return proved;
 }
 
-/// Finds the modes of one sense; reports progress from one share to another.
-inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
-                           const RigModesOptions& options, double from, double to) {
+/// Finds the modes of one sense by counts; returns whether all are proved.
+inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
+                           bool forward, const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
     const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
@@ -85,41 +71,47 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
     const double all = static_cast<double>(range.count);
     const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
     const double guess = roots.pencil().quadratic ? std::sqrt(height) : height;
-    const auto finished = [&](Index done) {
-        advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all);
+    const auto report = [&](double share, Index done, double of) {
+        advance(options.progress, from + (to - from) * (share + of * static_cast<double>(done) / all));
     };
+    const auto finished = [&](Index done) { report(0, done, 0.4); };
     bool proved = true;
     std::vector<RigWord> found;
-    const auto keep = [&](const FoundRoot& root) {
-        proved = set_mode(modes, static_cast<Index>(found.size()), pencil, roots.pencil(), root) && proved;
-        found.push_back(root.x);
-    };
-    const auto keep_shapes = [&]<bool Spins>(std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
-        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<Spins>(
-            rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
+    const auto store = [&]<bool Spins>(
+                           const std::vector<FoundRoot>& stored,
+                           std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
+        for (const FoundRoot& root : stored) {
+            const auto j = static_cast<Index>(found.size());
+            proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
+            found.push_back(root.x);
+        }
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
+            RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
+                                  std::move(found), options.threads));
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
         if (!elements) return false;
-        std::optional<std::vector<FoundRoot>> proved_roots;
-        if constexpr (!Spins) proved_roots = roots_under_a_spring(rig, *elements, range, available);
-        if (!proved_roots) proved_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
-        if (!proved_roots) return false;
-        for (const FoundRoot& root : *proved_roots) keep(root);
-        keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord, Spins>>(*std::move(elements)));
+        std::optional<std::vector<FoundRoot>> several_roots;
+        if constexpr (!Spins)
+            several_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!several_roots)
+            several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if (!several_roots) return false;
+        using Elements = pencil::ElementPencil<RigWord, Spins>;
+        store(*several_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type())) return proved;
-    for (const FoundRoot& root : refined_roots(roots, range.first - 1, range.count, guess, finished, [&](Index done) {
-             advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(done) / all));
-         }))
-        keep(root);
-    keep_shapes(std::shared_ptr<const pencil::ElementPencil<RigWord>>());
+        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type()))
+            return proved;
+    store(refined_roots(roots, range.first - 1, range.count, guess, finished,
+                        [&](Index done) { report(0.4, done, 0.6); }),
+          std::shared_ptr<const pencil::ElementPencil<RigWord>>());
     return proved;
 }
 
-/// As the chain's own modes, which they are.
+/// The modes of a rig that has nothing but its chain.
 inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
@@ -145,11 +137,10 @@ inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     WhirlModes& found = result.forward;
     found.first = plain.first, found.available = available;
     found.conical_height = plain.conical_height, found.error_bound = plain.error_bound;
-    found.angular_speed = plain.angular_speed(options.gravity), found.speed_error_bound = plain.error_bound;
-    found.certificate = plain.certificate;
+    found.angular_speed = plain.angular_speed(options.gravity);
+    found.speed_error_bound = plain.error_bound.array() / 2 + 2 * epsilon<double>();
+    found.certificate = plain.certificate, result.status = plain.status;
     ShapesBehind::of(found) = ShapesBehind::of(plain);
-    for (double& bound : found.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
-    result.status = plain.status;
     return result;
 }
 
@@ -161,58 +152,46 @@ inline bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// The mode of a height in the pencil's unit; the root of -g/height with a positive real part is
-/// the growth rate.
-inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double relative_bound) {
-    OtherMode mode;
-    mode.conical_height = {std::ldexp(x.real(), rig.units.length_exponent),
-                           std::ldexp(x.imag(), rig.units.length_exponent)};
+/// The mode of a height in the pencil's unit. Its growth rate is the root of -g/height with a
+/// positive real part.
+inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
-    mode.growth_rate = rate.real();
-    mode.angular_speed = {rate.imag(), -rate.real()};
-    mode.error_bound = relative_bound < 1 ? relative_bound : std::numeric_limits<double>::infinity();
-    return mode;
+    if (!(bound < 1)) bound = std::numeric_limits<double>::infinity();
+    const auto in_unit = [&](double y) { return std::ldexp(y, rig.units.length_exponent); };
+    return {{in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
-/// Heights below 0, all of them; false where one was not proved.
-inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil,
-                                  const CountedSense& negative) {
-    if (negative.available.count <= 0) return true;
-    const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
-    bool proved = true;
-    for (const FoundRoot& root : refined_roots(negative.roots, 0, negative.available.count, start, {}, {})) {
-        result.other.push_back(other_height(pencil, -static_cast<double>(root.x), root.margin + 1e-30));
-        proved = proved && std::isfinite(result.other.back().error_bound);
-    }
-    return proved;
-}
-
-/// By counts.
 inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
     result.complete = pencil.stiffness_positive || pencil.stiffness_certain;
-    bool proved = true;
     const std::size_t senses = roots.senses().size();
+    bool proved = true;
     for (std::size_t i = 0; i < senses; ++i) {
         const double share = 0.9 / static_cast<double>(senses), from = share * static_cast<double>(i);
-        proved = count_modes_of(i == 0 ? result.forward : result.backward, rig, roots, i == 0, options, from,
-                                from + share) &&
-                 proved;
-        result.complete = result.complete && roots.senses()[i].available.proved;
+        WhirlModes& sense = i == 0 ? result.forward : result.backward;
+        proved &= count_modes_of(sense, rig, roots, i == 0, options, from, from + share);
+        result.complete &= roots.senses()[i].available.proved;
     }
     if (!roots.has_momentum())
         if (const auto negative = counted_negative_heights(pencil)) {
-            result.other_available = std::max<Index>(0, negative->available.count);
-            result.complete = result.complete && negative->available.proved;
-            if (options.other) proved = list_negative_heights(result, rig, pencil, *negative) && proved;
+            const Index count = std::max<Index>(0, negative->available.count);
+            const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+            result.other_available = count;
+            result.complete &= negative->available.proved;
+            if (options.other && count > 0)
+                for (const FoundRoot& root : refined_roots(negative->roots, 0, count, start, {}, {})) {
+                    const double height = -static_cast<double>(root.x);
+                    result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
+                    proved &= std::isfinite(result.other.back().error_bound);
+                }
         }
     if (!proved || !result.complete) result.status = Status::tolerance_not_met;
     return result;
 }
 
-/// Neither: all roots at once.
+/// By discs around all roots, where counts cannot find them.
 inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
@@ -222,12 +201,13 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
     for (const pencil::EnclosedRoot& root : spectrum.roots) {
-        const double size = std::abs(root.value),
-                     bound = spectrum.proved ? root.radius / size : std::numeric_limits<double>::infinity();
+        const double size = std::abs(root.value);
+        double bound = std::numeric_limits<double>::infinity();
+        if (spectrum.proved) bound = root.radius / size;
         if (!(size > 0x1p-200)) continue;  // not proved, and no speed if it is 0
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
             const bool ahead = root.value.real() > 0;
-            // What is given out is rounded from x, and may be half an ulp from the disc's centre.
+            // The mode is rounded from x, which may be half an ulp from the disc's centre.
             (ahead ? forward : backward)
                 .push_back({ahead ? root.x.real : -root.x.real, bound + 1.01 * epsilon<double>()});
         } else if (!result.has_momentum) {
@@ -235,15 +215,17 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
         } else {
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
             // In double words: std::complex divides by less accurate rules in some libraries.
-            const std::complex<double> height(root.x * root.x), speed(pencil::ComplexWord(pencil.pace) / root.x);
-            result.other.push_back(
-                {height * unit, speed, std::abs(speed.imag()), 2 * bound * (1 + bound) + 8 * epsilon<double>()});
+            const std::complex<double> height(root.x * root.x);
+            const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
+            result.other.push_back({height * unit, speed, std::abs(speed.imag()),
+                                    2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
     result.other_available = static_cast<Index>(result.other.size());
     const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead) {
-        const ModeRange range = chosen(options, roots, ahead, static_cast<Index>(found.size()));
-        make_room(modes, range, static_cast<Index>(found.size()));
+        const auto available = static_cast<Index>(found.size());
+        const ModeRange range = chosen(options, roots, ahead, available);
+        make_room(modes, range, available);
         auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
         std::vector<RigWord> at;
         for (Index j = 0; j < range.count; ++j) {
@@ -251,27 +233,12 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.x);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(
-            RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
+            rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
     return result;
-}
-
-/// Intervals and counts of every mode of a sense.
-inline void certify(WhirlModes& modes, const RigRoots& roots, bool forward) {
-    modes.certificate = room_for_certificate<double>(modes.size());
-    parallel_for(modes.size(), 1, [&](Index begin, Index end) {
-        for (Index j = begin; j < end; ++j) {
-            look();
-            certify(modes.certificate, j, modes.conical_height[j], modes.error_bound[j], modes.first - 1 + j,
-                    modes.available, [&](double lower, double upper) {
-                        return std::array{roots.count(roots.at_height(lower), forward),
-                                          roots.count(roots.at_height(upper), forward)};
-                    });
-        }
-    });
 }
 
 /// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
@@ -299,36 +266,42 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 }  // namespace detail
 
 REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
-    detail::require_positive("modes", "gravity", options.gravity);
-    detail::check(options);
-    const detail::Threads used("modes", options.threads);
-    if (detail::has_nothing(rig)) return detail::plain_modes(rig, options);
-    const detail::RigRoots roots("modes", rig, options.gravity,
-                                 [&](double share) { detail::advance(options.progress, 0.9 * share); });
+    using namespace detail;
+    require_positive("modes", "gravity", options.gravity);
+    check(options);
+    const Threads used("modes", options.threads);
+    if (has_nothing(rig)) return plain_modes(rig, options);
+    const RigRoots roots("modes", rig, options.gravity,
+                         [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = RigMethod::counts;
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
-            detail::make_room(*sense, detail::chosen(options, roots, true, 0), 0);
-            detail::ShapesBehind::of(*sense) = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
+            make_room(*sense, chosen(options, roots, true, 0), 0);
+            ShapesBehind::of(*sense) = LazyModeShapes<double>(room_for_shapes(rig.chain(), 0));
         }
+    } else if (roots.spectrum()) {
+        result = enclosed_modes(rig, roots, options);
     } else {
-        result =
-            roots.spectrum() ? detail::enclosed_modes(rig, roots, options) : detail::counted_modes(rig, roots, options);
+        result = counted_modes(rig, roots, options);
     }
     const Index neutral = roots.rig().neutral;
     result.other_available += neutral;
     if (options.other || roots.spectrum())
         result.other.insert(result.other.begin(), static_cast<std::size_t>(neutral),
                             {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
-    if (result.has_momentum) result.slack = detail::slack_links(rig, result);
+    if (result.has_momentum) result.slack = slack_links(rig, result);
     for (const bool forward : {true, false}) {
         WhirlModes& sense = forward ? result.forward : result.backward;
-        if (options.certify) detail::certify(sense, roots, forward);
+        if (options.certify)
+            certify(sense, sense.available, [&](double lower, double upper) {
+                return std::array{roots.count(roots.at_height(lower), forward),
+                                  roots.count(roots.at_height(upper), forward)};
+            });
         if (options.rtol && sense.size() > 0 && !(sense.error_bound.maxCoeff() <= *options.rtol))
             result.status = Status::tolerance_not_met;
     }
-    detail::advance(options.progress, 1);
+    advance(options.progress, 1);
     return result;
 }
 
@@ -337,7 +310,8 @@ REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) :
     if (detail::has_nothing(rig))
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
-        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
+        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity,
+                                                          [](double) {});
 }
 
 REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {
@@ -353,8 +327,8 @@ REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
     if (!std::isfinite(angular_speed) || angular_speed == 0)
         detail::throw_invalid("count_modes", "angular speed must be finite and not 0", angular_speed);
     if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
-    return roots_->above(roots_->at_speed(angular_speed), angular_speed > 0 || !roots_->has_momentum(),
-                         "count_modes: angular speed", angular_speed);
+    const bool forward = angular_speed > 0 || !roots_->has_momentum();
+    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed", angular_speed);
 }
 
 REVCHAIN_INLINE Index count_modes(const Rig& rig, const CountOptions<double>& options) {

@@ -9,18 +9,17 @@
 #include "revchain/sensitivity.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of the centre of gravity,
-/// and the root of the sum of a s^2 over the links above. In a bound, upper limits of the three.
+/// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of
+/// the centre of gravity, and the sum of a s^2 over the links above. In a bound: upper limits of
+/// the three, and the root of the sum.
 template <class N>
 struct Movement {
     N slope, centre, above;
 };
 
-/// The five derivatives of y^T (M - lambda K) y, offsets of the pins held: by `Datum`, each as what comes of the
-/// inertia and what comes of the weights that pull. `above` is here the sum of a s^2 itself.
+/// The five derivatives of y^T (M - lambda K) y, by `Datum`, with the offsets of the pins fixed.
 template <class S>
 std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda, const Movement<S>& y) {
     const auto& [W, a, h, rho, below] = link;
@@ -32,9 +31,10 @@ std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda, 
             (rho + rho) * W * square, link.pull() * pull};
 }
 
-/// Bounds of |x^T (dM - lambda dK) y|, sizes everywhere.
+/// Bounds of |x^T (dM - lambda dK) y|; all numbers are sizes.
 template <class M>
-std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const Movement<M>& x, const Movement<M>& y) {
+std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const Movement<M>& x,
+                               const Movement<M>& y) {
     const auto& [W, a, h, rho, below] = link;
     const M square = x.slope * y.slope, mixed = x.slope * y.centre + x.centre * y.slope;
     const M turning = rho * rho * square;
@@ -43,21 +43,22 @@ std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const
             W * (mixed + lambda * square), M(2) * W * rho * square, (W * h / a + below) * lambda * square};
 }
 
-/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and e the tangent of
-/// the angle to the exact shape,  |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|),  and
-/// w's slopes, offsets and sums of slopes are bounded by its energy: s^2 <= 1/kappa, y^2 <= sum of 1/k from there to
-/// the support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
+/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and
+/// e the tangent of the angle to the exact shape x,
+///     |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|).
+/// The energy of w bounds its slopes, offsets and sums of slopes: s^2 <= 1/kappa, y^2 <= sum of 1/k
+/// up to the support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
 template <Real T>
-void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLink<Wide<T>>>& links,
-                     const ChainUnits& units, const WideMode<T>& mode, const Narrow<Wide<T>>& entry_error) {
-    using std::abs;
-    using std::ldexp;
-    using std::sqrt;
+void set_derivatives(Sensitivity<T>& result, Index j,
+                     const std::vector<ScaledLink<Wide<T>>>& links, const ChainUnits& units,
+                     const WideMode<T>& mode, const Narrow<Wide<T>>& entry_error) {
+    using std::abs, std::ldexp, std::sqrt;
     using S = Wide<T>;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return M(abs(static_cast<M>(x))); };
     const Index n = static_cast<Index>(links.size());
-    const M lambda = static_cast<M>(mode.height), e = mode.tangent, energy = sqrt(static_cast<M>(mode.stiffness));
+    const M lambda = static_cast<M>(mode.height), e = mode.tangent;
+    const M energy = sqrt(static_cast<M>(mode.stiffness));
     const M rounding = operation_error<S>() * M(8 * n + 64) + M(4) * entry_error + mode.off;
     const M unit = sizeof(T) == sizeof(M) ? static_cast<M>(epsilon<T>()) : epsilon<M>();
     S above(M(0));
@@ -72,29 +73,32 @@ void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLi
         const ScaledLink<M> sizes{size_of(link.weight), size_of(link.length), size_of(link.centroid),
                                   size_of(link.radius), size_of(link.below)};
         const M kappa = size_of(link.pull()) * sizes.length, root = M(1) / sqrt(kappa);
-        cancelled = std::max(cancelled, (sizes.weight * sizes.centroid + sizes.length * sizes.below) / kappa);
-        const Movement<M> own{size_of(y.slope) / energy, (size_of(upper) + sizes.centroid * size_of(y.slope)) / energy,
+        const M pulled = sizes.weight * sizes.centroid + sizes.length * sizes.below;
+        cancelled = std::max(cancelled, pulled / kappa);
+        const Movement<M> own{size_of(y.slope) / energy,
+                              (size_of(upper) + sizes.centroid * size_of(y.slope)) / energy,
                               sqrt(size_of(above)) / energy};
         const Movement<M> any{root, sqrt(flexibility) + sizes.centroid * root,
                               sqrt(cancelled / (sizes.below + sizes.weight))};
-        const auto cross = energy_bounds(sizes, lambda, any, own), square = energy_bounds(sizes, lambda, any, any),
-                   itself = energy_bounds(sizes, lambda, own, own);
+        const auto cross = energy_bounds(sizes, lambda, any, own);
+        const auto square = energy_bounds(sizes, lambda, any, any);
+        const auto itself = energy_bounds(sizes, lambda, own, own);
         for (std::size_t d = 0; d < 5; ++d) {
             const int exponent = d == 0 ? units.length_exponent - units.weight_exponent : 0;
             const S derivative = value[d] / mode.stiffness;
             const M size = size_of(derivative);
-            const M bound = e * e * size + (M(1) + e * e) * e * (M(2) * cross[d] + e * square[d]) +
-                            rounding * itself[d] + unit * size;
+            M bound = e * e * size + (M(1) + e * e) * e * (M(2) * cross[d] + e * square[d]) +
+                      rounding * itself[d] + unit * size;
+            if (!(bound <= std::numeric_limits<M>::max())) bound = std::numeric_limits<M>::infinity();
             auto& to = result.by_datum[d];
             to.value(j, m) = ldexp(static_cast<T>(derivative), exponent);
             to.error_bound(j, m) = ldexp(static_cast<T>(bound * M(1.001)), exponent);
-            if (!(bound <= std::numeric_limits<M>::max())) to.error_bound(j, m) = std::numeric_limits<T>::infinity();
         }
         above = above + slope * slope * link.length;
         flexibility = flexibility + sizes.length * (sizes.length / kappa);
     }
-    result.by_datum[1].value(j, 0) = result.by_datum[1].error_bound(j, 0) =
-        T(0);  // where nothing hangs, no pin matters
+    // The length of the lowest link: where nothing hangs, no pin matters.
+    result.by_datum[1].value(j, 0) = result.by_datum[1].error_bound(j, 0) = T(0);
 }
 
 }  // namespace detail
@@ -117,11 +121,11 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
         M guess(0.5);  // where the neighbours are known, nearer than they
         for (const Index i : {j - 1, j + 1})
             if (i >= 0 && i < modes.size() && height > T(0)) {
-                const T ratio = modes.conical_height[i] / height;
-                guess = std::min(guess, static_cast<M>(ratio > T(1) ? ratio - T(1) : T(1) - ratio) * M(0.75));
+                const M apart = static_cast<M>(modes.conical_height[i] / height - T(1));
+                guess = std::min(guess, (apart > M(0) ? apart : -apart) * M(0.75));
             }
-        const T scaled = pencils.scaled(height);
-        const auto mode = detail::wide_mode<T>(pencils, modes.first + j, scaled, guess > M(0) ? guess : M(0.5));
+        if (!(guess > M(0))) guess = M(0.5);
+        const auto mode = detail::wide_mode<T>(pencils, modes.first + j, pencils.scaled(height), guess);
         detail::set_derivatives(result, j, links, chain.units(), mode, pencils.wide().entry_error);
     }
     return result;
@@ -131,19 +135,16 @@ template <Real T>
 Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                            const std::type_identity_t<Vector<T>>& conical_height,
                            const Deviations<T>& deviations) {
-    using std::abs;
-    using std::isfinite;
-    using std::sqrt;
+    using detail::throw_invalid;
+    using std::abs, std::isfinite, std::sqrt;
     constexpr std::string_view place = "uncertainty";
     const Index k = sensitivity.size(), n = sensitivity.weight().value.cols();
     if (conical_height.size() != k)
-        detail::throw_invalid(place, "there must be as many heights as modes, " + std::to_string(k),
-                              conical_height.size());
-    Uncertainty<T> result{Vector<T>::Zero(k),
-                          Vector<T>::Zero(k),
-                          {},
-                          std::vector<Datum>(static_cast<std::size_t>(k)),
-                          std::vector<Index>(static_cast<std::size_t>(k))};
+        throw_invalid(place, "there must be as many heights as modes, " + std::to_string(k),
+                      conical_height.size());
+    const auto modes = static_cast<std::size_t>(k);
+    Uncertainty<T> result{Vector<T>::Zero(k), Vector<T>::Zero(k), {}, std::vector<Datum>(modes),
+                          std::vector<Index>(modes)};
     for (auto& share : result.share) share = Table<T>::Zero(k, n);
     for (std::size_t d = 0; d < datum_names.size(); ++d) {
         if (!deviations[d]) continue;
@@ -152,29 +153,29 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
         const auto sound = [&](const T& x) { return isfinite(x) && x >= T(0); };
         const bool correlated = standard.size() == 0;
         if (!correlated && standard.size() != 1 && standard.size() != n)
-            detail::throw_invalid(
-                place, name + " must have one deviation or one for each of the " + std::to_string(n) + " links",
-                standard.size());
+            throw_invalid(place, name + " must have one deviation or one for each of the " +
+                                     std::to_string(n) + " links",
+                          standard.size());
         if (correlated && (covariance.rows() != n || covariance.cols() != n))
-            detail::throw_invalid(place,
-                                  "the covariance of " + name + " must have " + std::to_string(n) + " rows and columns",
-                                  covariance.rows());
+            throw_invalid(place, "the covariance of " + name + " must have " + std::to_string(n) +
+                                     " rows and columns",
+                          covariance.rows());
         for (const T& x : standard)
-            if (!sound(x)) detail::throw_invalid(place, name + " must be finite and not negative", x);
+            if (!sound(x)) throw_invalid(place, name + " must be finite and not negative", x);
         for (Index i = 0; i < covariance.rows(); ++i)
             for (Index m = 0; m <= i; ++m)
                 if (!isfinite(covariance(i, m)) || covariance(i, m) != covariance(m, i) ||
                     (i == m && !sound(covariance(i, i))))
-                    detail::throw_invalid(
-                        place, "the covariance of " + name + " must be finite, symmetric and its diagonal not negative",
-                        covariance(i, m));
+                    throw_invalid(place, "the covariance of " + name + " must be finite, symmetric "
+                                                                       "and its diagonal not negative",
+                                  covariance(i, m));
         const Table<T>& value = sensitivity.by_datum[d].value;
         for (Index j = 0; j < k; ++j)
             for (Index m = 0; m < n; ++m) {
-                const T deviation = correlated ? T(0) : value(j, m) * standard[standard.size() == 1 ? 0 : m];
-                const T variance =
-                    correlated ? value(j, m) * T(covariance.row(m).dot(value.row(j))) : deviation * deviation;
-                result.share[d](j, m) = variance;
+                T& variance = result.share[d](j, m);
+                variance = value(j, m) * (correlated ? T(covariance.row(m).dot(value.row(j)))
+                                                     : standard[standard.size() == 1 ? 0 : m]);
+                if (!correlated) variance *= variance;
                 result.conical_height[j] += variance;
             }
     }

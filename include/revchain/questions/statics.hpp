@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
-
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/paper/two_links.hpp"
@@ -12,11 +10,12 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 inline void check_shape(std::string_view where, const Chain<double>& chain, const SteadyShape& shape) {
-    if (shape.inclination.size() != chain.size())
-        throw_invalid(where, "the shape must be one of the chain's; its number of links is", shape.inclination.size());
+    const Index links = shape.inclination.size();
+    if (links != chain.size())
+        throw_invalid(where, "the shape must be one of the chain's; its number of links is", links);
 }
 
-/// Throws InvalidArgument for weights that are not positive, and for places (with both supports) that do not increase.
+/// Throws InvalidArgument for weights that are not positive, and for places that do not increase.
 template <Real T>
 void check_string(std::string_view where, const Vector<T>& weight, const Vector<T>& place) {
     using std::isfinite;
@@ -38,8 +37,8 @@ inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape&
     const auto weight = [&](double x) { return std::ldexp(x, exact.units.weight_exponent); };
     ForceDiagram d;
     d.conical_height = shape.conical_height;
-    d.pin.resize(n + 1, 2), d.load.resize(n, 2), d.ray.resize(n, 2), d.reaction.resize(n, 2);
-    d.lifted.resize(n), d.centre_of_gravity.resize(n, 2), d.crossing.resize(n);
+    for (auto* points : {&d.load, &d.ray, &d.reaction, &d.centre_of_gravity}) points->resize(n, 2);
+    d.pin.resize(n + 1, 2), d.lifted.resize(n), d.crossing.resize(n);
     d.pin.col(0) = shape.offset, d.pin.col(1) = shape.height;
     const double lambda = shape.conical_height;
     double outwards = 0, hung = 0;       // sums of all loads so far
@@ -94,7 +93,7 @@ FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& wei
     using S = Wide<T>;
     const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
     const S end = wide(place[n + 1]), span = end - wide(place[0]), pull = wide(horizontal_tension);
-    // Moments about the last support give the load of the first one; then weights are added in turn.
+    // Moments about the last support give the load of the first one.
     S lifts = pull * (wide(first_height) - wide(last_height)) / span;
     for (Index j = 0; j < n; ++j) lifts = lifts + wide(weight[j]) * (end - wide(place[j + 1])) / span;
     S rise = -lifts, height = wide(first_height);
@@ -122,9 +121,10 @@ TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weigh
     if (n == 0) detail::throw_invalid(where, "there must be a weight; their number is", n);
     detail::check_string(where, weight, place);
     detail::require_positive(where, "tension", tension);
-    // The string hangs as a chain from its last support. In place of the first support it has a weight 2^(digits + 47)
-    // times all others together, which stretches it evenly and does not move; both hold to far less than a rounding.
-    // The modes of the chain from the second on are those of the string, with heights times `factor`.
+    // The string hangs as a chain from its last support. A weight 2^(digits + 47) times all others
+    // replaces the first support: it stretches the chain evenly and does not move, both to far less
+    // than a rounding. The string has the modes of the chain from the second on, with heights times
+    // `factor`.
     const T unit = detail::inverse_power_near(weight.maxCoeff());
     T total(0);
     for (Index j = 0; j < n; ++j) total += weight[j] * unit;

@@ -10,16 +10,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& options) {
     constexpr std::string_view place = "swing";
-    const Vector<double> from = detail::checked_start(place, chain.size(), false, "offset", options.offset);
-    const Vector<double> speed = detail::checked_start(place, chain.size(), false, "velocity", options.velocity);
+    const auto [from, speed] = detail::checked_start(place, chain.size(), false, options);
     const Index all = chain.mode_count();
-    detail::check_times(place, options.time, options.gravity);
-    const Index count = detail::checked_count(place, options.count, all);
-    return detail::superposed<Swing>(
-        detail::OscillatingChain(chain), options, from, speed, count, all, [&](Index first, Index number) {
-            if (number == 0) return Modes<double>{};
-            return modes(chain, {.first = first, .count = number, .progress = options.progress});
-        });
+    const auto found = [&](Index first, Index number) {
+        if (number == 0) return Modes<double>{};
+        return modes(chain, {.first = first, .count = number, .progress = options.progress});
+    };
+    const detail::OscillatingChain system(chain);
+    return detail::superposed<Swing>(place, system, options, from, speed, all, found);
 }
 
 }  // namespace revchain

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/questions/tune_candidates.hpp"
+#include "revchain/system/edit.hpp"
 #include "revchain/tune.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// One question of `tune`: the chain with any value of the datum, and on which side of the height wanted its mode is.
+/// The chain with any value of the datum, and on which side of the height wanted its mode is.
 class Tuning {
    public:
     Tuning(const Chain<double>& chain, const TuneOptions& options, const Wide<double>& wanted)
-        : chain_(chain), links_(links_of_chain(chain)), options_(options), wanted_(wanted) {}
+        : chain_(chain), links_(links_of(chain)), options_(options), wanted_(wanted) {}
 
     Chain<double> with(double x) const {
         std::vector<Link<double>> links = links_;
@@ -30,7 +24,7 @@ class Tuning {
         link = with_datum(link, options_.datum, x);
         return Chain<double>(links);
     }
-    /// How many heights exceed the one wanted; absent where that is not proved.
+    /// The number of heights that exceed the one wanted; absent where that is not proved.
     std::optional<Index> above(double x) const {
         const Pencils<double> pencils(with(x));
         const auto count = pencils.certified_count<1>({pencils.scaled(wanted_)});
@@ -56,37 +50,29 @@ class Tuning {
         return sensitivity(chain, one).of(options_.datum).value(0, options_.link) * (x / at);
     }
     double wanted() const { return static_cast<double>(wanted_); }
-    const Wide<double>& wanted_in_full() const { return wanted_; }
     const Chain<double>& chain() const { return chain_; }
     const TuneOptions& options() const { return options_; }
 
    private:
-    static std::vector<Link<double>> links_of_chain(const Chain<double>& chain) {
-        std::vector<Link<double>> links;
-        for (Index m = 0; m < chain.size(); ++m) links.push_back(chain.link(m));
-        return links;
-    }
-
     const Chain<double>& chain_;
     std::vector<Link<double>> links_;
     TuneOptions options_;
     Wide<double> wanted_;
 };
 
-/// A value between whose neighbours the mode passes the height wanted.
 struct Enclosed {
     double value, error_bound;
 };
 
-/// By proved counts between two values on different sides.
+/// The value where the mode passes the height wanted, by proved counts on both sides.
 inline Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
     const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
     const double value = low + (high - low) / 2;
     return {value, std::max(value - low, high - value)};
 }
 
-/// What a candidate is: where some mode passes the height wanted, whichever it is, found by proved counts on either
-/// side that differ by one, within a millionth of the candidate.
+/// Whether some mode passes the height wanted within a millionth of a candidate: proved counts on
+/// either side differ by one.
 struct Candidate {
     bool explained = false;
     std::optional<Enclosed> crossing{};  ///< of the mode asked for
@@ -105,10 +91,10 @@ inline Candidate classified(const Tuning& tuning, double x, double low, double h
     return {};
 }
 
-/// The first value from `from` towards `to` at which a weight does it. With c the bound of `weight_influence`, no
-/// height wanted is passed within a logarithmic step of |ln(height/wanted)|/c; where Newton's step is 5 per cent at
-/// most, what lies just beyond is looked at, and between the two bisected. `proved`: whether the search went all the
-/// way.
+/// The first weight from `from` towards `to` at which the mode has the height wanted. With c the
+/// bound of `weight_influence`, none lies within a logarithmic step of |ln(height/wanted)|/c. Where
+/// Newton's step is at most 5 per cent, a point just beyond it is tried, and the interval bisected.
+/// `proved`: whether the search went all the way.
 struct Search {
     std::optional<Enclosed> found{};
     bool proved = false;
@@ -123,7 +109,7 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
         const double height = tuning.height(at), away = std::log(height / tuning.wanted());
         seen.lowest_height = std::min(seen.lowest_height, height);
         seen.highest_height = std::max(seen.highest_height, height);
-        if (height > 0 && std::abs(away) < 0.2) {  // Newton's step and a quarter beyond: is the other side there?
+        if (height > 0 && std::abs(away) < 0.2) {  // a quarter beyond Newton's step
             const double slope = tuning.slope(at, height), newton = -away / slope;
             if (newton * direction >= 0 && std::abs(newton) < (round < 60 ? 0.05 : 1.0)) {
                 const double beyond = at * std::exp(1.25 * newton + direction * 0x1p-48);
@@ -141,11 +127,12 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
         double next = to;
         if (height > 0) {
             const double whole = std::abs(std::log(to / at));
+            if (!std::isfinite(whole)) return {};
             for (double step = whole;; step *= 0.75) {
-                if (!(whole < std::numeric_limits<double>::infinity()) || (step < whole && !(step > 1e-15))) return {};
+                if (step < whole && !(step > 1e-15)) return {};
                 next = step < whole ? at * std::exp(direction * step) : to;
-                const double c = weight_influence(tuning.chain(), tuning.options().link, std::min(at, next),
-                                                  std::max(at, next), least);
+                const auto [low, high] = std::minmax(at, next);
+                const double c = weight_influence(tuning.chain(), tuning.options().link, low, high, least);
                 if (step * c <= std::abs(away) * (1 - 1e-6)) break;
             }
         } else {
@@ -160,45 +147,44 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
 }  // namespace detail
 
 REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
+    using namespace detail;
     constexpr std::string_view place = "tune";
-    detail::require_one_speed(place, options);
-    if (options.mode < 1 || options.mode > chain.size())
-        detail::throw_invalid(place, "mode must be from 1 to " + std::to_string(chain.size()), options.mode);
-    if (options.link < 0 || options.link >= chain.size())
-        detail::throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(chain.size() - 1),
-                              options.link);
+    require_one_speed(place, options);
+    const Index size = chain.size();
+    if (options.mode < 1 || options.mode > size)
+        throw_invalid(place, "mode must be from 1 to " + std::to_string(size), options.mode);
+    if (options.link < 0 || options.link >= size)
+        throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1),
+                      options.link);
     if (!chain.has_one_weight_unit())
-        detail::throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
+        throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
     using S = Wide<double>;
-    S wanted;
-    if (options.conical_height) {
-        detail::require_positive(place, "conical height", *options.conical_height);
-        wanted = S(*options.conical_height);
-    } else {
-        detail::require_positive(place, "angular speed", *options.angular_speed);
-        detail::require_positive(place, "gravity", options.gravity);
+    S wanted(options.conical_height.value_or(0));
+    if (options.angular_speed) {
+        require_positive(place, "angular speed", *options.angular_speed, "gravity", options.gravity);
         wanted = S(options.gravity) / S(*options.angular_speed) / S(*options.angular_speed);
-        detail::require_positive(place, "conical height", static_cast<double>(wanted));
     }
+    require_positive(place, "conical height", wanted.high);
     Tuned result;
-    const auto range = detail::tune_range(place, chain, options.link, options.datum, options.low, options.high);
+    const auto range = tune_range(place, chain, options.link, options.datum, options.low, options.high);
     result.present = range.present, result.low = range.low, result.high = range.high;
-    const detail::Tuning tuning(chain, options, wanted);
-    std::vector<detail::Enclosed> found;
+    const Tuning tuning(chain, options, wanted);
+    std::vector<Enclosed> found;
     const auto distance = [&](double x) {
-        return options.datum == Datum::weight ? std::abs(std::log(x / range.start)) : std::abs(x - range.start);
+        const bool by_ratio = options.datum == Datum::weight;
+        return std::abs(by_ratio ? std::log(x / range.start) : x - range.start);
     };
     bool proved = true;
     if (options.datum == Datum::weight) {
         for (const double end : {range.high, range.low}) {
-            const auto one = detail::search(tuning, range.start, end, result);
+            const Search one = search(tuning, range.start, end, result);
             if (one.found) found.push_back(*one.found);
             proved = proved && one.proved;
         }
     } else {
-        for (const double x : detail::tune_candidates(chain, options.link, options.datum, wanted)) {
+        for (const double x : tune_candidates(chain, options.link, options.datum, wanted)) {
             if (!(x >= range.low && x <= range.high)) continue;
-            const auto candidate = detail::classified(tuning, x, range.low, range.high);
+            const Candidate candidate = classified(tuning, x, range.low, range.high);
             if (candidate.crossing) found.push_back(*candidate.crossing);
             proved = proved && candidate.explained;
         }
@@ -207,9 +193,9 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
         result.complete = proved;
     }
     if (!found.empty()) {
-        std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.value < y.value; });
-        for (const auto& one : found) result.values.push_back(one.value);
-        const auto nearest = std::min_element(found.begin(), found.end(), [&](const auto& x, const auto& y) {
+        std::sort(found.begin(), found.end(), [](const Enclosed& x, const Enclosed& y) { return x.value < y.value; });
+        for (const Enclosed& one : found) result.values.push_back(one.value);
+        const auto nearest = std::min_element(found.begin(), found.end(), [&](const Enclosed& x, const Enclosed& y) {
             return distance(x.value) < distance(y.value);
         });
         result.status = TuneStatus::found;
@@ -221,9 +207,10 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
     constexpr int places = 32;
     for (int i = 0; i <= places; ++i) {
         const double share = static_cast<double>(i) / places;
+        const auto between = [&](double x, double y) { return x * (1 - share) + y * share; };
         const double x = range.low > 0 && range.high > 10 * range.low
-                             ? std::exp(std::log(range.low) * (1 - share) + std::log(range.high) * share)
-                             : range.low * (1 - share) + range.high * share;
+                             ? std::exp(between(std::log(range.low), std::log(range.high)))
+                             : between(range.low, range.high);
         const double height = tuning.height(std::clamp(x, range.low, range.high));
         result.lowest_height = std::min(result.lowest_height, height);
         result.highest_height = std::max(result.highest_height, height);

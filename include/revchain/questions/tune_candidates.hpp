@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "revchain/linear/pencils.hpp"
-#include "revchain/linear/scaled_links.hpp"
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/sensitivity.hpp"
 
-/// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the
-/// chain has a given conical height, of whichever mode.
+/// For `tune`: a link with another value of a datum, the range it may have, and the values at which
+/// the chain has a given conical height of any mode.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline double datum_of(const Link<double>& link, Datum datum) {
@@ -40,27 +36,26 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
         case Datum::radius_of_gyration:
             link.gyration_ratio = gyration_from_radius<double>(place, link.length, x);
             return link;
-        case Datum::length: {
-            require_positive(place, "length", x);
-            const S shrunk = in_lengths<double>(link.length, x);
-            link.gyration_ratio = link.gyration_ratio * (shrunk * shrunk);
-            link.length = x;
-            return link;
-        }
-        case Datum::length_in_proportion:
+        default:
             break;
     }
     require_positive(place, "length", x);
-    link.centroid = times_length<double>(in_lengths<double>(link.centroid, link.length), x);
+    if (datum == Datum::length) {
+        const S shrunk = in_lengths<double>(link.length, x);
+        link.gyration_ratio = link.gyration_ratio * (shrunk * shrunk);
+    } else {
+        link.centroid = times_length<double>(in_lengths<double>(link.centroid, link.length), x);
+    }
     link.length = x;
     return link;
 }
 
-/// Bound of |d ln(height)/d ln(weight)| of the link at index `link`, while its weight W is between `low` and `high` and
-/// the height at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum
-/// where its centroid is above the pin). With w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r
-/// + a_r S_r, W included, and W/kappa monotone in W, both follow from the ends. Never more than 1 where all centroids
-/// are at or below their pins, since W dM <= M and W dK <= K. Cost O(N).
+/// Bound of |d ln(height)/d ln(weight)| of the link at index `link`, while its weight W is between
+/// `low` and `high` and the height at least `least`: the larger of the shares that the weight can
+/// have in y^T M y and in y^T K y (their sum where a centroid is above the pin). With
+/// w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W included,
+/// and W/kappa monotone in W, both follow from the ends. At most 1 where all centroids are at or
+/// below their pins, since W dM <= M and W dK <= K. Cost O(N).
 inline double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
@@ -69,8 +64,8 @@ inline double weight_influence(const Chain<double>& chain, Index link, double lo
         const double w_low = m == link ? low : it.weight, w_high = m == link ? high : it.weight;
         if (m >= link) {
             const double h = it.centroid / it.length;
-            const double share =
-                std::max(low / (w_low * h + below_low), high / (w_high * h + below_high));  // a W/kappa
+            const double share =  // a W/kappa
+                std::max(low / (w_low * h + below_low), high / (w_high * h + below_high));
             if (m == link)
                 own = share / it.length;
             else
@@ -87,8 +82,9 @@ inline double weight_influence(const Chain<double>& chain, Index link, double lo
     return (all_hang ? std::min(1.0, std::max(moves, bears)) : moves + bears) * (1 + 1e-9);
 }
 
+/// `start`: the present value, or the nearest end where that is 0 or outside.
 struct TuneRange {
-    double present, start, low, high;  ///< `start`: the present value, or where that is 0 or outside the nearest end
+    double present, start, low, high;
 };
 
 /// The range that a datum may have so that the link still hangs, within what is asked.
@@ -104,31 +100,37 @@ inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, 
         range.low = std::min(0.0, present), range.high = std::max(link.length, present);
     if (low) range.low = *low;
     if (high) range.high = *high;
+    const auto refuse = [&](const std::string& rule, double value) {
+        throw_invalid(place, "between: " + rule, value);
+    };
     if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high))
-        throw_invalid(place, "between: its high end must exceed its low end " + in_digits(range.low) + ", both finite",
-                      range.high);
+        refuse("its high end must exceed its low end " + in_digits(range.low) + ", both finite",
+               range.high);
     if (datum != Datum::centroid && range.low < 0)
-        throw_invalid(place, "between: its low end must not be negative for this quantity", range.low);
+        refuse("its low end must not be negative for this quantity", range.low);
     if (datum != Datum::centroid && datum != Datum::radius_of_gyration && !(range.low > 0))
-        throw_invalid(place, "between: its low end must be positive for this quantity", range.low);
+        refuse("its low end must be positive for this quantity", range.low);
     // A link hangs where W h + a S > 0; not nearer to that limit than a part in 1e6.
     constexpr double inside = 1e-6;
     const double W = link.weight, a = link.length, h = link.centroid;
     if (datum == Datum::centroid && W > 0)
         range.low = std::max(range.low, below > 0 ? -a * below / W * (1 - inside) : a * inside);
-    if (datum == Datum::weight && h < 0) range.high = std::min(range.high, -a * below / h * (1 - inside));
-    if (datum == Datum::length && h < 0) range.low = std::max(range.low, -W * h / below * (1 + inside));
-    if (!(range.low < range.high)) throw_invalid(place, "between: the link would stand, not hang, up to", range.high);
+    if (datum == Datum::weight && h < 0)
+        range.high = std::min(range.high, -a * below / h * (1 - inside));
+    if (datum == Datum::length && h < 0)
+        range.low = std::max(range.low, -W * h / below * (1 + inside));
+    if (!(range.low < range.high)) refuse("the link would stand, not hang, up to", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }
 
-/// All values of a datum other than the weight at which `height` is a conical height of the chain, of whichever mode,
-/// unsorted. Below and above the link are springs D and E at its pins, the dynamic stiffnesses at that height; with v
-/// the upper pin's offset and s the slope, twice the energy is
-///     D (v + a s)^2 + E v^2 + lambda (W h + a S) s^2 - W (v + h s)^2 - W rho^2 s^2,
-/// which has to be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a and in h. At the
-/// support v = 0. Cost O(N).
+/// All values of a datum other than the weight at which `height` is a conical height of the chain,
+/// of any mode, unsorted. The parts below and above the link act as springs D and E at its pins,
+/// the dynamic stiffnesses at that height. With v the upper pin's offset and s the slope, twice the
+/// energy is
+///     D (v + a s)^2 + E v^2 + lambda (W h + a S) s^2 - W (v + h s)^2 - W rho^2 s^2.
+/// It must be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a
+/// and in h. At the support v = 0. Cost O(N).
 inline std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum,
                                            const Wide<double>& height) {
     using S = Wide<double>;
@@ -151,11 +153,8 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
     const auto& [W, a, h, rho, below] = link;
     const S square = rho * rho, zero(0.0), A = D + E - W, B = a * D - W * h;
     std::vector<S> roots;
-    const auto quadratic = [&](const S& two, const S& one, const S& none) {  // of two x^2 + one x + none = 0
-        if (two == zero) {
-            roots.push_back(-none / one);
-            return;
-        }
+    const auto quadratic = [&](const S& two, const S& one, const S& none) {
+        if (two == zero) return roots.push_back(-none / one);
         const S half = one / S(-2.0), rest = half * half - two * none;
         if (rest < zero) return;
         const S root = sqrt(rest), sum = half < zero ? half - root : half + root;
@@ -174,7 +173,8 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
             if (top)
                 quadratic(-W, lambda * W, a * a * D + turning);
             else
-                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda), a * a * D * (W - E) - A * turning);
+                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda),
+                          a * a * D * (W - E) - A * turning);
             break;
         }
         case Datum::length: {
@@ -182,7 +182,8 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
             if (top)
                 quadratic(D, lambda * below, own);
             else
-                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h, A * own - W * W * h * h);
+                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h,
+                          A * own - W * W * h * h);
             break;
         }
         default: {  // the factor
@@ -191,7 +192,7 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
         }
     }
     std::vector<double> values;
-    for (const S& root : roots) values.push_back(ldexp(static_cast<double>(root), pencils.length_exponent()));
+    for (const S& root : roots) values.push_back(std::ldexp(root.high, pencils.length_exponent()));
     return values;
 }
 

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
-
 #include "revchain/numeric/bessel_ratio.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
-using revchain::detail::bessel_ratio;
-using revchain::detail::PhaseSeries;
-using revchain::detail::steps_above;
-using revchain::detail::two_word_pi;
-using revchain::detail::TwoDoubles;
+using revchain::detail::bessel_ratio, revchain::detail::PhaseSeries;
+using revchain::detail::steps_above, revchain::detail::two_word_pi, revchain::detail::TwoDoubles;
 
-/// Gamma(order+1) (z/2)^-order J_order(z), which is 1 at z = 0, for -1 < order <= 1e4, z >= 0. Method: power series
-/// where it is short, phase and modulus for large z, else Miller's recurrence with Neumann's sum for (z/2)^order.
-/// Accuracy: absolute error 2e-16 (1 + z) times the largest value at z and beyond. Cost: 3 ns a step of `bessel_ratio`.
+/// Gamma(order+1) (z/2)^-order J_order(z), which is 1 at z = 0, for -1 < order <= 1e4, z >= 0.
+/// Method: power series where it is short, phase and modulus for large z, else Miller's recurrence
+/// with Neumann's sum for (z/2)^order. Accuracy: absolute error 2e-16 (1 + z) times the largest
+/// value at z and beyond. Cost: 3 ns a step of `bessel_ratio`.
 class ScaledBessel {
    public:
     explicit ScaledBessel(double order) : order_(order), far_(order) {}
@@ -36,7 +32,8 @@ class ScaledBessel {
     double by_recurrence(double z) const {
         // Neumann's sum cancels near order -1, so it is taken one order higher there.
         const double base = order_ < 0 ? order_ + 1 : order_, step = 2 / z;
-        const Index last = (steps_above(base, z) + static_cast<Index>(0.6 * std::min(base, z)) + 10) / 2 * 2;
+        const auto more = static_cast<Index>(0.6 * std::min(base, z));
+        const Index last = (steps_above(base, z) + more + 10) / 2 * 2;
         // weight of J_{base+2m}: (base+2m) (base+1)_{m-1} / m!, scaled
         double above = 0, here = 1e-100, weight = 1, total = here;
         for (Index n = last; n > 0; --n) {
@@ -45,7 +42,8 @@ class ScaledBessel {
             here = below;
             if (n % 2 != 0) {
                 const double m = 0.5 * static_cast<double>(n + 1);
-                weight *= m / (base + 2 * m) * (m > 1 ? (base + 2 * m - 2) / (base + m - 1) : 1.0);
+                weight *= m / (base + 2 * m);
+                if (m > 1) weight *= (base + 2 * m - 2) / (base + m - 1);
                 total += weight * here;
             }
         }
@@ -76,8 +74,9 @@ inline TwoDoubles logarithm(const TwoDoubles& x) {
     return total * 2.0 + ln2 * static_cast<double>(exponent);
 }
 
-/// Bessel functions of both kinds of orders 0, 1, 2 in two doubles, 1e-5 <= z <= 45, by Miller's recurrence and
-/// Neumann's series (DLMF 10.23.15). Absolute error 1e-20 of the modulus. Cost: 1 to 2 microseconds.
+/// Bessel functions of both kinds of orders 0, 1, 2 in two doubles, 1e-5 <= z <= 45, by Miller's
+/// recurrence and Neumann's series (DLMF 10.23.15). Absolute error 1e-20 of the modulus.
+/// Cost: 1 to 2 microseconds.
 struct Cylinders {
     TwoDoubles J0, J1, J2, Y0, Y1, Y2;
 
@@ -90,7 +89,8 @@ struct Cylinders {
             const TwoDoubles below = step * static_cast<double>(n) * here - above;
             if (n % 2 == 0) {
                 sum = sum + here;
-                const TwoDoubles part = TwoDoubles(n % 4 == 0 ? 2.0 : -2.0) / TwoDoubles(static_cast<double>(n));
+                const double two = n % 4 == 0 ? 2.0 : -2.0;
+                const TwoDoubles part = TwoDoubles(two) / TwoDoubles(static_cast<double>(n));
                 sum0 = sum0 + part * here;
                 sum1 = sum1 + part * (below - above);
             }
@@ -99,10 +99,9 @@ struct Cylinders {
             above = here;
             here = below;
         }
-        const TwoDoubles scale = TwoDoubles(1.0) / (here + sum * 2.0), over_pi = TwoDoubles(2.0) / two_word_pi;
-        J0 = here * scale;
-        J1 = J1 * scale;
-        J2 = J2 * scale;
+        const TwoDoubles scale = TwoDoubles(1.0) / (here + sum * 2.0);
+        const TwoDoubles over_pi = TwoDoubles(2.0) / two_word_pi;
+        J0 = here * scale, J1 = J1 * scale, J2 = J2 * scale;
         const TwoDoubles log = logarithm(ldexp(z, -1)) + euler;
         Y0 = over_pi * (log * J0 - sum0 * scale * 2.0);
         Y1 = over_pi * (log * J1 - J0 / z + sum1 * scale);

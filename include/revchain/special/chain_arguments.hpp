@@ -2,14 +2,16 @@
 #pragma once
 
 #include "revchain/numeric/progress.hpp"
-#include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
-/// Throws InvalidArgument unless the mode or count called `name` is at least 1 and the length positive and finite.
-inline void check(std::string_view where, std::string_view name, Index number, double length) {
-    if (number < 1) revchain::detail::throw_invalid(where, std::string(name) + " must be at least 1", number);
+/// Returns the mode or count called `name`. Throws InvalidArgument unless it is at least 1 and the
+/// length positive and finite.
+inline Index check(std::string_view where, std::string_view name, Index number, double length) {
+    if (number < 1)
+        revchain::detail::throw_invalid(where, std::string(name) + " must be at least 1", number);
     revchain::detail::require_positive(where, "length", length);
+    return number;
 }
 
 /// Throws InvalidArgument unless 0 <= x <= length.
@@ -27,8 +29,8 @@ Vector<double> for_numbers(Index count, const F& f) {
     });
 }
 
-/// Places length (zero(i) / end)^2, i = 1 ... mode - 1, at which mode `mode`, with the argument `end` at the support,
-/// has a zero of a Bessel function.
+/// The points length (zero(i) / end)^2, i < mode, at which mode `mode` has the zeros of a Bessel
+/// function; `end` is its argument at the support.
 template <class Zero>
 Vector<double> places_of_zeros(Index mode, double length, double end, const Zero& zero) {
     return for_numbers(mode - 1, [&](Index i) {

@@ -36,12 +36,12 @@ struct GovernorMotion::Quartic {
             std::swap(s, c);
             if (c < 0) s = -s, c = -c;
         }
-        // G - n^2 in two words, because only it distinguishes pendulum lengths near the conical height.
+        // G - n^2 in two words: it alone distinguishes pendulum lengths near the conical height.
         using Two = DoubleWord<double>;
         const Two speed(given.angular_speed), held = (Two(1.0) - Two(given.axial_inertia)) * speed * speed;
         const double excess = static_cast<double>((Two(std::abs(given.gravity)) / Two(given.pendulum_length) - held) /
                                                   Two(pace) / Two(pace));
-        const bool near_by = std::abs(excess) < 0.5 * n2;  // the first forms then have no differences, else the second
+        const bool near_by = std::abs(excess) < 0.5 * n2;  // chooses the form without differences
         const double cosine = (c - s) * (c + s);
         off = near_by ? -(excess + 2 * n2 * s * s) : n2 * cosine - G;
         e = w * w + 4 * s * s * (near_by ? excess + n2 * s * s : G - n2 * c * c);
@@ -137,7 +137,8 @@ inline void GovernorMotion::choose_form(const Quartic& q, double pace, double an
 inline void GovernorMotion::set_range(double minus) {
     const auto at = [&](double opposite, double adjacent) { return unfolded({opposite, adjacent, 0, 0}); };
     double first = at(-opposite_, adjacent_), last = at(opposite_, adjacent_);
-    if (form_ == Form::dn) first = at(std::copysign(std::sqrt(std::max(0.0, -minus)), opposite_), adjacent_);
+    if (form_ == Form::dn)
+        first = at(std::copysign(std::sqrt(std::max(0.0, -minus)), opposite_), adjacent_);
     if (form_ == Form::tn) first = at(-1, 0), last = at(1, 0);
     if (form_ == Form::growing) first = at(0, 1), last = at(std::copysign(1.0, opposite_), 0);
     least_ = std::min(first, last), greatest_ = std::max(first, last);
@@ -146,9 +147,10 @@ inline void GovernorMotion::set_range(double minus) {
 }
 
 inline double GovernorMotion::unfolded(const Half& half) const {
-    const double angle = upside_down_ ? std::atan2(half.adjacent, half.opposite) - half.turns * std::numbers::pi
-                                      : std::atan2(half.opposite, half.adjacent) + half.turns * std::numbers::pi;
-    return 2 * (angle + turns_ * std::numbers::pi);
+    constexpr double pi = std::numbers::pi;
+    const double angle = upside_down_ ? std::atan2(half.adjacent, half.opposite) - half.turns * pi
+                                      : std::atan2(half.opposite, half.adjacent) + half.turns * pi;
+    return 2 * (angle + turns_ * pi);
 }
 
 inline GovernorMotion::Half GovernorMotion::half_at(double u) const {
@@ -160,17 +162,13 @@ inline GovernorMotion::Half GovernorMotion::half_at(double u) const {
     const double k2 = modulus().modulus() * modulus().modulus();
     Half half{opposite_, adjacent_, 0, rate_};
     if (form_ == Form::cn) {
-        half.opposite *= j.cn;
-        half.rate *= -j.sn * j.dn;
+        half.opposite *= j.cn, half.rate *= -j.sn * j.dn;
     } else if (form_ == Form::dn) {
-        half.opposite *= j.dn;
-        half.rate *= -k2 * j.sn * j.cn;
+        half.opposite *= j.dn, half.rate *= -k2 * j.sn * j.cn;
     } else {
         half.turns = std::nearbyint(j.amplitude / std::numbers::pi);
         const double sign = std::fmod(half.turns, 2.0) == 0 ? 1.0 : -1.0;
-        half.opposite *= sign * j.sn;
-        half.adjacent *= sign * j.cn;
-        half.rate *= j.dn;
+        half.opposite *= sign * j.sn, half.adjacent *= sign * j.cn, half.rate *= j.dn;
     }
     return half;
 }
@@ -179,9 +177,9 @@ inline GovernorState GovernorMotion::operator()(double time) const {
     detail::require_finite(detail::governor_motion, "time", time);
     if (form_ == Form::constant) return {angle_, 0};
     const auto require_finite = [&](double x) {
-        if (!std::isfinite(x))
-            detail::throw_invalid(detail::governor_motion, "time must be so small that the angle does not overflow",
-                                  time);
+        if (std::isfinite(x)) return;
+        detail::throw_invalid(detail::governor_motion,
+                              "time must be so small that the angle does not overflow", time);
     };
     const double u = phase_ + rate_ * time;
     require_finite(u);

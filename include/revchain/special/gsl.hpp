@@ -11,9 +11,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD::analytic::detail {
 
-/// Value of a GSL function of one argument, by its `_e` form. GSL's default error handler ends the process, also at
-/// underflow and overflow, and it belongs to the program, so it is not changed here. Callers must keep to arguments
-/// that cause no error: 1e-160 and more for Bessel functions.
+/// Value of a GSL function of one argument, by its `_e` form. GSL's error handler belongs to the
+/// program and by default ends the process, also at underflow and overflow. So callers must pass
+/// arguments that cause no error: 1e-160 and more for Bessel functions.
 inline double gsl_value(int (*function)(double, gsl_sf_result*), double x) {
     gsl_sf_result result{};
     const int status = function(x, &result);

@@ -5,16 +5,13 @@
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
-/// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4. x is
-/// the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or amplitude
-/// that is not positive and finite, and x outside [0, length]. With a particle at the free end: special/tip_mass.hpp;
-/// of varying density: special/tapered_chain.hpp.
+/// The uniform flexible chain hung from one end, at small amplitude: the limit of many links.
+/// Greenhill (1908) §4. x is the distance from the FREE end. Functions throw InvalidArgument for a
+/// mode or count below 1, a length or amplitude that is not positive and finite, and x outside
+/// [0, length]. With a particle at the free end: tip_mass.hpp; of other density: tapered_chain.hpp.
 namespace revchain::inline REVCHAIN_BUILD::analytic::heavy_chain {
-
 namespace detail {
-using analytic::detail::check;
-using analytic::detail::for_numbers;
-using analytic::detail::gsl_value;
+using namespace analytic::detail;
 
 inline void check_place(std::string_view where, double x, Index mode, double length) {
     check(where, "mode", mode, length);
@@ -27,11 +24,11 @@ inline double height(Index mode, double length) {
 }
 }  // namespace detail
 
-/// Conical heights lambda_k = 4 length / j_{0,k}^2 of the `count` slowest modes, descending. §4 (9)-(10).
-/// Accuracy: 3 ulp (measured 2, k up to 1e6). Cost: 10 ns each.
+/// Conical heights lambda_k = 4 length / j_{0,k}^2 of the `count` slowest modes, descending.
+/// §4 (9)-(10). Accuracy: 3 ulp (measured 2, k up to 1e6). Cost: 10 ns each.
 inline Vector<double> conical_heights(Index count, double length) {
     detail::check("analytic::heavy_chain::conical_heights", "count", count, length);
-    return detail::for_numbers(count, [&](Index mode) { return detail::height(mode, length); });
+    return detail::for_numbers(count, [=](Index mode) { return detail::height(mode, length); });
 }
 
 /// Offset J_0(2 sqrt(x / lambda_k)) at x, 1 at the free end. §4 (9).
@@ -41,8 +38,8 @@ inline double shape(double x, Index mode, double length) {
     return detail::gsl_value(gsl_sf_bessel_J0_e, zero_of_j0(mode) * std::sqrt(x / length));
 }
 
-/// dy/dx = -J_1(z) / sqrt(x lambda_k), z = 2 sqrt(x/lambda_k), of that shape: -1/lambda_k at the free end. §4 (9).
-/// Accuracy: absolute error 4e-16 (1 + j_{0,k}) / lambda_k.
+/// dy/dx = -J_1(z) / sqrt(x lambda_k), z = 2 sqrt(x/lambda_k): -1/lambda_k at the free end.
+/// §4 (9). Accuracy: absolute error 4e-16 (1 + j_{0,k}) / lambda_k.
 inline double slope(double x, Index mode, double length) {
     detail::check_place("analytic::heavy_chain::slope", x, mode, length);
     const double half_end = 0.5 * zero_of_j0(mode), half = half_end * std::sqrt(x / length);
@@ -56,36 +53,41 @@ inline double tension(double x, double length) {
     return x;
 }
 
-/// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second
-/// order in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2
-/// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is
-/// twice either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9); neither is in the paper.
+/// Energy of the steady whirl of a chain whose free end is `amplitude` off the axis, to the second
+/// order in it, over the chain's weight per length: (1/(2 lambda)) int y^2 dx =
+/// amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. It depends on no length, and is half the angular
+/// momentum times the angular speed. Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9).
 inline double kinetic_energy(Index mode, double amplitude) {
-    detail::check("analytic::heavy_chain::kinetic_energy", "mode", mode, 1.0);
-    revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);
-    const double j = zero_of_j0(mode), part = amplitude * (j * detail::gsl_value(gsl_sf_bessel_J1_e, j));
+    constexpr std::string_view where = "analytic::heavy_chain::kinetic_energy";
+    detail::check(where, "mode", mode, 1.0);
+    revchain::detail::require_positive(where, "amplitude", amplitude);
+    const double j = zero_of_j0(mode);
+    const double part = amplitude * (j * detail::gsl_value(gsl_sf_bessel_J1_e, j));
     return 0.125 * part * part;
 }
 
-/// Equal to the kinetic energy.
-inline double potential_energy(Index mode, double amplitude) { return kinetic_energy(mode, amplitude); }
+/// (1/2) int x y'^2 dx in the same unit; equal to the kinetic energy.
+inline double potential_energy(Index mode, double amplitude) {
+    return kinetic_energy(mode, amplitude);
+}
 
-/// Distances x at which mode `mode` crosses the axis, without the support: length (j_{0,i} / j_{0,mode})^2, i < mode.
-/// §4 (12). Accuracy: 5 ulp.
+/// Distances x at which mode `mode` crosses the axis, without the support:
+/// length (j_{0,i} / j_{0,mode})^2, i < mode. §4 (12). Accuracy: 5 ulp.
 inline Vector<double> nodes(Index mode, double length) {
     detail::check("analytic::heavy_chain::nodes", "mode", mode, length);
-    return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j0(i); });
+    return detail::places_of_zeros(mode, length, zero_of_j0(mode), zero_of_j0);
 }
 
-/// Distances x at which mode `mode` runs vertical, so that the chain below has its centre of gravity on the axis,
-/// without the free end: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14). Accuracy: 5 ulp.
+/// Distances x at which mode `mode` is vertical, without the free end; the chain below has its
+/// centre of gravity on the axis: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14).
+/// Accuracy: 5 ulp.
 inline Vector<double> vertical_points(Index mode, double length) {
     detail::check("analytic::heavy_chain::vertical_points", "mode", mode, length);
-    return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j1(i); });
+    return detail::places_of_zeros(mode, length, zero_of_j0(mode), zero_of_j1);
 }
 
-/// R = N z / 2 revolutions per second for the `count` slowest modes, ascending: N is the speed of the conical pendulum
-/// of the chain's own length, z the zeros of J_0. §4 (11). Accuracy: 4 ulp.
+/// R = N z / 2 revolutions per second for the `count` slowest modes, ascending: N is the speed of
+/// the conical pendulum of the chain's length, z the zeros of J_0. §4 (11). Accuracy: 4 ulp.
 inline Vector<double> revolutions_per_second(Index count, double length,
                                              double gravity = conical_pendulum::standard_gravity) {
     detail::check("analytic::heavy_chain::revolutions_per_second", "count", count, length);

@@ -2,27 +2,26 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/special/jacobi.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::analytic {
-
 namespace detail {
 
-/// Duplication stops where the differences over the mean are at most this; the series omit its sixth power.
+/// Duplication stops where the differences over the mean are at most this. The series omit its
+/// sixth power.
 inline constexpr double carlson_spread = 2e-3;
 
-/// Carlson's R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z)); at most one of x, y, z is 0.
-/// doi:10.1007/BF02198293; DLMF 19.36.1.
+/// Carlson's R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z)); at most one of x, y, z
+/// is 0. doi:10.1007/BF02198293; DLMF 19.36.1.
 inline double carlson_rf(double x, double y, double z) {
     double mean = (x + y + z) / 3, shrunk = 1;
-    const double dx = mean - x, dy = mean - y, spread = std::max({std::abs(dx), std::abs(dy), std::abs(mean - z)});
+    const double dx = mean - x, dy = mean - y;
+    const double spread = std::max({std::abs(dx), std::abs(dy), std::abs(mean - z)});
     while (shrunk * spread > carlson_spread * mean) {
         const double a = std::sqrt(x), b = std::sqrt(y), c = std::sqrt(z), lambda = a * b + c * (a + b);
-        x = 0.25 * (x + lambda), y = 0.25 * (y + lambda), z = 0.25 * (z + lambda);
-        mean = 0.25 * (mean + lambda);
+        for (double* each : {&x, &y, &z, &mean}) *each = 0.25 * (*each + lambda);
         shrunk *= 0.25;
     }
     const double X = dx * shrunk / mean, Y = dy * shrunk / mean, Z = -(X + Y);
@@ -38,8 +37,8 @@ inline double arctangent_ratio(double e, double rest) {
     return (e > 0 ? std::atan(root) : std::atanh(root)) / root;
 }
 
-/// Carlson's R_J(x, y, z, p) = 3/2 int_0^inf dt / ((t + p) sqrt((t + x)(t + y)(t + z))), p > 0; at most one of x, y, z
-/// is 0. R_D(x, y, z) = R_J(x, y, z, z). Method as `carlson_rf`; DLMF 19.36.2.
+/// Carlson's R_J(x, y, z, p) = 3/2 int_0^inf dt / ((t + p) sqrt((t + x)(t + y)(t + z))), p > 0; at
+/// most one of x, y, z is 0. R_D(x, y, z) = R_J(x, y, z, z). Method as `carlson_rf`; DLMF 19.36.2.
 inline double carlson_rj(double x, double y, double z, double p) {
     double mean = (x + y + z + 2 * p) / 5, shrunk = 1, sum = 0;
     const double dx = mean - x, dy = mean - y, dz = mean - z;
@@ -50,10 +49,8 @@ inline double carlson_rj(double x, double y, double z, double p) {
         const double lambda = a * b + c * (a + b), d = (q + a) * (q + b) * (q + c);
         // (q + a)(q + b)(q + c) + (q - a)(q - b)(q - c) = 2 q (p + lambda)
         sum += shrunk / d * arctangent_ratio(delta / d / d, 2 * q / d * (p + lambda));
-        x = 0.25 * (x + lambda), y = 0.25 * (y + lambda), z = 0.25 * (z + lambda), p = 0.25 * (p + lambda);
-        mean = 0.25 * (mean + lambda);
-        shrunk *= 0.25;
-        delta *= 1.0 / 64;
+        for (double* each : {&x, &y, &z, &p, &mean}) *each = 0.25 * (*each + lambda);
+        shrunk *= 0.25, delta *= 1.0 / 64;
     }
     const double X = dx * shrunk / mean, Y = dy * shrunk / mean, Z = dz * shrunk / mean, P = -0.5 * (X + Y + Z);
     const double xyz = X * Y * Z, e2 = X * Y + Z * (X + Y) - 3 * P * P, e3 = xyz + 2 * P * (e2 + 2 * P * P);
@@ -67,8 +64,8 @@ struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        // Two words, because the cosine is a difference near an odd number of quarter turns. Beyond 2^60 half turns the
-        // rest is below the last digit of the amplitude.
+        // Two words, because the cosine is a difference near an odd number of quarter turns. Beyond
+        // 2^60 half turns the rest is below the last digit of the amplitude.
         DoubleDouble within(0);
         if (std::abs(half_turns) < 0x1p60)
             within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
@@ -77,7 +74,7 @@ struct Amplitude {
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
         keep_within();
     }
-    /// Near a quarter turn the sign of cn tells the side; the rounded amplitude does not.
+    /// Near a quarter turn the sign of cn is right; that of the rounded amplitude may not be.
     explicit Amplitude(const JacobiValues& f)
         : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
@@ -100,8 +97,9 @@ struct IncompleteIntegrals {
     double F, E, D;
 };
 
-/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds. For kappa = 1, F
-/// and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless the amplitude is finite.
+/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds.
+/// For kappa = 1, F and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless
+/// the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
     detail::require_finite("analytic::incomplete_integrals", "amplitude", amplitude);
     const detail::Amplitude a(amplitude, modulus);
@@ -137,24 +135,25 @@ inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus
     } else {  // DLMF 19.7.9: a characteristic between kappa^2 and 1, and no differences
         const double k2 = modulus.modulus() * modulus.modulus(), c2 = c * c;
         const double g = -n, share = g / (k2 + g), ratio = (k2 + g) / (1 + g);
+        const double tangent = std::sqrt(g) * std::sqrt(ratio) * s * a.cosine / a.delta;
         within = share * c2 / (1 + g) * of_positive(ratio, c2 / (1 + g)) + k2 / (k2 + g) * F +
-                 std::sqrt(share / (1 + g)) * std::atan(std::sqrt(g) * std::sqrt(ratio) * s * a.cosine / a.delta);
+                 std::sqrt(share / (1 + g)) * std::atan(tangent);
     }
     return a.half_turns == 0 || c == 0 ? within : within + 2 * a.half_turns * complete_integral(c, 1 - n, 1, 1);
 }
 
 }  // namespace detail
 
-/// Pi(n, kappa) = int d phi / ((1 - n sin^2) Delta) over a quarter turn, n < 1, with the sign of n as in DLMF 19.2.7.
-/// Accuracy: 1.5e-15 relative for n as given. Infinite for kappa = 1.
+/// Pi(n, kappa) = int d phi / ((1 - n sin^2) Delta) over a quarter turn, n < 1 with the sign of
+/// DLMF 19.2.7. Accuracy: 1.5e-15 relative for n as given. Infinite for kappa = 1.
 inline double complete_pi(double n, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::complete_pi", n);
     const double c = modulus.complementary_modulus();
     return c == 0 ? std::numeric_limits<double>::infinity() : detail::complete_integral(c, 1 - n, 1, 1);
 }
 
-/// The integral of the third kind up to an amplitude, or up to the amplitude of an argument u. Accuracy: 3e-15
-/// relative. Cost: 0.7 microseconds.
+/// The integral of the third kind up to an amplitude, or up to the amplitude of an argument u.
+/// Accuracy: 3e-15 relative. Cost: 0.7 microseconds.
 inline double incomplete_pi(double n, double amplitude, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::incomplete_pi", n);
     detail::require_finite("analytic::incomplete_pi", "amplitude", amplitude);

@@ -14,10 +14,11 @@ struct JacobiValues {
 
 /// Jacobi's elliptic functions of one modulus.
 ///
-/// Method: theta series in the nome or, for kappa > kappa', in the complementary nome with hyperbolic functions, so
-/// that q <= exp(-pi) and four terms suffice; the argument is reduced to half a quarter period. DLMF 20.2, 20.7(viii),
-/// 22.2. Accuracy: 1e-15 (|f| + |u df/du|) for kappa' from 1e-150 to 1, so that no digit of sn, cn and dn is known for
-/// |u| > 1e15. Cost: 0.3 microseconds to construct, 0.1 for each argument.
+/// Method: theta series in the nome or, for kappa > kappa', in the complementary nome with
+/// hyperbolic functions, so that q <= exp(-pi) and four terms suffice. The argument is reduced to
+/// half a quarter period. DLMF 20.2, 20.7(viii), 22.2. Accuracy: 1e-15 (|f| + |u df/du|) for kappa'
+/// from 1e-150 to 1, so that no digit of sn, cn and dn is known for |u| > 1e15.
+/// Cost: 0.3 microseconds to construct, 0.1 for each argument.
 class JacobiFunctions {
    public:
     explicit JacobiFunctions(const EllipticModulus& modulus)
@@ -60,7 +61,7 @@ class JacobiFunctions {
         double first, second, third, fourth, w;
     };
 
-    /// The series in powers of q times 2 cos 2nz = q^-n w_n. These cannot overflow, and underflow is harmless.
+    /// Series in powers of q times 2 cos 2nz = q^-n w_n, which cannot overflow.
     Theta theta(double w) const {
         const double q = q_, q2 = q * q, q4 = q2 * q2, q9 = q4 * q4 * q;
         const double w2 = w * w - 2 * q2, w3 = w * (w2 - q2);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -51,13 +50,14 @@ inline RopeLengths rope_lengths(std::string_view place, const RopeGiven& given,
     const bool has_both = given.angular_speed && given.tension;
     const int known = l.span.has_value() + l.length.has_value() + l.slack.has_value() + l.sag.has_value() + has_both;
     if (known != 2)
-        throw_invalid(place, "two of span, length, slack, sag, and tension together with angular speed must be given",
+        throw_invalid(place, "two of span, length, slack, sag, and tension together with angular "
+                             "speed must be given",
                       known);
     if (l.length && (l.span || l.slack)) {
         const double other = l.span ? *l.span : *l.slack;
+        const std::string name = l.span ? "span" : "slack";
         if (!(*l.length > other))
-            throw_invalid(place, std::string("length must be greater than the ") + (l.span ? "span" : "slack"),
-                          *l.length);
+            throw_invalid(place, "length must be greater than the " + name, *l.length);
         (l.span ? l.slack : l.span) = *l.length - other;
         l.length.reset();
     }
@@ -200,7 +200,7 @@ inline TortuousRope::TortuousRope(const TortuousGiven& given)
                              given.gravity);
     height_ = conical_pendulum::height(given.angular_speed, given.gravity);
     strength2_ = height_ * given.tension;
-    if (!(strength2_ >= std::numeric_limits<double>::min() && std::isfinite(strength2_)))
+    if (!std::isnormal(strength2_))
         detail::throw_invalid(place, "tension times gravity / angular speed^2 must be at least 2^-1022 and finite",
                               strength2_);
     root_ = std::hypot(first_ * second_, 2 * strength2_);

@@ -4,18 +4,18 @@
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
-/// The chain of Greenhill (1908) §4 with line density proportional to x^exponent, x the distance from the free end, at
-/// small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z), z = 2 sqrt((p+1) x/lambda). Exponent
-/// 0 is the uniform chain, 1 one that thickens upwards; from 0 down to -1 the mass gathers at the free end.
-/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, an exponent
-/// not above -1 or above 1e4, and x outside [0, length]. Accuracies hold for exponents from -0.99 to 100.
+/// The chain of Greenhill (1908) §4 with line density proportional to x^p, x the distance from the
+/// free end, at small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z),
+/// z = 2 sqrt((p+1) x/lambda). Exponent 0 is the uniform chain, 1 one that thickens upwards; from 0
+/// down to -1 the mass gathers at the free end.
+/// Errors as in special/heavy_chain.hpp, and for an exponent not above -1 or above 1e4. Accuracies
+/// hold for exponents from -0.99 to 100.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tapered_chain {
-
 namespace detail {
-inline void check(std::string_view where, std::string_view name, Index number, double length, double exponent) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length, double exponent) {
     analytic::detail::check(where, name, number, length);
-    if (!(exponent > -1 && exponent <= 1e4))
-        revchain::detail::throw_invalid(where, "exponent must be above -1 and at most 1e4", exponent);
+    if (exponent > -1 && exponent <= 1e4) return number;
+    revchain::detail::throw_invalid(where, "exponent must be above -1 and at most 1e4", exponent);
 }
 
 inline double height(double zero, double length, double exponent) {
@@ -28,15 +28,15 @@ inline double height(double zero, double length, double exponent) {
 inline Vector<double> conical_heights(Index count, double length, double exponent) {
     detail::check("analytic::tapered_chain::conical_heights", "count", count, length, exponent);
     const ZerosOfJ zeros(exponent);
-    return analytic::detail::for_numbers(count,
-                                         [&](Index mode) { return detail::height(zeros(mode), length, exponent); });
+    const auto height = [&](Index k) { return detail::height(zeros(k), length, exponent); };
+    return analytic::detail::for_numbers(count, height);
 }
 
 /// One mode. Cost: that of its zero, and 0.1 to 0.7 microseconds for each place.
 class Mode {
    public:
     Mode(Index mode, double length, double exponent)
-        : mode_((detail::check("analytic::tapered_chain::Mode", "mode", mode, length, exponent), mode)),
+        : mode_(detail::check("analytic::tapered_chain::Mode", "mode", mode, length, exponent)),
           length_(length),
           exponent_(exponent),
           zeros_(exponent),
@@ -48,24 +48,28 @@ class Mode {
 
     /// Offset Gamma(p+1) (z/2)^-p J_p(z) at x, 1 at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, which exceeds 1 for p < -1/2.
-    double shape(double x) const { return offset_(place(x, "analytic::tapered_chain::Mode::shape")); }
+    double shape(double x) const { return offset_(argument(x, "analytic::tapered_chain::Mode::shape")); }
 
-    /// dy/dx of that: -Gamma(p+2) (z/2)^-(p+1) J_{p+1}(z) / lambda, -1/lambda at the free end. Accuracy: absolute error
-    /// 4e-16 (1 + z) of the largest slope.
-    double slope(double x) const { return -next_(place(x, "analytic::tapered_chain::Mode::slope")) / conical_height(); }
+    /// dy/dx: -Gamma(p+2) (z/2)^-(p+1) J_{p+1}(z) / lambda, -1/lambda at the free end.
+    /// Accuracy: absolute error 4e-16 (1 + z) of the largest slope.
+    double slope(double x) const {
+        return -next_(argument(x, "analytic::tapered_chain::Mode::slope")) / conical_height();
+    }
 
-    /// Distances x at which the chain crosses the axis, ascending, without the support: length (j_{p,i} /
-    /// j_{p,mode})^2, i < mode. Accuracy: 3 ulp.
-    Vector<double> nodes() const { return analytic::detail::places_of_zeros(mode_, length_, end_, zeros_); }
+    /// Distances x at which the chain crosses the axis, ascending, without the support:
+    /// length (j_{p,i} / j_{p,mode})^2, i < mode. Accuracy: 3 ulp.
+    Vector<double> nodes() const {
+        return analytic::detail::places_of_zeros(mode_, length_, end_, zeros_);
+    }
 
-    /// Distances x above the free end at which the chain is vertical, ascending: length (j_{p+1,i} / j_{p,mode})^2,
-    /// i < mode. Accuracy: 3 ulp.
+    /// Distances x above the free end at which the chain is vertical, ascending:
+    /// length (j_{p+1,i} / j_{p,mode})^2, i < mode. Accuracy: 3 ulp.
     Vector<double> vertical_points() const {
         return analytic::detail::places_of_zeros(mode_, length_, end_, ZerosOfJ(exponent_ + 1));
     }
 
    private:
-    double place(double x, std::string_view where) const {
+    double argument(double x, std::string_view where) const {
         analytic::detail::check_place(where, x, length_);
         return end_ * std::sqrt(x / length_);
     }

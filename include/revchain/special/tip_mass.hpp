@@ -4,39 +4,32 @@
 #include <array>
 #include <numbers>
 
-#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
-/// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude. `tip` is the length of
-/// chain that weighs as much as the particle; tip = 0 is the chain of `heavy_chain`. x is the distance from the free
-/// end.
+/// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude.
+/// `tip` is the length of chain that weighs as much as the particle; tip = 0 is the chain of
+/// `heavy_chain`. x is the distance from the free end.
 ///
-/// With z = 2 sqrt((tip + x)/lambda), z_0 at the particle and z_L at the support, the offset is a cylinder function of
-/// order 0 of z, and the heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L). With theta the phase of J + iY this is
+/// With z = 2 sqrt((tip + x)/lambda), z_0 at the particle and z_L at the support, the offset is a
+/// cylinder function of order 0 of z. The heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L), or
+/// with theta the phase of J + iY
 ///     theta_0(z_L) - theta_2(z_0) = mode pi.
-/// At a fixed z_0/z_L the left side rises from 0 to infinity, because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2). So
-/// every mode has exactly one height.
-/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, a tip that is
-/// negative or above 1e250 lengths, and x outside [0, length].
+/// Every mode has exactly one height: at a fixed z_0/z_L the left side rises from 0 to infinity,
+/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2).
+/// Errors as in special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tip_mass {
-
 namespace detail {
 
-using analytic::detail::Cylinders;
-using analytic::detail::for_numbers;
-using analytic::detail::gsl_value;
-using analytic::detail::PhaseSeries;
-using analytic::detail::two_word_pi;
-using analytic::detail::TwoDoubles;
+using namespace analytic::detail;
 
 inline const PhaseSeries& series(int order) {
     static const std::array<PhaseSeries, 3> all{PhaseSeries(0), PhaseSeries(1), PhaseSeries(2)};
     return all[static_cast<std::size_t>(order)];
 }
 
-/// J_0 and Y_0 at a place, and theta_0'.
+/// J_0 and Y_0 at a point, and theta_0'.
 struct OrderZero {
     TwoDoubles J, Y;
     double rate;
@@ -55,62 +48,70 @@ struct OrderZero {
         }
     }
     /// theta_0 to about a tenth.
-    static double rough(double z) { return std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi); }
+    static double rough(double z) {
+        return std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi);
+    }
 };
 
-/// The end with the particle: J_2 and Y_2 at z_0, and theta_2 to about a tenth.
+/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the slope
+/// `rate` of their phase theta, and `rough`, theta to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
 
-    double z, rate, rough;  ///< rate: theta_2'
-    TwoDoubles J2{0.0}, Y2{-1.0};
+    int order;
+    double z, rate = 0, rough;
+    TwoDoubles J{0.0}, Y{-1.0};
 
-    explicit LowerEnd(const TwoDoubles& place) : z(place.high), rate(0), rough(-0.5 * std::numbers::pi) {
-        if (z >= series_from) {
-            rate = 1 / series(2).density(z);
+    LowerEnd(int of_order, const TwoDoubles& place) : order(of_order), z(place.high) {
+        rough = z > 1.5 ? z - 1.25 * std::numbers::pi + 1.875 / z : -0.5 * std::numbers::pi;
+        if (order == 0) rough = OrderZero::rough(z);
+        if (is_far()) {
+            rate = 1 / series(order).density(z);
+        } else if (order == 0) {
+            const OrderZero at(place);
+            J = at.J, Y = at.Y, rate = at.rate;
         } else if (z >= nothing_below) {
             const Cylinders f(place);
-            J2 = f.J2, Y2 = f.Y2;
-            rate = 2 / (std::numbers::pi * z * (J2.high * J2.high + Y2.high * Y2.high));
+            J = f.J2, Y = f.Y2;
+            rate = 2 / (std::numbers::pi * z * (J.high * J.high + Y.high * Y.high));
         }
-        if (z > 1.5) rough = z - 1.25 * std::numbers::pi + 1.875 / z;
     }
     bool is_far() const { return z >= series_from; }
 };
 
-/// A function and its derivative.
 struct ValueAndRate {
     double value, rate;
 };
 
-/// A zero of an increasing function between `low` and `high`, by Newton's method from w, in two
-/// words: what the last step leaves is its square.
+/// A zero of an increasing function by Newton's method from w, in two words.
 template <class F>
 TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate) {
     const auto last = revchain::detail::newton_between(low, high, value_and_rate, w, 1e-9);
     return TwoDoubles(last.from) - last.step;
 }
 
-/// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
+/// theta_0(z_0 + apart) - theta(z_0) - i pi, and theta_0' there.
 inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
-    const double z = place.high, turns = static_cast<double>(i);
+    const double z = place.high, turns = static_cast<double>(i), pi = std::numbers::pi;
     if (end.is_far())
-        return {(apart - two_word_pi * (turns - 1)).high + (series(2).lag(end.z) - series(0).lag(z)),
+        return {(apart - two_word_pi * (turns - end.order / 2)).high +
+                    (series(end.order).lag(end.z) - series(0).lag(z)),
                 1 / series(0).density(z)};
-    const OrderZero at(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
-    const TwoDoubles sine = end.J2 * at.Y - end.Y2 * at.J, cosine = end.J2 * at.J + end.Y2 * at.Y;
+    const bool at_tip = end.order == 2 && z < LowerEnd::nothing_below;
+    const OrderZero at(at_tip ? TwoDoubles(LowerEnd::nothing_below) : place);
+    const TwoDoubles sine = end.J * at.Y - end.Y * at.J, cosine = end.J * at.J + end.Y * at.Y;
     const double value = std::atan(sine.high / cosine.high);
-    return {value + std::numbers::pi * std::round((OrderZero::rough(z) - end.rough - value) / std::numbers::pi - turns),
-            at.rate};
+    const double whole = std::round((OrderZero::rough(z) - end.rough - value) / pi - turns);
+    return {value + pi * whole, at.rate};
 }
 
-inline void check(std::string_view where, std::string_view name, Index number, double length, double tip) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length, double tip) {
     analytic::detail::check(where, name, number, length);
-    if (!(tip >= 0 && tip / length <= 1e250))
-        revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
+    if (tip >= 0 && tip / length <= 1e250) return number;
+    revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
 
-/// The numbers that all modes of a chain share, and z_L - z_0 of each mode.
+/// What all modes share, and z_L - z_0 of each mode.
 struct Ends {
     TwoDoubles share;  ///< length / (length + tip)
     TwoDoubles ratio;  ///< z_0 / z_L
@@ -126,29 +127,37 @@ struct Ends {
         gap = share / (ratio + 1.0);
     }
 
-    /// z - z_0 at `part` of the length, over z_L - z_0: from the nearer end, so that it is 0 and 1 at the ends.
+    /// z - z_0 at `part` of the length, over z_L - z_0. It is 0 and 1 at the ends.
     double part_apart(double part) const {
         const double r = ratio.high, z = std::sqrt(r * r + part * share.high);  // over z_L
         if (part > 0.5) return 1 - (1 - part) * ((1 + r) / (1 + z));
         return part > 0 ? part * ((1 + r) / (z + r)) : 0.0;
     }
 
-    /// z_L - z_0 by Newton's method on the phases. It is below mode pi, as theta_0' > 1 and
-    /// theta_0 > theta_2 at z_0.
-    TwoDoubles apart(Index mode) const {
+    /// z_L - z_0 by Newton's method on the phases: below mode pi, as theta_0' > 1 and
+    /// theta_0 >= theta at z_0. `order`: that of the lower end.
+    TwoDoubles apart(int order, Index mode) const {
         const double r = ratio.high, g = gap.high, k = static_cast<double>(mode);
-        const double low = g * (k - 0.25) * std::numbers::pi, high = k * std::numbers::pi;
-        const double strings = (k - 1) * std::numbers::pi, c = r > 0 ? 4 * g * (0.125 + 1.875 / r) : 0;
-        double w = 0.5 * (strings + std::sqrt(strings * strings + c));  // both ends far out
-        if (!(w * r > 2 * g)) w = low * (1 + 1e-3);
+        const double pi = std::numbers::pi, high = k * pi;
+        double low = 0, w = high;
+        if (order == 0) {
+            w -= 0.125 * std::min(1.0, g / r);
+        } else {
+            const double strings = (k - 1) * pi, c = r > 0 ? 4 * g * (0.125 + 1.875 / r) : 0;
+            low = g * (k - 0.25) * pi;
+            w = 0.5 * (strings + std::sqrt(strings * strings + c));  // both ends far out
+            if (!(w * r > 2 * g)) w = low * (1 + 1e-3);
+        }
         return phase_zero(low, high, w, [&](double at) {
             const TwoDoubles place = TwoDoubles(at) / gap;
-            const LowerEnd end(place * ratio);
+            const LowerEnd end(order, place * ratio);
             const ValueAndRate e = excess(end, place, TwoDoubles(at), mode);
             if (!end.is_far()) return ValueAndRate{e.value, (e.rate - r * end.rate) / g};
             // without cancellation
-            const double a0 = series(0).density_above_one(place.high), a2 = series(2).density_above_one(end.z);
-            return ValueAndRate{e.value, (a2 - a0) / ((1 + a0) * (1 + a2)) / g + 1 / (1 + a2)};
+            const double upper = series(0).density_above_one(place.high);
+            const double lower = series(order).density_above_one(end.z);
+            const double change = (lower - upper) / ((1 + upper) * (1 + lower)) / g;
+            return ValueAndRate{e.value, change + 1 / (1 + lower)};
         });
     }
 
@@ -160,74 +169,104 @@ struct Ends {
     }
 };
 
+/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a length.
+class EitherMode {
+   protected:
+    EitherMode(int order, Index mode, double length, const TwoDoubles& lower)
+        : mode_(mode),
+          length_(length),
+          lower_(lower.high),
+          ends_(length, lower),
+          apart_(ends_.apart(order, mode)),
+          place_(apart_ / ends_.gap * ends_.ratio),
+          height_(ends_.height(apart_, length)),
+          end_(order, place_) {}
+
+    static double lag(int order, double z) { return series(order).lag(z); }
+    static double density(int order, double z) { return series(order).density(z); }
+    /// z - z_0 at x.
+    double apart_at(double x, std::string_view where) const {
+        check_place(where, x, length_);
+        return apart_.high * ends_.part_apart(x / length_);
+    }
+    /// z - z_0 at node i, from `start`.
+    double node_apart_from(Index i, double high, double start) const {
+        const auto off = [&](double at) { return excess(end_, place_ + at, TwoDoubles(at), i); };
+        return phase_zero(0, high, start, off).high;
+    }
+    double place_of(double apart) const {
+        return length_ * (apart / apart_.high) * ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
+    }
+
+    Index mode_;
+    double length_, lower_;
+    Ends ends_;
+    TwoDoubles apart_, place_;  // z_L - z_0, z_0
+    double height_;
+    LowerEnd end_;
+};
+
 }  // namespace detail
 
-/// Conical heights of the `count` slowest modes, descending. With a heavy tip the first mode is nearly that of a
-/// plummet on a thread of this length, and the others are half waves of a string, z_L - z_0 = (mode - 1) pi nearly.
-/// Accuracy: 2 ulp (measured 1.04). Cost of each: 0.15 microseconds where z_0 > 30, 10 to 15 where z_L < 45, else 3 to
-/// 5.
+/// Conical heights of the `count` slowest modes, descending. With a heavy tip the first mode is
+/// nearly that of a plummet on a thread of this length; the others are half waves of a string with
+/// z_L - z_0 = (mode - 1) pi nearly. Accuracy: 2 ulp (measured 1.04).
+/// Cost of each: 0.15 microseconds where z_0 > 30, 10 to 15 where z_L < 45, else 3 to 5.
 inline Vector<double> conical_heights(Index count, double length, double tip) {
     detail::check("analytic::tip_mass::conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
-    return detail::for_numbers(count, [&](Index mode) { return ends.height(ends.apart(mode), length); });
+    const auto height = [&](Index mode) { return ends.height(ends.apart(2, mode), length); };
+    return detail::for_numbers(count, height);
 }
 
 /// One mode of the chain with a particle. Cost: that of its height.
-class Mode {
+class Mode : private detail::EitherMode {
    public:
     Mode(Index mode, double length, double tip)
-        : mode_((detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), mode)),
-          length_(length),
-          tip_(tip),
-          ends_(length, tip),
-          apart_(ends_.apart(mode)),
-          place_(apart_ / ends_.gap * ends_.ratio),
-          end_(place_) {
-        height_ = ends_.height(apart_, length);
+        : EitherMode(2, detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), length, tip) {
         if (end_.is_far()) return;
-        const detail::TwoDoubles quarter = ldexp(place_ * place_, -2), scale = detail::two_word_pi * quarter;
+        const detail::TwoDoubles quarter = ldexp(place_ * place_, -2);
+        const detail::TwoDoubles scale = detail::two_word_pi * quarter;
         if (end_.z < detail::LowerEnd::nothing_below) {
             a_ = quarter + 1.0, b_ = scale * ldexp(quarter, -1);
         } else {
-            a_ = -(scale * end_.Y2), b_ = scale * end_.J2;
+            a_ = -(scale * end_.Y), b_ = scale * end_.J;
         }
     }
 
     double conical_height() const { return height_; }
 
     /// Offset at x, 1 at the free end: (pi z_0^2/4) (J_2(z_0) Y_0(z) - Y_2(z_0) J_0(z)).
-    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) times the largest offset, which is 1 for mode 1 and up to
-    /// sqrt(1 + tip/lambda) for others. Cost: 0.1 to 0.3 microseconds, 2 where z_0 > 1 and z < 45.
+    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) times the largest offset, which is 1 for
+    /// mode 1 and up to sqrt(1 + tip/lambda) for others.
+    /// Cost: 0.1 to 0.3 microseconds, 2 where z_0 > 1 and z < 45.
     double shape(double x) const {
         const double w = apart_at(x, "analytic::tip_mass::Mode::shape"), z = end_.z + w;
-        if (end_.is_far())
-            return -0.5 * end_.z * std::sqrt(density(0, z) * density(2, end_.z) * (end_.z / z)) *
-                   std::sin(w - (lag(0, z) - lag(2, end_.z)));
-        return cylinder(0, w);
+        if (!end_.is_far()) return cylinder(0, w);
+        return -0.5 * end_.z * far_out(0, z) * std::sin(w - (lag(0, z) - lag(2, end_.z)));
     }
 
     /// dy/dx, -1/lambda at the free end. Accuracy: as `shape`, times the largest slope.
     double slope(double x) const {
         const double w = apart_at(x, "analytic::tip_mass::Mode::slope"), z = end_.z + w;
         if (end_.is_far())
-            return -std::sqrt(density(1, z) * density(2, end_.z) * (end_.z / z)) * (end_.z / z) *
+            return -far_out(1, z) * (end_.z / z) *
                    std::cos(w - (lag(1, z) - lag(2, end_.z))) / height_;
         return z > 0 ? -cylinder(1, w) / (0.5 * z) / height_ : -1 / height_;
     }
 
-    /// (mode - 1) distances x where the chain crosses the axis, ascending: theta_0(z) - theta_2(z_0) = i pi, i < mode.
-    /// Accuracy: 1e-15 length. Cost: 0.2 to 10 microseconds each.
+    /// (mode - 1) distances x where the chain crosses the axis, ascending:
+    /// theta_0(z) - theta_2(z_0) = i pi, i < mode. Accuracy: 1e-15 length.
+    /// Cost: 0.2 to 10 microseconds each.
     Vector<double> nodes() const {
         Vector<double> points(mode_ - 1);
         double high = apart_.high;
         for (Index i = mode_ - 1; i >= 1; --i) {
             revchain::detail::look();
             double w = std::max(high - std::numbers::pi, 0.5 * high);
-            if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy particle
-            w = high = detail::phase_zero(0, high, w, [&](double at) {
-                           return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i);
-                       }).high;
-            points[i - 1] = length_ * (w / apart_.high) * ((w + 2 * end_.z) / (apart_.high + 2 * end_.z));
+            if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy tip
+            high = node_apart_from(i, high, w);
+            points[i - 1] = place_of(high);
         }
         return points;
     }
@@ -237,14 +276,15 @@ class Mode {
     Vector<double> vertical_points() const {
         return revchain::detail::zeros_between(nodes(), length_, [&](double x) {
             const double steep = slope(x);
-            return std::pair(steep, -(shape(x) / height_ + steep) / (tip_ + x));
+            return std::pair(steep, -(shape(x) / height_ + steep) / (lower_ + x));
         });
     }
 
    private:
-    static double lag(int order, double z) { return detail::series(order).lag(z); }
-    static double density(int order, double z) { return detail::series(order).density(z); }
-
+    /// The modulus of an order over that of order 2 at z_0, where both are far out.
+    double far_out(int order, double z) const {
+        return std::sqrt(density(order, z) * density(2, end_.z) * (end_.z / z));
+    }
     /// a J + b Y of order 0 or 1 at z_0 + w.
     double cylinder(int order, double w) const {
         const double z = end_.z + w;
@@ -252,23 +292,13 @@ class Mode {
             const detail::Cylinders f(place_ + w);
             return (order == 0 ? a_ * f.J0 + b_ * f.Y0 : a_ * f.J1 + b_ * f.Y1).high;
         }
-        const double second =
-            b_.high != 0 ? b_.high * detail::gsl_value(order == 0 ? gsl_sf_bessel_Y0_e : gsl_sf_bessel_Y1_e, z) : 0.0;
-        return a_.high * detail::gsl_value(order == 0 ? gsl_sf_bessel_J0_e : gsl_sf_bessel_J1_e, z) + second;
+        const auto J = order == 0 ? gsl_sf_bessel_J0_e : gsl_sf_bessel_J1_e;
+        const auto Y = order == 0 ? gsl_sf_bessel_Y0_e : gsl_sf_bessel_Y1_e;
+        const double second = b_.high != 0 ? b_.high * detail::gsl_value(Y, z) : 0.0;
+        return a_.high * detail::gsl_value(J, z) + second;
     }
 
-    /// z - z_0 at x.
-    double apart_at(double x, std::string_view where) const {
-        analytic::detail::check_place(where, x, length_);
-        return apart_.high * ends_.part_apart(x / length_);
-    }
-
-    Index mode_;
-    double length_, tip_, height_ = 0;
-    detail::Ends ends_;
-    detail::TwoDoubles apart_, place_;  // z_L - z_0, z_0
-    detail::TwoDoubles a_, b_;          // the offset is a J_0 + b Y_0
-    detail::LowerEnd end_;
+    detail::TwoDoubles a_, b_;  // the offset is a J_0 + b Y_0
 };
 
 }  // namespace revchain::analytic::tip_mass

@@ -9,12 +9,13 @@
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/dispatch.hpp"
 #include "revchain/numeric/double_word.hpp"
+#include "revchain/numeric/product.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A quantity of every link: one number each, or a single number that serves all links and is stored once. Copies share
-/// the numbers, which never change.
+/// A quantity of every link: one number each, or a single number for all links, stored once.
+/// Copies share the numbers, which never change.
 template <class V>
 class Column {
    public:
@@ -24,8 +25,9 @@ class Column {
         numbers_ = owned_->data();
     }
 
-    /// A column that refers to the caller's numbers. They must stay in place and unchanged while this column, a chain
-    /// made of it, or a copy is used. For a million links, copying them takes half as long as the ten slowest modes.
+    /// A column that refers to the caller's numbers. They must stay where they are, unchanged, while
+    /// this column, a chain made of it, or a copy is used. For a million links, copying them takes
+    /// half as long as the ten slowest modes.
     static Column borrowed(const V* numbers, std::size_t count) {
         Column column{V{}};
         column.numbers_ = numbers, column.count_ = count, column.stride_ = 1;
@@ -53,7 +55,7 @@ namespace detail {
 /// The number of links in a segment. Columns are summed by segments.
 inline constexpr Index segment_size = 256;
 
-/// Sum, least and largest in size of some numbers. The sum is not finite where a number is not.
+/// Sum, least number and largest size of some numbers. The sum is not finite where one is not.
 template <Real T>
 struct Summary {
     Wide<T> sum{T(0)};
@@ -61,13 +63,13 @@ struct Summary {
     T most{};
 };
 
-/// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
+/// Lanes summed side by side: compilers make SIMD code of the loops (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
 
-/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of
-/// `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree
-/// that joins them, add up the rounding errors of their 20 sums, with an error of at most 19 u times 20 u of the sum of
-/// sizes.
+/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12
+/// operations of `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For
+/// double words the rounding errors of the 20 sums in lanes and tree are summed, with an error of at
+/// most 19 u times 20 u of the sum of sizes.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
     constexpr bool compensated = is_double_word<Wide<T>>;
@@ -107,28 +109,24 @@ Summary<T> summary(const T* x, Index count) {
                 }
                 sum[i] = s;
             }
-        Summary<T> result{
-            {}, *std::min_element(least, least + sum_lanes), *std::max_element(most, most + sum_lanes)};
+        const T lowest = *std::min_element(least, least + sum_lanes);
+        const T highest = *std::max_element(most, most + sum_lanes);
         if constexpr (compensated)
-            result.sum = two_sum(sum[0], error[0]);
+            return Summary<T>{two_sum(sum[0], error[0]), lowest, highest};
         else
-            result.sum = sum[0];
-        return result;
+            return Summary<T>{sum[0], lowest, highest};
     });
 }
 
 /// count times x: one operation, whatever the unit of x.
 template <Real T>
 Wide<T> times(const T& x, Index count) {
-    using std::frexp;
-    using std::ldexp;
-    int exponent = 0;
-    const Wide<T> digits(frexp(x, &exponent));
-    return ldexp(digits * Wide<T>(static_cast<Narrow<Wide<T>>>(count)), exponent);
+    const Wide<T> number(static_cast<Narrow<Wide<T>>>(count));
+    return Product<Wide<T>>::of(Wide<T>(x)).times(number).value();
 }
 
-/// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives the sums of the
-/// numbers below each segment and, last, of all: within one operation of the segments' own errors.
+/// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives
+/// the sums of the numbers below each segment and, last, of all, with errors of one more operation.
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;

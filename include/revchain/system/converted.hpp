@@ -5,18 +5,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A number of one or two words as another scalar: rounded, or exact where the other one is as wide.
+/// A number of one or two words as another scalar, rounded where that is narrower.
 template <class To, class From>
 To from_words(const From& x) {
-    if constexpr (std::is_same_v<To, From>) {
-        return x;
-    } else if constexpr (is_double_word<From> && std::floating_point<To>) {
-        return static_cast<To>(x.high);
-    } else if constexpr (is_double_word<From> && is_double_word<To>) {
+    if constexpr (is_double_word<From> && is_double_word<To>)
         return two_sum(static_cast<Narrow<To>>(x.high), static_cast<Narrow<To>>(x.low));
-    } else {
+    else if constexpr (is_double_word<From> && std::floating_point<To>)
+        return static_cast<To>(x.high);
+    else
         return To(x);
-    }
 }
 
 /// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.
@@ -38,11 +35,11 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
     return values;
 }
 
-/// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
+/// The chain in another scalar: the same numbers where that is wider, else rounded. Cost O(N).
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    // in this order, so that the refusal names the first
+    // in this order, so that the error names the first
     const auto weight = converted<To>("weight", chain.weight());
     const auto length = converted<To>("length", chain.length());
     const auto centroid = converted<To>("centroid", chain.centroid());

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <variant>
 
 #include "revchain/system/line_density.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Weight per length of a cord, s the distance from the free end: the exponent p of s^p; a function of s; or such a
-/// function as polynomials, which several cords may share.
+/// Weight per length of a cord, s the distance from the free end: the exponent p of s^p; a function
+/// of s; or such a function as polynomials, which several cords may share.
 using CordDensity = std::variant<double, std::function<double(double)>, std::shared_ptr<const LineDensity>>;
 
 /// The weights of a cord. Where `weight` is given, only the proportions of `density` count.
@@ -22,12 +20,12 @@ struct CordOptions {
     double tip_weight = 0;           ///< of a particle at the free end, in the unit of `weight`
 };
 
-/// A perfectly flexible cord hung from one end, the limit of a chain of ever more links. It is checked once, here.
+/// A perfectly flexible cord hung from one end, the limit of a chain of ever more links.
 ///
-/// Throws InvalidArgument for a length or weight that is not positive and finite, a tip weight that is negative or not
-/// finite, an exponent not above -1 or above 1e4, a density function that is not positive inside the cord or too rough
-/// (see `LineDensity`), and polynomials over another length. Cost: that of 1200 calls of a density function or more,
-/// else nothing.
+/// Throws InvalidArgument for a length or weight that is not positive and finite, a tip weight that
+/// is negative or not finite, an exponent not above -1 or above 1e4, a density function that is not
+/// positive inside the cord or too rough (see `LineDensity`), and polynomials over another length.
+/// Cost: 1200 calls of a density function or more, else none.
 class Cord {
    public:
     explicit Cord(double length, const CordOptions& options = {})
@@ -61,12 +59,11 @@ class Cord {
     double line_weight() const { return weight_ / length_; }
     /// The length of cord of that mean weight that weighs as much as the tip.
     double tip_length() const { return tip_weight_ / line_weight(); }
-    /// The exponent of the density; nothing where it was given as a function.
+    /// The exponent of the density; absent where it was given as a function.
     std::optional<double> exponent() const { return exponent_; }
     bool is_uniform() const { return exponent_ == 0.0; }
-    /// The proportions of the density as polynomials; nothing for a uniform cord. Those of a power are computed at each
-    /// call.
-    /// Throws InvalidArgument for an exponent above 20: s^p would underflow close to the free end.
+    /// The density as polynomials up to a factor, for a power computed at each call; null for a
+    /// uniform cord. Throws InvalidArgument for an exponent above 20: s^p would underflow.
     std::shared_ptr<const LineDensity> line_density() const {
         if (!exponent_ || is_uniform()) return density_;
         if (!(*exponent_ <= 20))

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <vector>
-
 #include "revchain/chain.hpp"
 
 /// Chains made from others: a weight attached, a thread put in between, two links clamped together.
-/// Two joined bodies are computed in two words. Weight and centroid are then rounded once, as every link stores them,
-/// and (rho/a)^2 stays in two words. Conical heights are those of the exact body within 3 ulp, measured
-/// (tests/cpp/system/edit.cpp). Cost O(N).
+/// Joined bodies are computed in two words; weight and centroid are then rounded once. Conical
+/// heights are those of the exact body within 3 ulp, measured (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain::inline REVCHAIN_BUILD {
-
 namespace detail {
 
-/// A rigid body of a link: its weight, centroid and squared radius of gyration, both over the link's length.
+/// A rigid body of a link; centroid and squared radius of gyration over the link's length.
 template <Real T>
 struct Body {
     T weight{};
@@ -21,12 +17,11 @@ struct Body {
     Wide<T> gyration_ratio{};
 };
 
-/// Two bodies of one link of this length, rigidly joined: the centroid between both, and about it the moments of both
-/// and of their distance, all positive.
+/// Two bodies of one link of this length, rigidly joined: their moments and that of their distance,
+/// all positive, about the common centroid.
 template <Real T>
 Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
-    using std::frexp;
-    using std::ldexp;
+    using std::frexp, std::ldexp;
     using S = Wide<T>;
     const T weight = one.weight + other.weight;
     if (weight == T(0)) return plummet<T>(weight, length);
@@ -54,11 +49,10 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 
 }  // namespace detail
 
-/// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free end, else the pin
-/// that links number `pin` and `pin` + 1 share. A point weight leaves `radius_of_gyration` 0; it moves as one on the
-/// pin itself, a body turns as the link above does.
-/// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not positive, a negative
-/// radius of gyration, and where the result is not a valid chain.
+/// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free
+/// end, else the pin that links number `pin` and `pin` + 1 share. The body turns with that link.
+/// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not
+/// positive, a negative radius of gyration, and where the result is not a valid chain.
 template <Real T>
 Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, const T& radius_of_gyration = T(0)) {
     constexpr std::string_view place = "with_weight";
@@ -72,8 +66,9 @@ Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, cons
     return Chain<T>(links);
 }
 
-/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, below the next one or,
-/// where `pin` is the number of links, the support. Throws InvalidArgument for other pins and a length not positive.
+/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, and below
+/// the next one or, where `pin` is the number of links, the support.
+/// Throws InvalidArgument for other pins and a length not positive.
 template <Real T>
 Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     constexpr std::string_view place = "with_thread";
@@ -85,8 +80,8 @@ Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     return Chain<T>(links);
 }
 
-/// The chain with the links at index `link` and `link` + 1 locked in line: one rigid link in place of two. Its conical
-/// heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// The chain with the links at index `link` and `link` + 1 locked in line: one rigid link instead of
+/// two. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
 /// Throws InvalidArgument for an index outside 0 ... N - 2.
 template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {

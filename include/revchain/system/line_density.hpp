@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "revchain/numeric/scalar.hpp"
@@ -13,19 +11,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
+/// The weight of a chain per unit of length as a function of the distance s from its free end, as
+/// polynomials.
 ///
-/// Method: the length is halved, and the halves again, until a polynomial of degree 12 through Chebyshev points gives
-/// the function to its rounding: between these points, at the ends of the piece, and at all places of it that belong to
-/// a grid of 1021 places over the whole length. A piece is not halved any more when it is 2^-45 of its distance from
-/// the free end; it then holds the mean of the function, which takes the place of the jump or, if it is not one jump,
-/// 64 values. A jump or a corner costs about fifty pieces. At the free end a piece of 2^-40 of the length holds a power
-/// law c s^p, whose weight grows like s^(p+1).
-/// Narrow features: one that is at least 1/1000 of the length wide is always found, and its ends to rounding. A
-/// narrower one may lie between the places of the grid, and the density is then stored without it.
-/// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp); `error`
-/// estimates the error of the integral. Cost: 1200 values of a smooth function, 1500 more for a jump, at most 2
-/// million.
+/// Method: pieces are halved until a polynomial of degree 12 through Chebyshev points gives the
+/// function to its rounding: between these points, at the ends and at the points of a grid of 1021
+/// over the whole length. A piece narrower than 2^-45 s is not halved but gets the mean of the
+/// function, from the place of a single jump or from 64 values. A jump or a corner costs about fifty
+/// pieces. At the free end a piece of 2^-40 of the length holds a power law c s^p.
+/// A feature at least 1/1000 of the length wide is always found, its ends to rounding. A narrower one
+/// may lie between the points of the grid, and is then not stored.
+/// Accuracy: 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp);
+/// `error` estimates the error of the integral.
+/// Cost: 1200 values of a smooth function, 1500 more for a jump, at most 2 million.
 class LineDensity {
    public:
     static constexpr int degree = 12;
@@ -34,7 +32,7 @@ class LineDensity {
     static constexpr int least_halvings = 2, max_at_tip = 40;
     static constexpr double narrowest = 0x1p-45;  // of pieces, over the distance from the free end
     static constexpr std::size_t max_pieces = 20'000;
-    static constexpr int grid = 1021;         // a prime number, so that evenly spaced beads do not all lie between
+    static constexpr int grid = 1021;  // a prime: some of evenly spaced beads lie on the grid
     static constexpr double most_doubt = 1e-6;  // of the total weight
 
     /// The density between two places, as a polynomial or, at the free end, as a power of s.
@@ -46,8 +44,8 @@ class LineDensity {
         double doubt = 0;     ///< estimated error of the weight of the piece
     };
 
-    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, for a function
-    /// that is rough at too many places, and for one whose integral is not known to `most_doubt`.
+    /// Throws InvalidArgument where the function is not positive and finite, for a length that is
+    /// not, a function that is rough at too many points, or an integral not known to `most_doubt`.
     LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
         detail::require_positive("LineDensity", "length", length);
         Given given{weight_per_length, {}, 0};
@@ -60,8 +58,8 @@ class LineDensity {
                                             [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
         if (!(error(length) <= most_doubt)) throw_rough("has an integral that cannot be resolved", worst->middle);
     }
-    /// From the pieces of another one, as a file keeps them. `below` is found again. Throws InvalidArgument for pieces
-    /// that are not contiguous from 0 to `length`, and for a density that is not positive and finite on them.
+    /// From the pieces of another one; `below` is computed. Throws InvalidArgument for pieces that are
+    /// not contiguous from 0 to `length`, or where the density is not positive and finite.
     LineDensity(double length, std::vector<Piece> pieces) : length_(length), pieces_(std::move(pieces)) {
         detail::require_positive("LineDensity", "length", length);
         check_pieces();
@@ -70,7 +68,7 @@ class LineDensity {
 
     double length() const { return length_; }
     double total() const { return total_; }
-    /// Estimated error of the weight below a place, over that weight: the largest at or above s.
+    /// Estimated relative error of the weight below a point: the largest at or above s.
     double error(double s) const {
         double doubt = 0, largest = 0;
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -81,8 +79,7 @@ class LineDensity {
         return largest;
     }
     double mean() const { return total_ / length_; }
-    /// What a rounding of the places of jumps does to the weight below a place, over that weight: the largest at or
-    /// above s.
+    /// Relative error of that weight by the rounding of the places of jumps, the largest likewise.
     double rounding_at_jumps(double s) const {
         double moved = 0, largest = 0;
         for (std::size_t i = 1; i < pieces_.size(); ++i) {
@@ -122,10 +119,10 @@ class LineDensity {
         if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
-    /// The place below which the density is a power of s instead of a polynomial; mostly 0.
+    /// The point below which the density is a power of s instead of a polynomial; mostly 0.
     double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
-    /// First moment of the chain below s about the free end, over weight below times s, as if the density were a power
-    /// of s: to first order near the free end.
+    /// First moment of the chain below s about the free end, over weight below times s, as if the
+    /// density were a power of s: to first order near the free end.
     double first_moment(double s) const {
         const double power = about(s)[0] * s / weight_below(s) - 1;
         return (power + 1) / (power + 2);
@@ -144,16 +141,15 @@ class LineDensity {
             for (const double c : piece.factor) size += std::abs(c);
             bool positive = size > 0 && std::isfinite(size);
             if (piece.power != 0)
-                positive = positive && at == 0 && piece.factor[0] > 0 && piece.power > -1 && std::isfinite(piece.power);
-            else  // but for rounding
-                for (int i = 0; i <= degree; ++i)
-                    positive = positive && polynomial(piece.factor, std::cos(std::numbers::pi * i / degree)) >=
-                                               -10 * rounding * size;
+                positive &= at == 0 && piece.factor[0] > 0 && piece.power > -1 && std::isfinite(piece.power);
+            for (int i = 0; piece.power == 0 && i <= degree; ++i) {
+                const double value = polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
+                positive &= value >= -10 * rounding * size;
+            }
+            at = end(piece);
             if (!positive)
                 detail::throw_invalid("LineDensity", "weight per length must be positive and finite from " +
-                                                         detail::in_digits(begin) + " to " +
-                                                         detail::in_digits(end(piece)));
-            at = end(piece);
+                                                         detail::in_digits(begin) + " to " + detail::in_digits(at));
         }
         if (!(std::abs(at - length_) <= gap))
             detail::throw_invalid("LineDensity", "the pieces must end at the length " + detail::in_digits(length_), at);
@@ -168,7 +164,7 @@ class LineDensity {
     }
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
-    /// A place that is the end of a piece to rounding belongs to the next piece, so that paths continue.
+    /// The end of a piece, also if rounded, belongs to the next piece, so that paths continue.
     static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
         const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
@@ -191,7 +187,7 @@ class LineDensity {
         return piece.half * (right * t + left);
     }
 
-    /// The function, checked, and its values on the grid.
+    /// The checked function and its values on the grid.
     struct Given {
         const std::function<double(double)>& function;
         std::array<double, grid> on_grid;
@@ -206,13 +202,10 @@ class LineDensity {
         }
     };
     double on_grid(int i) const { return length_ * (i + 0.5) / grid; }
-    /// The first place of the grid that is not below s.
-    int grid_from(double s) const { return std::max(0, static_cast<int>(std::ceil(s / length_ * grid - 0.5))); }
 
     [[noreturn]] static void throw_rough(const std::string& how, double s) {
-        detail::throw_invalid("LineDensity",
-                              "weight per length " + how +
-                                  " (use a chain of many short links instead of a cord); near s",
+        detail::throw_invalid("LineDensity", "weight per length " + how +
+                                                 " (use a chain of many short links instead of a cord); near s",
                               s);
     }
 
@@ -220,25 +213,22 @@ class LineDensity {
         constexpr std::size_t count = degree + 1;
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
         Coefficients sample{}, chebyshev{};
-        double largest = 0, least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < count; ++i) {
-            const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
-            sample[i] = f(piece.middle + piece.half * x);
-            largest = std::max(largest, sample[i]), least = std::min(least, sample[i]);
-        }
+        const auto cosine = [](std::size_t k, std::size_t i) {
+            return std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
+        };
+        for (std::size_t i = 0; i < count; ++i) sample[i] = f(piece.middle + piece.half * cosine(1, i));
+        double largest = *std::max_element(sample.begin(), sample.end());
+        double least = *std::min_element(sample.begin(), sample.end());
         for (std::size_t k = 0; k < count; ++k) {
-            double sum = 0;
-            for (std::size_t i = 0; i < count; ++i)
-                sum += sample[i] *
-                       std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
-            chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
+            for (std::size_t i = 0; i < count; ++i) chebyshev[k] += sample[i] * cosine(k, i);
+            chebyshev[k] = chebyshev[k] * (k == 0 ? 1.0 : 2.0) / count;
         }
         const auto largest_of = [&](std::size_t from, std::size_t to) {
             double most = 0;
             for (std::size_t k = from; k < to; ++k) most = std::max(most, std::abs(chebyshev[k]));
             return most;
         };
-        // what the function may be off by because s is rounded
+        // error of the function because s is rounded
         const double by_place = epsilon<double>() * high / (high - low) * (largest - least);
         double tolerance = rounding * largest + 2 * by_place;
         const double tail = largest_of(count - 2, count), before = largest_of(count - 6, count - 2);
@@ -295,9 +285,9 @@ class LineDensity {
         return true;
     }
 
-    /// Whether a polynomial gives the function, within a tolerance, between the places that made it, at the ends and on
-    /// the grid. Its doubt is how much the integral differs by the values between; and where one differs by more than
-    /// the rounding, the largest difference.
+    /// Whether a polynomial gives the function within a tolerance: between its Chebyshev points, at
+    /// the ends and on the grid. Sets its doubt: the error of the integral by the values between or,
+    /// where one differs by more than the rounding, by the largest difference.
     bool agrees(const Given& f, double low, double high, Piece& piece, double rounded, double tolerance) const {
         const auto off = [&](double s, double value) {
             return polynomial(piece.factor, (s - piece.middle) / piece.half) - value;
@@ -310,7 +300,8 @@ class LineDensity {
         const double first = std::nextafter(low, high), last = std::nextafter(high, low);
         if (low > 0 && !alike(off(first, f(first)))) return false;
         if (!alike(off(last, f(last)))) return false;
-        for (int i = grid_from(low); i < grid && on_grid(i) < high; ++i)
+        const int from = std::max(0, static_cast<int>(std::ceil(low / length_ * grid - 0.5)));
+        for (int i = from; i < grid && on_grid(i) < high; ++i)
             if (!alike(off(on_grid(i), f.on_grid[static_cast<std::size_t>(i)]))) return false;
         double sum = 0, shares = 0;
         for (std::size_t i = 1; i <= degree; ++i) {
@@ -323,7 +314,7 @@ class LineDensity {
         return true;
     }
 
-    /// Coefficients of powers from those of Chebyshev polynomials. Stable enough at this degree, because they fall.
+    /// Coefficients of powers from those of Chebyshev polynomials: stable enough, because they fall.
     static Coefficients in_powers(const Coefficients& chebyshev) {
         Coefficients sum{chebyshev[0]}, before{1}, now{0, 1};
         for (std::size_t k = 1; k <= degree; ++k) {

@@ -16,9 +16,9 @@ struct Link {
     T weight{};    ///< W >= 0 (0: a massless thread or wire)
     T length{};    ///< a > 0, pin to pin
     T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
-    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. It replaces the pendulum length l =
-    /// h + rho^2/h because h = 0 is allowed. It is a ratio, so that no unit of length takes it out of the range of T.
-    /// It has twice the digits, so that results belong to the given numbers to some 1e-31, not to rounded ones.
+    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity: not the pendulum
+    /// length l = h + rho^2/h, because h = 0 is allowed; a ratio, so that no unit of length takes it
+    /// out of the range of T; with twice the digits, so that the given numbers are met to 1e-31.
     Wide<T> gyration_ratio{T(0)};
 
     friend bool operator==(const Link&, const Link&) = default;
@@ -32,10 +32,7 @@ namespace detail {
 /// x / length in twice the digits, whatever their unit.
 template <Real T>
 Wide<T> in_lengths(const Wide<T>& x, const T& length) {
-    using std::frexp, std::ldexp;
-    int exponent = 0;
-    const T digits = frexp(length, &exponent);
-    return Product<Wide<T>>::of(x).over(Product<Wide<T>>{digits, exponent}).value();
+    return Product<Wide<T>>::of(x).over(Wide<T>(length)).value();
 }
 
 /// x lengths, rounded once, whatever the unit.
@@ -46,15 +43,15 @@ T times_length(const Wide<T>& x, const T& length) {
     return ldexp(static_cast<T>(product.fraction), product.exponent);
 }
 
-/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. With larger ones products leave the range
-/// of T.
+/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. With larger ones
+/// products leave the range of T.
 template <Real T>
 T length_span() {
     using std::ldexp;
     return ldexp(T(1), std::numeric_limits<T>::max_exponent / 4);
 }
 
-/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are more than `length_span` apart.
+/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are too far apart.
 template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());
@@ -100,20 +97,20 @@ Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
     return in_reach(place, ratio * ratio, length);
 }
 
-/// (rho/a)^2 from rho^2 = h (l - h), §8 (1). Throws InvalidArgument for an imaginary rho, and for h = 0, where l does
-/// not determine rho.
+/// (rho/a)^2 from rho^2 = h (l - h), §8 (1). Throws InvalidArgument for an imaginary rho, and for
+/// h = 0, where l does not determine rho.
 template <Real T>
 Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid, T pendulum_length) {
     require_finite(place, "centroid", centroid, "pendulum length", pendulum_length);
     if (centroid == T(0))
-        throw_invalid(place, "a centroid at the upper pin has no pendulum length; give the radius of gyration instead");
+        throw_invalid(place, "a centroid at the upper pin has no pendulum length; give the radius of "
+                             "gyration instead");
     require_positive(place, "length", length);
-    const bool imaginary = centroid > T(0) ? pendulum_length < centroid : centroid < pendulum_length;
-    if (imaginary)
-        throw_invalid(
-            place,
-            "imaginary radius of gyration: centroid (pendulum length - centroid) must not be negative, with centroid " +
-                in_digits(centroid) + " and pendulum length " + in_digits(pendulum_length));
+    if (centroid > T(0) ? pendulum_length < centroid : centroid < pendulum_length)
+        throw_invalid(place, "imaginary radius of gyration: centroid (pendulum length - centroid) must "
+                             "not be negative, with centroid " +
+                                 in_digits(centroid) + " and pendulum length " +
+                                 in_digits(pendulum_length));
     if (pendulum_length == centroid) return Wide<T>(T(0));
     const Wide<T> beyond = Wide<T>(pendulum_length) - Wide<T>(centroid);  // exact
     return in_reach(place, in_lengths<T>(centroid, length) * in_lengths(beyond, length), length);
@@ -121,9 +118,11 @@ Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centro
 
 }  // namespace detail
 
-/// Any rigid link: `compound_pendulum<double>({.weight = 3, .length = 1, .centroid = -0.05, .radius_of_gyration =
-/// 0.4})`.
-/// Throws InvalidArgument for an imaginary radius of gyration, or if not exactly one of the last two is given.
+/// Any rigid link:
+///     compound_pendulum<double>(
+///         {.weight = 3, .length = 1, .centroid = -0.05, .radius_of_gyration = 0.4})
+/// Throws InvalidArgument for an imaginary radius of gyration, or if not exactly one of
+/// `pendulum_length` and `radius_of_gyration` is given.
 template <Real T>
 Link<T> compound_pendulum(const CompoundPendulum<T>& body) {
     constexpr std::string_view place = "compound_pendulum";
@@ -142,7 +141,8 @@ T radius_of_gyration(const Link<T>& link) {
     return detail::times_length<T>(sqrt(link.gyration_ratio), link.length);
 }
 
-/// l = h + rho^2 / h, length of the equivalent simple pendulum about the upper pin (infinite where h = 0 < rho).
+/// l = h + rho^2 / h, length of the equivalent simple pendulum about the upper pin; infinite where
+/// h = 0 < rho.
 template <Real T>
 T pendulum_length(const Link<T>& link) {
     if (link.gyration_ratio == Wide<T>(T(0))) return link.centroid;

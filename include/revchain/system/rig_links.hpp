@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
-#include <vector>
-
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/rig.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`.
-///
-/// Greenhill (1908) §8 with two weights for each body: the one that bears (less the buoyancy) and
-/// the one that moves (with the added weight of the fluid). At any inclination, with the offsets y,
-/// the tangent t and sine s of the inclination, the speed n, lambda = g/n^2, and R the moment about
-/// the upper pin, as if the link hung vertically, divided by the distance between the pins:
+/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`: Greenhill
+/// (1908) §8 with two weights for each body, the one that bears (less the buoyancy) and the one that
+/// moves (with the added weight of the fluid). With the offsets y, the tangent t and sine s of the
+/// inclination, the speed n, lambda = g/n^2, and R the moment about the upper pin, as if the link
+/// hung vertically, over the distance between the pins:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
 /// For small inclinations the stiffness is (tension + n spin)/length, negative where the link
@@ -29,19 +25,17 @@ struct RigLink {
     S cross;    ///< X
     S lower, upper;
     S hung;  ///< weight that bears on the upper pin, of this link and all below
-    /// For each number the sum of the sizes of its terms. Its error is at most `error_part` times
-    /// that sum.
+    /// Sums of the sizes of each number's terms; its error is at most `error_part` times the sum.
     struct Sizes {
         double tension, lower, upper, cross, hung;
     } size;
     static constexpr double error_part = 64 * operation_error<S>();
 };
 
-/// The numbers of a rig's links, lowest first, in `Wide<double>`. `RigLink::error_part` bounds
-/// their errors: three operations for the share of a body, a few for the sum of shares, a
-/// compensated sum for the weights hung below, and four operations in which a caller has found a
-/// momentum or an axial moment. Cost O(N). Throws InvalidArgument where the chain's weights are
-/// more than 1e123 apart.
+/// The numbers of a rig's links, lowest first. `RigLink::error_part` bounds their errors: three
+/// operations for a body's share, a few for the sum of shares, a compensated sum for the weights
+/// below, four operations for a caller's momentum or axial moment. Cost O(N). Throws InvalidArgument
+/// where the chain's weights are more than 1e123 apart.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
     const Chain<double>& chain = rig.chain();
@@ -60,8 +54,7 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
         const Flywheel wheel = rig.flywheel(m);
         const S a(in_lengths(link.length)), none(0.0), below = hung.value();
         RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
-        /// Adds a body of the link: `bears` is its weight (negative for buoyancy), `moves` the
-        /// weight that moves.
+        /// Adds a body: `bears` is its weight (negative for buoyancy), `moves` the one that moves.
         const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
             const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
             hung.add(bears);

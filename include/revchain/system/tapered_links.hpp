@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
-#include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
@@ -25,8 +23,8 @@ bool is_lost(const S& term, const S& sum) {
     return static_cast<Narrow<S>>(abs(term)) <= operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
 }
 
-/// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then n doublings, which keep the accuracy of the first and
-/// multiply the error of the second by 2^n.
+/// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then n doublings, which leave the relative
+/// error of the first and multiply that of the second by 2^n.
 template <class S>
 std::pair<S, S> decay(S x) {
     using std::ldexp;
@@ -39,8 +37,8 @@ std::pair<S, S> decay(S x) {
     return {fall, rest};
 }
 
-/// Mean and variance of t for the density (1 + u t)^exponent over -1 < t < 1, 0 < u <= 1/3, by the binomial series. As
-/// far as they matter, all its even terms have one sign, and so have all odd ones.
+/// Mean and variance of t for the density (1 + u t)^exponent over -1 < t < 1, 0 < u <= 1/3, by the
+/// binomial series. All even terms that matter have one sign, and so have all odd ones.
 template <class S>
 std::pair<S, S> mean_and_variance(double exponent, const S& u) {
     S term(1), whole(2), first(0), second = S(2) / S(3);
@@ -58,12 +56,12 @@ std::pair<S, S> mean_and_variance(double exponent, const S& u) {
     return {mean, second / whole - mean * mean};
 }
 
-/// Cuts a cord whose line density is as x^exponent, x from its free end, into `count` straight links of length `link`.
-/// With q = exponent + 1 and u = 1/(2m + 1), what hangs below a pin falls from one to the next by ((1-u)/(1+u))^q, from
-/// the support down; no difference of neighbours is taken.
-/// Accuracy: weights and centroids 0.51 ulp, gyration ratios 3e-28, in double up to a million links (tests/cpp/chain/
-/// tapered.cpp); where `Wide<T>` is T the weights are off by as many ulps as there are links. Cost: 0.5 to 2
-/// microseconds a link.
+/// Cuts a cord whose line density is as x^exponent, x from its free end, into `count` straight links
+/// of length `link`. With q = exponent + 1 and u = 1/(2m + 1), the weight below a pin falls from one
+/// to the next by ((1-u)/(1+u))^q, from the support down; no difference of neighbours is taken.
+/// Accuracy: weights and centroids 0.51 ulp, gyration ratios 3e-28, in double up to a million links
+/// (tests/cpp/system/tapered.cpp); where `Wide<T>` is T the weights are off by as many ulps as there
+/// are links. Cost: 0.5 to 2 microseconds a link.
 template <Real T>
 TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const T& weight) {
     using S = Wide<T>;
