@@ -4,6 +4,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
+#include "revchain/questions/modes.hpp"
 #include "revchain/recurrence.hpp"
 
 /// Modes by two formulations that share no step with `modes`: slow, less accurate references of it.
