@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "revchain/finite/branch/state.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 /// Branches of steady shapes: how shapes change with the speed (the bifurcation diagram).
@@ -127,6 +128,7 @@ struct RigBranchOptions {
 /// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; 3 N numbers a point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// of height and speed is given, positive and finite, and for a height not below that of the mode.
+REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
 /// The branch of a mode of a rig, or the branch from rest if its support is off the axis.
@@ -140,6 +142,7 @@ struct RigBranchOptions {
 /// link.
 /// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
 /// for chains, and off the axis for a `mode` other than 1.
+REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
 /// How far branches go, and proof limits. Give either `min_conical_height` or `max_angular_speed`.
@@ -197,6 +200,7 @@ struct Branches {
 /// AVX-512; with SSE2 up to twice as long).
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
 /// >= 1.
+REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
@@ -209,6 +213,7 @@ struct Branches {
 /// cannot hold the rig where its stiffness times the conical height is less than the weight that
 /// moves: such heights are not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
+REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 
 /// Which shape on a branch of a chain or a rig. Give exactly one of the five numbers from
@@ -265,6 +270,7 @@ struct ShapesOnBranch {
 /// number is given, for one out of its range (`tip_radius` below the length, `top_tension` above
 /// the weight), for a `min_conical_height` not below the height of the mode, for a speed not above
 /// the mode's critical speed, and where the number is not reached.
+REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
 /// The same for a rig. On the axis `mode` is a mode of the rig. Off the axis it must be 1: the
@@ -273,13 +279,16 @@ struct ShapesOnBranch {
 /// the inclination outwards; it is between pi/2 and pi if that link stands. `top_tension` is the
 /// tension at the topmost pin, as in `SteadyShape::tension`. Also throws InvalidArgument for a link
 /// without effective tension.
+REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most
 /// `max_shapes`; none where the number is not reached. Otherwise as `steady_shape`.
+REVCHAIN_DECLARE
 [[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
                                               const OnBranchOptions& options,
                                               std::size_t max_shapes = all_shapes);
+REVCHAIN_DECLARE
 [[nodiscard]] ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
                                               std::size_t max_shapes = all_shapes);
 

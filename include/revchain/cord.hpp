@@ -10,6 +10,7 @@
 #include "revchain/finite/cord/shape_on_branch.hpp"
 #include "revchain/held.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/system/cord.hpp"
 
@@ -189,8 +190,10 @@ struct CordDiagramOptions {
 /// those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
 /// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
 /// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
+REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const CordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
+REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const HeldCordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 

@@ -8,6 +8,7 @@
 
 #include "revchain/models/select.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 /// The method that `modes` tries first for a tolerance, and the predicted costs of the others.
 ///
@@ -43,6 +44,7 @@ struct ExplainOptions {
 /// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
 /// method used. Accuracy: each method meets its error bound; predicted times were within a factor
 /// of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws as `modes`.
+REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 
 /// Deleted: modes of rigs, cords and held systems have one method for each kind of system. Call

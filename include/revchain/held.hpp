@@ -11,6 +11,7 @@
 #include "revchain/finite/held/cord_branch.hpp"
 #include "revchain/finite/held/held.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/system/cord.hpp"
 
 /// A chain or cord held at both ends: troposkien (turbine blade), skipping rope, string of weights.
@@ -138,8 +139,10 @@ struct HeldCordShapesOptions {
 /// for a tension some thousand sweeps. Completeness takes 10 to 500 ms; `budget` 0 omits it.
 /// Throws InvalidArgument for a speed missing, not positive or not finite, g/n^2 outside the range
 /// of double, `max_half_waves` below 1, and weights more than 1e123 apart.
+REVCHAIN_DECLARE
 [[nodiscard]] HeldShapes steady_shapes(const Held<Chain<double>>& held,
                                        const HeldShapesOptions& options = {});
+REVCHAIN_DECLARE
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
@@ -172,11 +175,13 @@ struct HeldModesOptions {
 /// Throws InvalidArgument for a span (use `stability`), a tension that does not exceed the weight
 /// (the chain would not be straight) or is out of range, and wrong numbers and windows as `modes`
 /// of a chain; also where rounding leaves the number of modes in a window in doubt.
+REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
 
 /// The number of modes slower than a speed, proved. Cost: 0.5 microseconds a link. Throws
 /// InvalidArgument as `modes`, and unless one of height and speed is given, positive, finite.
+REVCHAIN_DECLARE
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);
 
@@ -206,8 +211,10 @@ struct HeldDiagramOptions {
 /// is a few percent higher. Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, no gravity, a step not positive, and unless exactly one of
 /// height and speed is given, positive and finite.
+REVCHAIN_DECLARE
 [[nodiscard]] std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
                                                const HeldDiagramOptions& options);
+REVCHAIN_DECLARE
 [[nodiscard]] std::vector<HeldCordBranch> branches(const Held<Cord>& held,
                                                    const HeldDiagramOptions& options);
 
@@ -225,8 +232,10 @@ struct HeldOnBranchOptions {
 /// `angular_speed()`). Accuracy: inclinations as `steady_shapes`; the height for a tension to
 /// 1e-14. Throws InvalidArgument as `branches`, for a mode below 1, a tension between springs, and
 /// where the branch does not reach the number.
+REVCHAIN_DECLARE
 [[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
                                      const HeldOnBranchOptions& options);
+REVCHAIN_DECLARE
 [[nodiscard]] HeldCordShape steady_shape(const Held<Cord>& held,
                                          const HeldOnBranchOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
@@ -60,11 +61,13 @@ struct Response {
 /// not positive and finite; for speeds that are 0, not finite, or negative without a flywheel; for
 /// heights (given or g/n^2) not between 2^-250 and 2^250 times the longest link's length (rounded
 /// up to a power of 2); and for pins that do not exist.
+REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
 /// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support; of
 /// a spring support, the rest position is carried round. Lowest links that weigh nothing in a fluid
 /// that turns hang straight down from the next pin.
+REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);
 
 }  // namespace revchain

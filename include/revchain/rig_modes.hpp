@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 
 /// Whirl modes of a rig (small amplitude): yielding supports, standing links, flywheels, a fluid.
@@ -119,6 +120,7 @@ struct RigModes {
 /// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
 /// high, numbers together with a window, and too many links for discs. A bound that is not proved
 /// is infinite, and the status `tolerance_not_met`.
+REVCHAIN_DECLARE
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
@@ -155,6 +157,7 @@ class RigModeCounter {
 ///
 /// Cost: 0.1 microseconds a link; by discs that of `modes`. Throws InvalidArgument unless exactly
 /// one of height and speed is given, and as `RigModeCounter`.
+REVCHAIN_DECLARE
 Index count_modes(const Rig& rig, const CountOptions<double>& options);
 
 }  // namespace revchain

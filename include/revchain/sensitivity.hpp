@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 
 /// Derivatives of conical heights and whirl speeds with respect to the data, and uncertainties.
@@ -122,6 +123,7 @@ struct RigSensitivity {
 /// in double-double: offsets with errors e of the largest give an error of some 4 e (|K| + |n G| +
 /// n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0 or not
 /// finite, gravity not positive, offsets not N + 1.
+REVCHAIN_DECLARE
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,
                                          double gravity = conical_pendulum::standard_gravity);
@@ -132,6 +134,7 @@ struct RigSensitivity {
 /// error 1e-15, relative to the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N). Throws
 /// InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link number out of
 /// range, and if no finite momentum has that effect.
+REVCHAIN_DECLARE
 [[nodiscard]] double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                         double gravity = conical_pendulum::standard_gravity);
 
@@ -139,6 +142,7 @@ struct RigSensitivity {
 /// all else constant. At that speed the chain and the carriage act on the spring as one more
 /// spring. Accuracy and cost as `momentum_for_speed`. Throws InvalidArgument for a speed that is 0
 /// or not finite, gravity not positive, and if no positive finite stiffness has that effect.
+REVCHAIN_DECLARE
 [[nodiscard]] double stiffness_for_speed(const Rig& rig, double angular_speed,
                                          double gravity = conical_pendulum::standard_gravity);
 

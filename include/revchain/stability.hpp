@@ -7,6 +7,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 /// Stability of a steady shape: whether a small disturbance grows.
 ///
@@ -81,6 +82,7 @@ struct Stability {
 /// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
 /// positive energy, 100 times as much with twice the digits.
 /// Throws InvalidArgument if numbers or lengths of links differ; weights are not compared.
+REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
@@ -90,6 +92,7 @@ struct Stability {
 /// axis no rotation is removed, which adds 2 exponents if free.
 /// Accuracy: simple exponents to 1e-13 of the largest (tests/cpp/finite/stability/held.cpp). Cost
 /// (4 N)^3/2. Throws InvalidArgument as above, and for a massless moving pin below the upper end.
+REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
@@ -117,6 +120,7 @@ struct RigStabilityOptions {
 /// is undecided and the growth rate NaN.
 /// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; and
 /// for a flywheel that acts on a massless upper end.
+REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "revchain/branches.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/stability.hpp"
 
 /// Where along a branch of steady shapes the shapes are stable.
@@ -40,10 +41,12 @@ struct StabilityWindowsOptions {
 /// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the
 /// critical height). Cost: some (4 N)^3 a sample. Throws InvalidArgument if the numbers of links
 /// differ, for a tolerance not above 0 and for `samples` below 1.
+REVCHAIN_DECLARE
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Chain<double>& chain, const Branch& branch, const StabilityWindowsOptions& options = {});
 
 /// Returns the stability windows of a branch of a rig, in the direction of rotation of the branch.
+REVCHAIN_DECLARE
 [[nodiscard]] std::vector<StabilityWindow> stability_windows(
     const Rig& rig, const Branch& branch, const StabilityWindowsOptions& options = {});
 

@@ -6,6 +6,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 
 /// Steady shapes of a whirling chain at any inclination: relative equilibria in the turning frame.
@@ -116,6 +117,7 @@ struct SteadyShapes {
 /// D^-1/2 w| < |w|: only w = 0 is possible.
 /// An angular speed n gives the height g/n^2, formed in double-double.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
+REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);
 
@@ -135,6 +137,7 @@ struct SteadyShapes {
 /// Throws InvalidArgument as for chains, but a negative speed is the backward direction; also for
 /// gravity not positive and finite, an effective tension that vanishes, and a lowest link whose
 /// moving weights balance about its pin.
+REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 
 }  // namespace revchain

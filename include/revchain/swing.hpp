@@ -7,6 +7,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/rig.hpp"
 
@@ -60,6 +61,7 @@ struct Swing {
 /// Throws InvalidArgument for starts that are not finite or of another length, a support that
 /// moves, a count above the number of modes, gravity <= 0, times not finite, weights more than
 /// 1e123 apart.
+REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
 /// The same for a rig that is stable at rest: a support that yields, with its carriage, still fluid
@@ -69,6 +71,7 @@ struct Swing {
 /// Also throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support
 /// that is carried round (`response`); for a fluid that turns; where the straight rig is unstable
 /// or in neutral balance (the message says how fast it falls); for lowest links without inertia.
+REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
 /// How a rig with flywheels starts. Offsets are x + i y, in the two level directions.
@@ -107,6 +110,7 @@ struct WhirlSwing {
 /// Cost: 4 microseconds for each link and whirl, then 4 ns for each link, whirl and time.
 /// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says
 /// how fast it falls); for pins without inertia.
+REVCHAIN_DECLARE
 [[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 
 }  // namespace revchain

@@ -8,6 +8,7 @@
 
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/sensitivity.hpp"
 
 /// The value of one datum of a chain that gives one of its modes a wanted speed.
@@ -82,6 +83,7 @@ struct Tuned {
 /// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is
 /// given, for a range in which the link always stands (a part in which it stands is cut off), and
 /// for weights more than 1e123 apart.
+REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Deleted: the C++ library tunes only chains; the Python function `tune` tunes every system. For a

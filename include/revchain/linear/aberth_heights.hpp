@@ -5,6 +5,7 @@
 
 #include "revchain/linear/heights.hpp"
 #include "revchain/numeric/compensated_sum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/spectrum/aberth.hpp"
 
@@ -21,7 +22,8 @@ struct SpringOnTop {
 /// two with plummets, else four; the others: docs/theory/spectrum.md, "Small chains", 1. A support
 /// on a spring is one more link, with the mass of the carriage at its lower pin. With plummets and
 /// no carriage it joins the top thread: 1/k has three roundings, k four.
-inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
+REVCHAIN_LAZY
+bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
                  const std::optional<SpringOnTop>& top = std::nullopt) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
     const ChainUnits units = chain.units();
@@ -97,7 +99,8 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
 }
 
 /// A range of the roots in `all`, each to the relative error `worst`; nothing if one is not proved.
-inline pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
+REVCHAIN_LAZY
+pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
                                            const ModeRange& range, Index modes,
                                            const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
@@ -119,7 +122,8 @@ inline pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<doub
 /// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not
 /// serve. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
 /// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
-inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
+REVCHAIN_LAZY
+std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
                                                         const HeightsOptions<double>& options) {
     constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);

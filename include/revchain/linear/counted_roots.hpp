@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "revchain/linear/rig_pencil.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/twisted.hpp"
@@ -113,7 +114,8 @@ class CountedRoots {
 };
 
 /// The least root that is searched for; the largest is its reciprocal.
-inline RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
+REVCHAIN_LAZY
+RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
 /// The number of roots above x, by the proved counts `count(x)`. A root within 2^20 roundings of x
 /// counts as equal to it; x is limited to `least_root` and its reciprocal. Throws InvalidArgument
@@ -152,7 +154,8 @@ struct CountedSense {
 /// Heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above h are
 /// negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are these and those
 /// of K. Just above h = 0 hK - M is negative where there is inertia, else it has the signs of K.
-inline CountedSense counted_heights(const RigPencil& rig) {
+REVCHAIN_LAZY
+CountedSense counted_heights(const RigPencil& rig) {
     const Index before = rig.stiffness_positive ? 0 : rig.not_positive;
     const MasslessForm& form = rig.massless;
     std::optional<Index> count;
@@ -162,7 +165,8 @@ inline CountedSense counted_heights(const RigPencil& rig) {
 }
 
 /// The roots from number `first` on; `bracketed` and `finished` receive the number done.
-inline std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
+REVCHAIN_LAZY
+std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
                                             const std::function<void(Index)>& bracketed,
                                             const std::function<void(Index)>& finished) {
     const auto brackets = roots.brackets(first, count, guess, bracketed);

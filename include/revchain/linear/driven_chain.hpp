@@ -3,6 +3,7 @@
 
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/forced/lanes.hpp"
 #include "revchain/simd/pack.hpp"
@@ -23,10 +24,13 @@ struct DrivenChain {
 
 inline const Chain<double>& base_chain(const Chain<double>& chain) { return chain; }
 inline const Chain<double>& base_chain(const Rig& rig) { return rig.chain(); }
-inline bool tells_senses_apart(const Chain<double>&) { return false; }
-inline bool tells_senses_apart(const Rig& rig) { return rig.has_momentum(); }
+REVCHAIN_LAZY
+bool tells_senses_apart(const Chain<double>&) { return false; }
+REVCHAIN_LAZY
+bool tells_senses_apart(const Rig& rig) { return rig.has_momentum(); }
 
-inline DrivenChain driven_chain(const Chain<double>& chain) {
+REVCHAIN_LAZY
+DrivenChain driven_chain(const Chain<double>& chain) {
     const AssembledChain<double> assembled = assemble(chain);
     const auto& pencil = assembled.pencil;
     DrivenChain result{{}, assembled.units};
@@ -36,7 +40,8 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
     return result;
 }
 
-inline DrivenChain driven_chain(const Rig& rig) {
+REVCHAIN_LAZY
+DrivenChain driven_chain(const Rig& rig) {
     DrivenChain result{{}, rig.chain().units(), rig.has_momentum()};
     auto& elements = result.pencil.elements;
     Index m = 0;

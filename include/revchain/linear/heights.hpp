@@ -7,6 +7,7 @@
 
 #include "revchain/count.hpp"
 #include "revchain/linear/plain_pencil.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/numeric/progress.hpp"
@@ -52,7 +53,8 @@ void restore_order(Heights<T>& heights) {
 /// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved
 /// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
 /// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
-inline std::optional<Heights<double>> loose_heights(
+REVCHAIN_LAZY
+std::optional<Heights<double>> loose_heights(
     const Chain<double>& chain, const ModeRange& range, double goal,
     const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
@@ -83,7 +85,8 @@ inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::ep
 
 /// Heights to 2 ulp, eight at a time; those that this does not prove, one by one. Nothing where one
 /// unit of weight does not serve, or where counts leave numbers in doubt.
-inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
+REVCHAIN_LAZY
+std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
                                                        const ModeRange& range, Index available,
                                                        double guess,
                                                        const std::function<void(Index)>& finished) {

@@ -4,13 +4,15 @@
 #include <optional>
 
 #include "revchain/linear/condensed_heights.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/spectrum/interpolated.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Heights of many modes; nothing where this cannot be done. Cost: as `pencil::all_eigenvalues`.
-inline std::optional<Heights<double>> heights_by_interpolation(
+REVCHAIN_LAZY
+std::optional<Heights<double>> heights_by_interpolation(
     LazyCounter<double>& assembled, const ModeRange& range, Index mode_count,
     const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);

@@ -4,6 +4,7 @@
 #include "revchain/count.hpp"
 #include "revchain/linear/aberth_heights.hpp"
 #include "revchain/linear/counted_roots.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 
@@ -15,7 +16,8 @@ inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double
 
 /// The heights of a chain under a support that yields, all found together; nothing for other rigs,
 /// for a few of many modes, and where one is not proved. `elements` is the rig's pencil.
-inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(
+REVCHAIN_LAZY
+std::optional<std::vector<FoundRoot>> roots_under_a_spring(
     const Rig& rig, const pencil::ElementPencil<RigWord>& elements, const ModeRange& range,
     Index available) {
     const Chain<double>& chain = rig.chain();

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/element.hpp"
 #include "revchain/system/rig_links.hpp"
 
@@ -13,7 +14,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 using RigElement = pencil::SignedElement<Wide<double>>;
 
 /// One link: stiffness and spin negative where it stands.
-inline RigElement rig_element(const detail::RigLink& link, bool stands) {
+REVCHAIN_LAZY
+RigElement rig_element(const detail::RigLink& link, bool stands) {
     constexpr double part = detail::RigLink::error_part;
     RigElement e =
         RigElement::of(link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross);
@@ -25,7 +27,8 @@ inline RigElement rig_element(const detail::RigLink& link, bool stands) {
 
 /// A support that yields: its spring, massless, with the carriage at its lower pin; nothing if it
 /// is firm. The error of the stiffness is that of a quotient from which a caller may have found it.
-inline std::optional<RigElement> support_element(const Support& support, const ChainUnits& units) {
+REVCHAIN_LAZY
+std::optional<RigElement> support_element(const Support& support, const ChainUnits& units) {
     using S = Wide<double>;
     if (support.is_firm()) return std::nullopt;
     const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
@@ -41,7 +44,8 @@ inline std::optional<RigElement> support_element(const Support& support, const C
 namespace detail {
 
 /// An element of a chain, whose numbers have small relative errors, with errors of its own.
-inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double part,
+REVCHAIN_LAZY
+RigElement with_errors(const pencil::Element<Wide<double>>& e, double part,
                               double stiffness_underflow = 0) {
     return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
                           {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high,
@@ -49,7 +53,8 @@ inline RigElement with_errors(const pencil::Element<Wide<double>>& e, double par
 }
 
 /// Whether it has no weight, spin or inertia: at the lower end no equation determines such links.
-inline bool is_nothing(const RigElement& e) {
+REVCHAIN_LAZY
+bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
     const auto& off = e.error;
     return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none &&

@@ -3,6 +3,7 @@
 
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/interval.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -43,7 +44,8 @@ namespace detail {
 /// The pins that a link's mass holds: none, one combination of its pins' offsets, or both.
 enum class HeldPins { nothing, lower, upper, one, both };
 
-inline HeldPins held_by(const Rig& rig, Index m) {
+REVCHAIN_LAZY
+HeldPins held_by(const Rig& rig, Index m) {
     const Link<double> link = rig.chain().link(m);
     const Displaced fluid = rig.displaced(m);
     const bool turning = rig.fluid() == Fluid::turning;
@@ -61,7 +63,8 @@ inline HeldPins held_by(const Rig& rig, Index m) {
 
 /// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
 /// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
-inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
+REVCHAIN_LAZY
+MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
                                   const std::vector<HeldPins>& held, bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
@@ -110,7 +113,8 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
 }
 
 /// Whether a mass with these errors is certainly positive or 0.
-inline bool is_not_negative(const RigElement& e) {
+REVCHAIN_LAZY
+bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
     using pencil::vanishes;
@@ -125,7 +129,8 @@ inline bool is_not_negative(const RigElement& e) {
 }  // namespace detail
 
 /// The elements of a rig's links, lowest first, with the signs of those that stand.
-inline std::vector<RigElement> rig_elements(const Rig& rig) {
+REVCHAIN_LAZY
+std::vector<RigElement> rig_elements(const Rig& rig) {
     std::vector<RigElement> elements;
     elements.reserve(static_cast<std::size_t>(rig.size()));
     const Rigging& with = rig.rigging();
@@ -158,7 +163,8 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
 /// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
 /// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
 /// range.
-inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
+REVCHAIN_LAZY
+RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
                             const std::optional<detail::LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;
     using detail::HeldPins;

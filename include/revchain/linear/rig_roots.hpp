@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "revchain/linear/rig_counts.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/spectrum.hpp"
 
 /// The roots of a rig's pencil in each sense of rotation, by number.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Heights below 0, under the conditions of `counted_heights`; nothing where there are none.
-inline std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
+REVCHAIN_LAZY
+std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     const Index size = rig.pencil.size();
     if (rig.stiffness_positive) {
         if (rig.mass_not_negative) return std::nullopt;
@@ -28,7 +30,8 @@ inline std::optional<CountedSense> counted_negative_heights(const RigPencil& rig
 
 /// Speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form Q is
 /// negative where there is inertia; elsewhere it has the signs of G and, where G is 0, is positive.
-inline CountedSense counted_speeds(const RigPencil& rig, bool forward) {
+REVCHAIN_LAZY
+CountedSense counted_speeds(const RigPencil& rig, bool forward) {
     const MasslessForm& form = rig.massless;
     const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
     std::optional<Index> count;

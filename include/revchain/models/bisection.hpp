@@ -3,20 +3,24 @@
 
 #include "revchain/linear/heights.hpp"
 #include "revchain/models/model.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 /// Bisection on counts as a model, the last of every list, and what the numerical models share.
 namespace revchain::inline REVCHAIN_BUILD::models {
 
 namespace detail {
-inline revchain::detail::HeightsOptions<double> options_for(const Question& question) {
+REVCHAIN_LAZY
+revchain::detail::HeightsOptions<double> options_for(const Question& question) {
     revchain::detail::HeightsOptions<double> options{.progress = question.progress};
     if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
     return options;
 }
-inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
+REVCHAIN_LAZY
+ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
 /// The heights that a method found, as an answer. Where it found none, no other method does the work.
-inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
+REVCHAIN_LAZY
+Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
     if (!found) return Answer::none();
     const Index count = static_cast<Index>(found->size());
     const int exponent = chain.units().length_exponent;
@@ -32,11 +36,13 @@ inline Answer answered(const Chain<double>& chain, const std::optional<revchain:
 }
 
 /// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
-inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
+REVCHAIN_LAZY
+double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
 /// Seconds of bisection without double words: passes over all links for each digit, of `pass` seconds a link, and one
 /// proof for each mode. To begin a pass costs as much as six links.
-inline double loose_cost(double links, double rtol, Index count, double pass) {
+REVCHAIN_LAZY
+double loose_cost(double links, double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
     return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));

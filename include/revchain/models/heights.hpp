@@ -6,6 +6,7 @@
 #include "revchain/models/long_chains.hpp"
 #include "revchain/models/many_modes.hpp"
 #include "revchain/models/within_tolerance.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
@@ -16,16 +17,19 @@ inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, Continu
     height_models{};
 
 /// `select` and `solve` among all of them.
-inline auto select(const Chain<double>& chain, const Question& question,
+REVCHAIN_LAZY
+auto select(const Chain<double>& chain, const Question& question,
                    std::optional<double> time_budget = std::nullopt) {
     return select(height_models, chain, question, time_budget);
 }
-inline Solution solve(const Chain<double>& chain, const Question& question,
+REVCHAIN_LAZY
+Solution solve(const Chain<double>& chain, const Question& question,
                       std::optional<double> time_budget = std::nullopt) {
     return solve(height_models, chain, question, time_budget);
 }
 
-inline Solution solve_by(std::string_view model, const Chain<double>& chain, const Question& question) {
+REVCHAIN_LAZY
+Solution solve_by(std::string_view model, const Chain<double>& chain, const Question& question) {
     return solve_by(height_models, model, chain, question);
 }
 

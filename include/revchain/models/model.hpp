@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/progress.hpp"
 
@@ -181,7 +182,8 @@ struct ChainKind {
 };
 
 namespace detail {
-inline double real(Index x) { return static_cast<double>(x); }
+REVCHAIN_LAZY
+double real(Index x) { return static_cast<double>(x); }
 /// 2 ulp: the relative error bound that the methods in double can prove for any chain.
 inline constexpr double full_accuracy = 2.001 * std::numeric_limits<double>::epsilon();
 }  // namespace detail
@@ -232,7 +234,8 @@ constexpr bool is_proved() {
 /// lowest leans most in the slowest modes: up to number 1.15 sqrt(N) of plummets, 1.6 sqrt(N) of rods as the linear
 /// theory has it, and no more than a third of them; here up to sqrt(N), found so up to 80 degrees
 /// (tests/cpp/models/models.cpp). Infinite of others.
-inline double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
+REVCHAIN_LAZY
+double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
     if (!(question.inclination > 0)) return 0;
     const Index last = question.last();
     if (!(kind.plummets || kind.rods) || (last > 1 && (3 * last > kind.size || last * last > kind.size)))

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "revchain/models/model.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/status.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -44,7 +45,8 @@ struct Solution {
 
 namespace detail {
 
-inline void check(const ChainKind& kind, const Question& question) {
+REVCHAIN_LAZY
+void check(const ChainKind& kind, const Question& question) {
     if (question.first < 1) throw_invalid("select", "first must be at least 1", question.first);
     if (question.count < 1) throw_invalid("select", "count must be at least 1", question.count);
     if (question.last() > kind.mode_count)
@@ -58,7 +60,8 @@ inline void check(const ChainKind& kind, const Question& question) {
 }
 
 /// The tolerance to be kept: the one asked for, or full accuracy.
-inline double kept_tolerance(const Question& question) {
+REVCHAIN_LAZY
+double kept_tolerance(const Question& question) {
     return question.rtol > 0 ? question.rtol : full_accuracy;
 }
 

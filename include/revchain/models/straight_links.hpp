@@ -6,6 +6,7 @@
 
 #include "revchain/models/model.hpp"
 #include "revchain/numeric/bessel_ratio.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 /// Heights of N equally long links, cut out of a cord whose line density is as x^p. The links are the cord held
 /// straight piece by piece, so that each height is below the cord's (Rayleigh, Ritz):
@@ -19,7 +20,8 @@ namespace revchain::inline REVCHAIN_BUILD::models::detail {
 
 /// c, to some 13 digits: the sum I = (J_n^2 + 2 (J_{n+1}^2 + J_{n+2}^2 + ...))/(2 n), n = p + 2, by Miller's
 /// recurrence, which needs no scale. Cost: 3 ns for each of j - p + 9 cbrt(j) + 12 steps.
-inline double second_order(double exponent, double zero) {
+REVCHAIN_LAZY
+double second_order(double exponent, double zero) {
     const double order = exponent + 1, step = 2 / zero;
     double above = 0, here = 1e-100, sum = 0;
     for (Index n = revchain::detail::steps_above(order, zero); n > 0; --n) {
@@ -32,7 +34,8 @@ inline double second_order(double exponent, double zero) {
 
 /// A bound of d from `share`, the length of a link over the height. Measured: d is at most 0.94 of it for exponents
 /// from -0.98 to 100 and N >= 2 k (tests/cpp/models/tapered.cpp).
-inline double next_order(double exponent, Index mode, double share) {
+REVCHAIN_LAZY
+double next_order(double exponent, Index mode, double share) {
     const double u = std::min(share, 1.0), q = exponent + 1;
     const double end = exponent == 0 ? -std::log(u) : -std::expm1(exponent * std::log(u)) / exponent;
     const double thick = mode > 10 && exponent > 0 ? 0.13 * exponent / (exponent + 4) : 0;
@@ -44,7 +47,8 @@ inline double next_order(double exponent, Index mode, double share) {
 
 /// The middle of the interval that holds the height, and half its width relative to the middle. `cord` is the height of
 /// the cord to within `rounding`, `lost` is c/N^2 to 1e-9, `next` a bound of d.
-inline Enclosed enclosed(double cord, double lost, double next, double rounding) {
+REVCHAIN_LAZY
+Enclosed enclosed(double cord, double lost, double next, double rounding) {
     const double most = lost * (1 + 1e-9), least = lost * (1 - 1e-9) * (1 - next);
     const double middle = (most + least) / 2, half = (most - least) / 2;
     return {cord / (1 + middle), half / (1 + middle - half) + rounding};

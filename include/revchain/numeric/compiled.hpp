@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-/// A public header declares a function and, at its end, includes the folder that defines it; with
-/// REVCHAIN_COMPILED (set by the CMake target revchain::compiled, whose library has the
-/// definitions) it does not. REVCHAIN_INLINE marks definitions of functions that are not templates.
+/// A public function is declared in its public header and defined in a folder, which the public
+/// header includes at its end. With REVCHAIN_COMPILED, which the CMake target revchain::compiled
+/// sets, it does not include that: the library holds the definitions. Without, functions that are
+/// not templates would be compiled, with all that they call, in every program that includes their
+/// header. REVCHAIN_DECLARE and REVCHAIN_DEFINE therefore make templates of them, which are compiled
+/// where they are called; REVCHAIN_LAZY does so for the functions behind them. REVCHAIN_INLINE marks
+/// the definitions of members.
 #if defined(REVCHAIN_COMPILED)
+#define REVCHAIN_DECLARE
+#define REVCHAIN_DEFINE
 #define REVCHAIN_INLINE
 #else
+#define REVCHAIN_DECLARE template <int = 0>
+#define REVCHAIN_DEFINE template <int>
 #define REVCHAIN_INLINE inline
 #endif
+#define REVCHAIN_LAZY template <int = 0>
+
 
 /// The same for functions that need GSL. Only the Python module and the tests define
 /// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.

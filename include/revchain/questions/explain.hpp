@@ -15,7 +15,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// Seconds with the unit that suits them.
-inline std::string time_text(double seconds) {
+REVCHAIN_LAZY
+std::string time_text(double seconds) {
     using Unit = std::pair<const char*, double>;
     constexpr std::array units{Unit("s", 1), Unit("ms", 1e-3), Unit("us", 1e-6), Unit("ns", 1e-9)};
     std::size_t i = 0;
@@ -61,7 +62,8 @@ REVCHAIN_INLINE std::string Explanation::text() const {
     return result;
 }
 
-REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ExplainOptions& options) {
+REVCHAIN_DEFINE
+Explanation explain(const Chain<double>& chain, const ExplainOptions& options) {
     detail::check(options);
     const ModeRange range = detail::numbered_range(chain.mode_count(), options);
     const auto choice = select(detail::with_bisection(methods::all), chain, detail::question_of(range, options.rtol));

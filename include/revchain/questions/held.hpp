@@ -45,7 +45,8 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
 }
 
 /// The conical height times the upper tension; without gravity, tension over speed squared.
-inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
+REVCHAIN_LAZY
+Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                          const std::optional<double>& angular_speed) {
     const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
     const Wide<double> product = by.weightless ? tension / speed / speed : height * tension;
@@ -54,7 +55,8 @@ inline Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& h
 }
 
 /// The supports at a speed; without gravity stiffnesses are divided by the square of the speed.
-inline finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
+REVCHAIN_LAZY
+finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                         const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
     if (!angular_speed)
@@ -93,7 +95,8 @@ struct TautChain {
 };
 
 /// The span, for questions about shapes at every speed.
-inline double span_asked(std::string_view place, const HeldBy& by) {
+REVCHAIN_LAZY
+double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
         throw_invalid(place, "is for what is held at a span; under a tension use steady_shapes at "
                              "each speed, or modes",
@@ -104,7 +107,8 @@ inline double span_asked(std::string_view place, const HeldBy& by) {
     return *by.span;
 }
 
-inline std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOptions& options) {
+REVCHAIN_LAZY
+std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOptions& options) {
     constexpr std::string_view place = "branches";
     const double span = span_asked(place, by);
     require_positive(place, "max_step", options.max_step);
@@ -135,7 +139,8 @@ auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHe
 
 }  // namespace detail
 
-REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
+REVCHAIN_DEFINE
+HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
     const HeldBy& by = held.by();
     const Wide<double> height = detail::height_asked(by, options);
     const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
@@ -145,7 +150,8 @@ REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const 
     return finite::held_shapes_under_tension(held.system(), supports, tension, height, wanted);
 }
 
-REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options) {
+REVCHAIN_DEFINE
+HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions& options) {
     const HeldBy& by = held.by();
     const double height = detail::height_asked(by, options).high;
     const int most = options.max_half_waves;
@@ -154,7 +160,8 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldC
     return finite::held_cord_shapes_under_tension(held.system(), tension, height, most);
 }
 
-REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
+REVCHAIN_DEFINE
+std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
     const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
@@ -171,7 +178,8 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     return result;
 }
 
-REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
+REVCHAIN_DEFINE
+std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOptions& options) {
     const auto [span, least] = detail::span_and_height(held.by(), options);
     std::vector<HeldCordBranch> result;
     for (int k = 1; k <= 1000; ++k) {
@@ -182,7 +190,8 @@ REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, con
     return result;
 }
 
-REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
+REVCHAIN_DEFINE
+HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
     const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
@@ -204,7 +213,8 @@ REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const He
     });
 }
 
-REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options) {
+REVCHAIN_DEFINE
+HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnBranchOptions& options) {
     const auto at_height = [&](double span, const Wide<double>& height) {
         return finite::held_cord_shape(held.system(), span, height.high, options.mode);
     };
@@ -213,7 +223,8 @@ REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldOnB
     });
 }
 
-REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& options) {
+REVCHAIN_DEFINE
+Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "modes";
     check(options);
@@ -258,7 +269,8 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const HeldM
     return result;
 }
 
-REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
+REVCHAIN_DEFINE
+Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
     constexpr std::string_view place = "count_modes";
     Wide<double> height = detail::height_given(place, options);
     if (options.angular_speed)

@@ -7,6 +7,7 @@
 
 #include "revchain/methods.hpp"
 #include "revchain/models/select.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -20,14 +21,16 @@ auto with_bisection(const std::tuple<Models...>& methods) {
 }
 
 /// The question about a range of modes. Without a tolerance bounds have to be proved.
-inline models::Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
+REVCHAIN_LAZY
+models::Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
                                     Progress* progress = nullptr) {
     const double rtol = tolerance.value_or(0.0);
     return {range.first, range.count, rtol, 0, progress, !(rtol > 0)};
 }
 
 /// The name of a method in `Modes::method`.
-inline std::string_view name_of(ModesMethod method) {
+REVCHAIN_LAZY
+std::string_view name_of(ModesMethod method) {
     switch (method) {
         case ModesMethod::condensed:
             return models::Condensed::name;
@@ -52,7 +55,8 @@ models::Solution solved(const Chain<double>& chain, const ModeRange& range, cons
 }
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
-inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
+REVCHAIN_LAZY
+std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));

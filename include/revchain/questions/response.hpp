@@ -47,7 +47,8 @@ struct PinsAsked {
 };
 
 /// The pins asked for. A pin of an idle link moves with the lowest other pin.
-inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
+REVCHAIN_LAZY
+PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.pencil.elements.size();
     const auto place = [&](Index pin) {
         return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle));
@@ -80,7 +81,8 @@ inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const D
     return result;
 }
 
-inline void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
+REVCHAIN_LAZY
+void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
                   const DrivenChain& chain, double radius) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -152,10 +154,12 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
 
 }  // namespace detail
 
-REVCHAIN_INLINE Response response(const Chain<double>& chain, const ResponseOptions& options) {
+REVCHAIN_DEFINE
+Response response(const Chain<double>& chain, const ResponseOptions& options) {
     return detail::responses(chain, options);
 }
-REVCHAIN_INLINE Response response(const Rig& rig, const ResponseOptions& options) {
+REVCHAIN_DEFINE
+Response response(const Rig& rig, const ResponseOptions& options) {
     return detail::responses(rig, options);
 }
 

@@ -14,7 +14,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// The mode numbers asked for; fewer, or none, where there are not as many.
-inline ModeRange numbered(const RigModesOptions& options, Index available) {
+REVCHAIN_LAZY
+ModeRange numbered(const RigModesOptions& options, Index available) {
     const Index count = options.count.value_or(default_count);
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (count < 1) throw_invalid("modes", "count must be at least 1", count);
@@ -22,7 +23,8 @@ inline ModeRange numbered(const RigModesOptions& options, Index available) {
 }
 
 /// The mode numbers of one sense that numbers or a window ask for.
-inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
+REVCHAIN_LAZY
+ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
     if (!options.conical_height && !options.angular_speed) return numbered(options, available);
     const auto above = [&](const RigWord& x, double given) {
         return roots.above(x, forward, "modes", given);
@@ -32,7 +34,8 @@ inline ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, b
         [&](double speed) { return above(roots.at_speed(speed), speed); });
 }
 
-inline void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
+REVCHAIN_LAZY
+void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
     modes.first = range.first, modes.available = available;
     for (Vector<double>* column :
          {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
@@ -40,7 +43,8 @@ inline void make_room(WhirlModes& modes, const ModeRange& range, Index available
 }
 
 /// Stores mode number j (from 0) of those found; returns whether it is proved.
-inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
+REVCHAIN_LAZY
+bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
                      const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
     const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
@@ -59,7 +63,8 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
 }
 
 /// Finds the modes of one sense by counts; returns whether all are proved.
-inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
+REVCHAIN_LAZY
+bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
                            bool forward, const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
@@ -112,7 +117,8 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& al
 }
 
 /// The modes of a rig that has nothing but its chain.
-inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
+REVCHAIN_LAZY
+RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
     result.complete = true, result.method = RigMethod::modes;
@@ -144,7 +150,8 @@ inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     return result;
 }
 
-inline bool has_nothing(const Rig& rig) {
+REVCHAIN_LAZY
+bool has_nothing(const Rig& rig) {
     for (Index m = 0; m < rig.size(); ++m)
         if (rig.stands(m) || !(rig.flywheel(m) == Flywheel{}) || rig.displaced(m).weight != 0 ||
             rig.displaced(m).added_weight != 0)
@@ -154,14 +161,16 @@ inline bool has_nothing(const Rig& rig) {
 
 /// The mode of a height in the pencil's unit. Its growth rate is the root of -g/height with a
 /// positive real part.
-inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
+REVCHAIN_LAZY
+OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
     if (!(bound < 1)) bound = std::numeric_limits<double>::infinity();
     const auto in_unit = [&](double y) { return std::ldexp(y, rig.units.length_exponent); };
     return {{in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
-inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+REVCHAIN_LAZY
+RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
@@ -192,7 +201,8 @@ inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigMo
 }
 
 /// By discs around all roots, where counts cannot find them.
-inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+REVCHAIN_LAZY
+RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
@@ -242,7 +252,8 @@ inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigM
 }
 
 /// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
-inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
+REVCHAIN_LAZY
+std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
     const auto fastest = [](const WhirlModes& sense) {
         return sense.size() == 0 ? 0.0 : sense.angular_speed.maxCoeff();
     };
@@ -265,7 +276,8 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 }  // namespace detail
 
-REVCHAIN_INLINE RigModes modes(const Rig& rig, const RigModesOptions& options) {
+REVCHAIN_DEFINE
+RigModes modes(const Rig& rig, const RigModesOptions& options) {
     using namespace detail;
     require_positive("modes", "gravity", options.gravity);
     check(options);
@@ -331,7 +343,8 @@ REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
     return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed", angular_speed);
 }
 
-REVCHAIN_INLINE Index count_modes(const Rig& rig, const CountOptions<double>& options) {
+REVCHAIN_DEFINE
+Index count_modes(const Rig& rig, const CountOptions<double>& options) {
     detail::require_one_speed("count_modes", options);
     const RigModeCounter counter(rig, options.gravity);
     return options.conical_height ? counter.above_height(*options.conical_height)

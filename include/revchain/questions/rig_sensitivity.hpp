@@ -98,7 +98,8 @@ struct RigMode : LinksAtSpeed {
 };
 
 /// Derivatives for the numbers of link m; `above` sums a s^2 over the links above, standing ones less.
-inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, RigSensitivity& result) {
+REVCHAIN_LAZY
+void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, RigSensitivity& result) {
     using S = Wide<double>;
     const Rig& rig = mode.rig;
     const RigLink& link = mode.link(m);
@@ -134,7 +135,8 @@ inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& a
 
 }  // namespace detail
 
-REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed,
+REVCHAIN_DEFINE
+RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                            const Vector<double>& offset, double gravity) {
     const detail::RigMode mode("sensitivity", rig, angular_speed, offset, gravity);
     RigSensitivity result{};
@@ -155,7 +157,8 @@ REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed,
     return result;
 }
 
-REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double angular_speed, double gravity) {
+REVCHAIN_DEFINE
+double momentum_for_speed(const Rig& rig, Index link, double angular_speed, double gravity) {
     using S = Wide<double>;
     constexpr std::string_view place = "momentum_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
@@ -185,7 +188,8 @@ REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double ang
                           angular_speed);
 }
 
-REVCHAIN_INLINE double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity) {
+REVCHAIN_DEFINE
+double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity) {
     constexpr std::string_view place = "stiffness_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
     const Wide<double> sum = links.turning * links.carriage_weight() - links.below(rig.size());

@@ -11,7 +11,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
 /// The rig as it swings: links do not turn about their own axes, so axial moments play no part.
-inline Rig swinging(std::string_view place, const Rig& rig) {
+REVCHAIN_LAZY
+Rig swinging(std::string_view place, const Rig& rig) {
     if (rig.support().radius != 0)
         throw_invalid(place,
                       "the support is carried round: it does not let the rig swing; use response",
@@ -28,7 +29,8 @@ inline Rig swinging(std::string_view place, const Rig& rig) {
 }
 
 /// The modes of a rig. Throws InvalidArgument where small offsets grow, or nothing draws them back.
-inline RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil,
+REVCHAIN_LAZY
+RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil,
                              double gravity, Index count, Progress* progress) {
     if (pencil.idle > 0)
         throw_invalid(place, "lowest links that weigh nothing and move nothing have no motion of "
@@ -94,7 +96,8 @@ class WhirlForms : public PencilForms<pencil::SignedPencil<Wide<double>>> {
     }
 };
 
-inline PlaneOffsets in_double_words(const Vector<std::complex<double>>& given, std::size_t pins) {
+REVCHAIN_LAZY
+PlaneOffsets in_double_words(const Vector<std::complex<double>>& given, std::size_t pins) {
     PlaneOffsets result;
     for (const auto& y : given) result[0].push_back(y.real()), result[1].push_back(y.imag());
     for (auto& offsets : result) offsets.resize(pins);
@@ -107,7 +110,8 @@ struct RoughWhirl {
     Vector<double> shape;
 };
 /// The whirls of both senses, slowest first.
-inline std::vector<RoughWhirl> merged(const RigModes& found) {
+REVCHAIN_LAZY
+std::vector<RoughWhirl> merged(const RigModes& found) {
     std::vector<RoughWhirl> all;
     for (const WhirlModes* sense : {&found.forward, &found.backward})
         for (Index j = 0; j < sense->size(); ++j)
@@ -120,7 +124,8 @@ inline std::vector<RoughWhirl> merged(const RigModes& found) {
 }
 
 /// Finds the amplitude of each whirl, in double words, and takes it from the start.
-inline Superposition split_start(WhirlSwing& result, const RigPencil& rig,
+REVCHAIN_LAZY
+Superposition split_start(WhirlSwing& result, const RigPencil& rig,
                                  const WhirlForms& forms, const std::vector<RoughWhirl>& rough,
                                  PlaneOffsets& rest, PlaneOffsets& rest_speed, Progress* progress) {
     using S = Wide<double>;
@@ -161,7 +166,8 @@ inline Superposition split_start(WhirlSwing& result, const RigPencil& rig,
 
 }  // namespace detail
 
-REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
+REVCHAIN_DEFINE
+Swing swing(const Rig& given, const SwingOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "swing";
     if (given.has_momentum())
@@ -191,7 +197,8 @@ REVCHAIN_INLINE Swing swing(const Rig& given, const SwingOptions& options) {
     return superposed<Swing>(place, system, options, from, speed, all, found);
 }
 
-REVCHAIN_INLINE WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
+REVCHAIN_DEFINE
+WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "whirl_swing";
     const Rig rig = swinging(place, given);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/shapes/described.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/paper/two_links.hpp"
 #include "revchain/statics.hpp"
@@ -9,7 +10,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-inline void check_shape(std::string_view where, const Chain<double>& chain, const SteadyShape& shape) {
+REVCHAIN_LAZY
+void check_shape(std::string_view where, const Chain<double>& chain, const SteadyShape& shape) {
     const Index links = shape.inclination.size();
     if (links != chain.size())
         throw_invalid(where, "the shape must be one of the chain's; its number of links is", links);
@@ -29,7 +31,8 @@ void check_string(std::string_view where, const Vector<T>& weight, const Vector<
 
 }  // namespace detail
 
-inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
+REVCHAIN_LAZY
+ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
     detail::check_shape("force_diagram", chain, shape);
     const Index n = chain.size();
     const auto exact = finite::links_of(chain);
@@ -64,7 +67,8 @@ inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape&
     return d;
 }
 
-inline Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
+REVCHAIN_LAZY
+Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
     detail::check_shape("transferred_to_axis", chain, shape);
     std::vector<Link<double>> links;
     for (Index m = 0; m < chain.size(); ++m) {

@@ -8,6 +8,7 @@
 
 #include "revchain/linear/mode_shape.hpp"
 #include "revchain/numeric/compensated_sum.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/system/converted.hpp"
@@ -118,7 +119,8 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
 };
 
 /// exp(i angle) of a large angle, reduced in double-double.
-inline std::complex<double> turned(const DoubleDouble& angle) {
+REVCHAIN_LAZY
+std::complex<double> turned(const DoubleDouble& angle) {
     const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
     const DoubleDouble rest = angle - turn * DoubleDouble(std::nearbyint((angle / turn).high()));
     const double c = std::cos(rest.high()), s = std::sin(rest.high());
@@ -226,7 +228,8 @@ auto checked_start(std::string_view place, Index links, bool yields, const Optio
     return start;
 }
 
-inline Index checked_count(std::string_view place, const std::optional<Index>& asked, Index all) {
+REVCHAIN_LAZY
+Index checked_count(std::string_view place, const std::optional<Index>& asked, Index all) {
     const Index count = asked.value_or(all);
     if (count >= 0 && count <= all) return count;
     throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);

@@ -8,7 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& options) {
+REVCHAIN_DEFINE
+Swing swing(const Chain<double>& chain, const SwingOptions& options) {
     constexpr std::string_view place = "swing";
     const auto [from, speed] = detail::checked_start(place, chain.size(), false, options);
     const Index all = chain.mode_count();

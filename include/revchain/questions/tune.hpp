@@ -65,7 +65,8 @@ struct Enclosed {
 };
 
 /// The value where the mode passes the height wanted, by proved counts on both sides.
-inline Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
+REVCHAIN_LAZY
+Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
     const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
     const double value = low + (high - low) / 2;
     return {value, std::max(value - low, high - value)};
@@ -78,7 +79,8 @@ struct Candidate {
     std::optional<Enclosed> crossing{};  ///< of the mode asked for
 };
 
-inline Candidate classified(const Tuning& tuning, double x, double low, double high) {
+REVCHAIN_LAZY
+Candidate classified(const Tuning& tuning, double x, double low, double high) {
     const double size = std::max(std::abs(x), (high - low) * 0x1p-60);
     for (double margin = 0x1p-52; margin < 2e-6; margin *= 8) {
         const double left = std::max(low, x - margin * size), right = std::min(high, x + margin * size);
@@ -100,7 +102,8 @@ struct Search {
     bool proved = false;
 };
 
-inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
+REVCHAIN_LAZY
+Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
     const int longest = 400 + static_cast<int>(20000 / tuning.chain().size());
     const double direction = to > from ? 1 : -1;
     double at = from;
@@ -146,7 +149,8 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
 
 }  // namespace detail
 
-REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
+REVCHAIN_DEFINE
+Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "tune";
     require_one_speed(place, options);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/linear/pencils.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/sensitivity.hpp"
 
@@ -9,7 +10,8 @@
 /// the chain has a given conical height of any mode.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-inline double datum_of(const Link<double>& link, Datum datum) {
+REVCHAIN_LAZY
+double datum_of(const Link<double>& link, Datum datum) {
     switch (datum) {
         case Datum::weight:
             return link.weight;
@@ -23,7 +25,8 @@ inline double datum_of(const Link<double>& link, Datum datum) {
 }
 
 /// The link with another value of a datum, all others held as `Datum` says.
-inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
+REVCHAIN_LAZY
+Link<double> with_datum(Link<double> link, Datum datum, double x) {
     using S = Wide<double>;
     constexpr std::string_view place = "tune";
     switch (datum) {
@@ -56,7 +59,8 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
 /// w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W included,
 /// and W/kappa monotone in W, both follow from the ends. At most 1 where all centroids are at or
 /// below their pins, since W dM <= M and W dK <= K. Cost O(N).
-inline double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
+REVCHAIN_LAZY
+double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {
@@ -88,7 +92,8 @@ struct TuneRange {
 };
 
 /// The range that a datum may have so that the link still hangs, within what is asked.
-inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index number, Datum datum,
+REVCHAIN_LAZY
+TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index number, Datum datum,
                             const std::optional<double>& low, const std::optional<double>& high) {
     const Link<double> link = chain.link(number);
     const double below = static_cast<double>(chain.weight_below(number));
@@ -131,7 +136,8 @@ inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, 
 ///     D (v + a s)^2 + E v^2 + lambda (W h + a S) s^2 - W (v + h s)^2 - W rho^2 s^2.
 /// It must be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a
 /// and in h. At the support v = 0. Cost O(N).
-inline std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum,
+REVCHAIN_LAZY
+std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum,
                                            const Wide<double>& height) {
     using S = Wide<double>;
     const Pencils<double> pencils(chain);

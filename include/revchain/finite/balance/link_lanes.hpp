@@ -4,13 +4,15 @@
 #include <array>
 
 #include "revchain/finite/balance/link_equation.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/simd/interval_lanes.hpp"
 
 /// The equation of one link for several loads at once, as packs; for finite/balance/taylor.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// `any` and `if_less` for numbers: templates can use numbers and packs alike.
-inline bool any(bool yes) { return yes; }
+REVCHAIN_LAZY
+bool any(bool yes) { return yes; }
 template <Real T>
 const T& if_less(const T& x, const T& y, const T& a, const T& b) {
     return x < y ? a : b;

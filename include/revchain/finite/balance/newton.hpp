@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/balance/support_end.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -44,7 +45,8 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
 
 /// Solves a symmetric tridiagonal system: `x` is the right side, then the solution. `upper[m]`
 /// couples rows m and m + 1; the last is not used. The diagonal becomes the pivots.
-inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
+REVCHAIN_LAZY
+void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
     for (std::size_t m = 0; m < x.size(); ++m) {
         if (m > 0) {
             const double share = upper[m - 1] / diagonal[m - 1];

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "revchain/finite/balance/links.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -55,11 +56,14 @@ inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
 /// What the sweep needs of a chain: its support, the posture in which all links hang, its links,
 /// and whether all links may stand (never: nothing would bear the load). See also `RiggedLinks`.
-inline OnAxis support_of(const Links<Fine>&) { return {}; }
-inline std::vector<Posture> posture_of(const Links<Fine>& chain) {
+REVCHAIN_LAZY
+OnAxis support_of(const Links<Fine>&) { return {}; }
+REVCHAIN_LAZY
+std::vector<Posture> posture_of(const Links<Fine>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);
 }
-inline bool may_all_stand(const Links<Fine>&) { return false; }
+REVCHAIN_LAZY
+bool may_all_stand(const Links<Fine>&) { return false; }
 template <class T>
 EnclosedLinks<T> swept_links(const Links<Fine>& chain) {
     return enclosed<T>(chain.links);

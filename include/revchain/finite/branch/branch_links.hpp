@@ -5,6 +5,7 @@
 
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -57,7 +58,8 @@ struct BranchLinks {
     }
 };
 
-inline BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
+REVCHAIN_LAZY
+BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
     BranchLinks<double> to(rounded<double>(from.links));
     for (const Fine& x : from.spin) to.spin.push_back(as_double(x));
     to.speed = as_double(from.speed), to.radius = as_double(from.radius);
@@ -115,7 +117,8 @@ struct BranchSystem {
 };
 
 /// The links of a rig for `verified`: standing links are hanging links with the opposite pull.
-inline EnclosedLinks<Far> folded_links(const RiggedLinks& rig) {
+REVCHAIN_LAZY
+EnclosedLinks<Far> folded_links(const RiggedLinks& rig) {
     EnclosedLinks<Far> result = enclosed<Far>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
         result[m].pull = effective_tension<Far>(rig.given[m], rig.speed);

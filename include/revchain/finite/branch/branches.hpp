@@ -100,10 +100,12 @@ Branch followed(const System& system, const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE Branch branch(const Chain<double>& chain, const BranchOptions& options) {
+REVCHAIN_DEFINE
+Branch branch(const Chain<double>& chain, const BranchOptions& options) {
     return finite::followed(chain, options);
 }
-REVCHAIN_INLINE Branch branch(const Rig& rig, const RigBranchOptions& options) {
+REVCHAIN_DEFINE
+Branch branch(const Rig& rig, const RigBranchOptions& options) {
     return finite::followed(rig, options);
 }
 
@@ -128,18 +130,22 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
+REVCHAIN_DEFINE
+ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
-REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
+REVCHAIN_DEFINE
+ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
                                                 std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options) {
+REVCHAIN_DEFINE
+SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options) {
     return finite::first_on_branch(chain, options);
 }
-REVCHAIN_INLINE SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
+REVCHAIN_DEFINE
+SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
     return finite::first_on_branch(rig, options);
 }
 

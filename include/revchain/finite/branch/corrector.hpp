@@ -5,34 +5,40 @@
 
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/state.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Inner product of the arc: mean product of the tau plus the product of log lambda.
-inline double inner(const BranchState& x, const BranchState& y) {
+REVCHAIN_LAZY
+double inner(const BranchState& x, const BranchState& y) {
     double sum = 0;
     for (std::size_t m = 0; m < x.rise.size(); ++m) sum += x.rise[m] * y.rise[m];
     return sum / as_double(x.rise.size()) + x.log_height * y.log_height;
 }
-inline BranchState moved(BranchState x, double share, const BranchState& direction) {
+REVCHAIN_LAZY
+BranchState moved(BranchState x, double share, const BranchState& direction) {
     for (std::size_t m = 0; m < x.rise.size(); ++m) x.rise[m] += share * direction.rise[m];
     x.log_height += share * direction.log_height;
     return x;
 }
 /// Scales a direction to length 1 along the arc and returns its former length.
-inline double normalise(BranchState& direction) {
+REVCHAIN_LAZY
+double normalise(BranchState& direction) {
     const double length = std::sqrt(inner(direction, direction));
     for (double& rise : direction.rise) rise /= length;
     direction.log_height /= length;
     return length;
 }
-inline double largest_rise(const BranchState& x) {
+REVCHAIN_LAZY
+double largest_rise(const BranchState& x) {
     double largest = 0;
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
     return largest;
 }
 /// The size of a correction: its length along the arc, or 1/4 of its largest tau.
-inline double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4); }
+REVCHAIN_LAZY
+double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4); }
 
 /// Linear solver for the balance of a chain together with one condition. The unknowns are changes d
 /// of the links' reaches a sin delta, and h of log lambda:

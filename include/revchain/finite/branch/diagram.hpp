@@ -329,10 +329,12 @@ Branches diagram_of(const System& system, const Options& options) {
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
+REVCHAIN_DEFINE
+Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
     return finite::diagram_of<finite::ChainQuestions>(chain, options);
 }
-REVCHAIN_INLINE Branches branches(const Rig& rig, const RigDiagramOptions& options) {
+REVCHAIN_DEFINE
+Branches branches(const Rig& rig, const RigDiagramOptions& options) {
     return finite::diagram_of<finite::RigQuestions>(rig, options);
 }
 

@@ -7,6 +7,7 @@
 #include "revchain/finite/branch/polish.hpp"
 #include "revchain/linear/modes_of_one_sense.hpp"
 #include "revchain/linear/one_mode.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -81,7 +82,8 @@ struct BranchOnset {
 
 /// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
 /// mode's height, that is computed in double-double (1e-24 relative) from a state inclined by 1e-6.
-inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
+REVCHAIN_LAZY
+double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double narrow = as_double(height);
     if (std::abs(onset.height - narrow) > 1e-6 * onset.height)
         return (narrow > onset.height) == onset.rises() ? onset.amplitude_at(narrow) : 0.0;
@@ -96,7 +98,8 @@ inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset,
 
 /// The state at a height so close to the mode's that double hardly resolves it: from the law of the
 /// onset, balanced in double-double. None if that fails.
-inline std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
+REVCHAIN_LAZY
+std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
                                                 const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;

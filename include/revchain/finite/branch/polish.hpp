@@ -5,6 +5,7 @@
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/corrector.hpp"
 #include "revchain/finite/shapes/verification.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -120,7 +121,8 @@ struct Polished {
 
 /// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
 /// condition's change for that of the number, `growth` 1/(a cos^2) of links.
-inline double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
+REVCHAIN_LAZY
+double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
                            const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
@@ -143,7 +145,8 @@ inline double condition_of(const BranchLinks<Fine>& links, BorderedChain& border
 }
 
 /// Offsets of the pins of a state; the firm end of the support is last.
-inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
+REVCHAIN_LAZY
+std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
     std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
     for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
@@ -157,7 +160,8 @@ inline std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const Branch
 }
 
 /// Newton's method on all pins and the height, as `balance`, with one condition. Cost O(N) a step.
-inline Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
+REVCHAIN_LAZY
+Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
     Polished result{{offsets_of(links, start), {}}, Fine(std::exp(start.log_height))};
@@ -224,7 +228,8 @@ inline Polished polished(const BranchLinks<Fine>& links, const BranchState& star
 }
 
 /// A shape found at a height by Newton's method, `verified` at heights in `within`.
-inline SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
+REVCHAIN_LAZY
+SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
                                   Balanced<Fine> found, bool height_is_given) {
     if (!system.rig)
         return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
@@ -238,7 +243,8 @@ inline SteadyShape verified_shape(const BranchSystem& system, const Fine& height
 /// The shape near a point of a branch that satisfies a condition. At a given height its bound is
 /// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
 /// the condition number; where nothing is proved, as at a fold, it is that alone.
-inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
+REVCHAIN_LAZY
+std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
                                            const Condition& condition) {
     auto found = polished(system.links, near, condition);
     if (!found.shape.converged) return std::nullopt;

@@ -6,6 +6,7 @@
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/onset.hpp"
 #include "revchain/finite/branch/trace.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -136,8 +137,10 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
 }
 
 /// The largest possible distance of the free end from the axis.
-inline double reach_of(const Chain<double>& chain) { return chain.total_length(); }
-inline double reach_of(const Rig& rig) {
+REVCHAIN_LAZY
+double reach_of(const Chain<double>& chain) { return chain.total_length(); }
+REVCHAIN_LAZY
+double reach_of(const Rig& rig) {
     return rig.support().is_firm() ? rig.support().radius + rig.chain().total_length()
                                    : std::numeric_limits<double>::infinity();
 }

@@ -4,6 +4,7 @@
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/branch/onset.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -38,12 +39,14 @@ void append(Branch& branch, const BranchPoint& point) {
 }
 
 /// Whether a point lies beyond a neighbouring one in the direction of the branch.
-inline bool is_past(const BranchPoint& here, const BranchPoint& there) {
+REVCHAIN_LAZY
+bool is_past(const BranchPoint& here, const BranchPoint& there) {
     return inner(moved(here.state, -1, there.state), here.tangent) > 0;
 }
 
 /// Whether a step passes the start of a loop in the same direction.
-inline bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
+REVCHAIN_LAZY
+bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
     const double reach = here.arc - before.arc;
     if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
     const BranchState from_before = moved(start.state, -1, before.state);
@@ -51,14 +54,16 @@ inline bool returned(const BranchPoint& here, const BranchPoint& before, const B
 }
 
 /// Whether a step goes through the straight chain to the mirror image.
-inline bool mirrored(const BranchPoint& before, const BranchPoint& here) {
+REVCHAIN_LAZY
+bool mirrored(const BranchPoint& before, const BranchPoint& here) {
     double sum = 0;
     for (std::size_t m = 0; m < here.state.rise.size(); ++m) sum += before.state.rise[m] * here.state.rise[m];
     return sum < 0;
 }
 
 /// Whether flywheels cancel all but 1e-5 of the tension of a link.
-inline bool is_slack(const BranchLinks<double>& links, double log_height) {
+REVCHAIN_LAZY
+bool is_slack(const BranchLinks<double>& links, double log_height) {
     const double speed = links.speed_at(std::exp(log_height));
     for (std::size_t m = 0; m < links.bodies(); ++m)
         if (std::abs(links.pull(m, speed)) < 1e-5 * std::abs(links.links[m].pull)) return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -55,8 +56,10 @@ inline BranchPlace operator-(const BranchPlace& x, const BranchPlace& y) {
     return {x.bend - y.bend, x.log_height - y.log_height};
 }
 inline BranchPlace operator*(double s, const BranchPlace& x) { return {s * x.bend, s * x.log_height}; }
-inline double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
-inline double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
+REVCHAIN_LAZY
+double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
+REVCHAIN_LAZY
+double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
 /// The line on which crossing number `crossing` of the paths of a cord is at the support: f =
 /// log(arc lambda / length) = 0. A branch of j half waves lies on the line of crossing j.

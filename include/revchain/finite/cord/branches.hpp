@@ -55,7 +55,8 @@ namespace finite {
 
 /// The shape at a point of a line; none if no path could be followed that far. At a fold the error
 /// is that of its position.
-inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
+REVCHAIN_LAZY
+std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
     constexpr double of_fold = 1e-7;
     const double height = std::exp(point.at.log_height);
     if (at_fold) {
@@ -74,7 +75,8 @@ inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLin
 }
 
 /// Adds the straight cord where the branch of a mode begins.
-inline void append_vertical(CordBranch& branch, double height) {
+REVCHAIN_LAZY
+void append_vertical(CordBranch& branch, double height) {
     const ContinuousChain& chain = branch.line->chain();
     const PathKind kind = kind_of(chain, height, 0);
     PathEnergies energies(kind, 0);
@@ -88,7 +90,8 @@ inline void append_vertical(CordBranch& branch, double height) {
 }
 
 /// Adds a point of the line; false if its path could not be followed.
-inline bool append(CordBranch& branch, const BranchLine::Point& point) {
+REVCHAIN_LAZY
+bool append(CordBranch& branch, const BranchLine::Point& point) {
     const BranchLine& line = *branch.line;
     const double height = std::exp(point.at.log_height), tip = std::sinh(point.at.bend);
     const PathKind kind = line.kind(point.at.log_height);
@@ -145,7 +148,8 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
 }
 
 /// Stops where a line first comes down to a height.
-inline auto down_to(const BranchLine& line, double log_end) {
+REVCHAIN_LAZY
+auto down_to(const BranchLine& line, double log_end) {
     return [&line, log_end](const BranchLine::Point& last, BranchLine::Point& now) -> std::optional<BranchEnd> {
         if (!(now.at.log_height <= log_end)) return std::nullopt;
         const auto end = line.between(last, now, [&](const auto& point) { return point.at.log_height - log_end; });
@@ -156,7 +160,8 @@ inline auto down_to(const BranchLine& line, double log_end) {
 }
 
 /// The branch of a mode of given height, down to another height.
-inline CordBranch branch_of_mode(const Cord& cord, double critical, double height, const BranchOptions& options) {
+REVCHAIN_LAZY
+CordBranch branch_of_mode(const Cord& cord, double critical, double height, const BranchOptions& options) {
     CordBranch result;
     result.mode = options.mode;
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(options.mode));
@@ -186,4 +191,5 @@ void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, con
 
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/cord/branch_shapes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #endif

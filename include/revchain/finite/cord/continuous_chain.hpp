@@ -5,6 +5,7 @@
 
 #include "revchain/finite/cord/continuous_shape.hpp"
 #include "revchain/finite/cord/tip_offset.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/system/cord.hpp"
 
 /// Steady shapes of a whirling cord of any density, with or without a weight at its free end, at
@@ -74,18 +75,21 @@ struct ContinuousChain {
 };
 
 /// The chain with lengths over `height`; bend 0 for small amplitude.
-inline PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
+REVCHAIN_LAZY
+PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
     const double mean = chain.density == nullptr ? 1.0 : chain.density->mean();
     return {chain.tip / height, height, mean, chain.density.get(), bend, chain.line_weight};
 }
 
-inline Path path_at_rest(const ContinuousChain& chain, double height, Path::Options options) {
+REVCHAIN_LAZY
+Path path_at_rest(const ContinuousChain& chain, double height, Path::Options options) {
     options.with_change = false;
     return {kind_of(chain, height, 0), 1, options};
 }
 
 /// The shape near an almost exact path; none if no path could be followed that far.
-inline std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
+REVCHAIN_LAZY
+std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
                                          double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
@@ -100,7 +104,8 @@ inline std::optional<CordShape> finished(const PathKind& kind, double tip_offset
 }
 
 /// For each crossing, ranges of eta_0 at whose ends it is on different sides of the support.
-inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
+REVCHAIN_LAZY
+std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
                                                   int count) {
     std::vector<std::vector<TipRange>> ranges(crossings);
     std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
@@ -121,14 +126,16 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
 }
 
 /// Length over conical height. Throws InvalidArgument above 1e6, where no path is followed.
-inline double length_in_heights(std::string_view place, double length, double height) {
+REVCHAIN_LAZY
+double length_in_heights(std::string_view place, double length, double height) {
     const double heights = length / height;
     if (!(heights <= 1e6)) detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
     return heights;
 }
 
 /// Throws InvalidArgument for a path that ended before the support.
-inline void require_followed(std::string_view place, const Path& path, double length, double height) {
+REVCHAIN_LAZY
+void require_followed(std::string_view place, const Path& path, double length, double height) {
     if (!(path.end() > length))
         detail::throw_invalid(place,
                               "the density is too rough, or the tip too heavy, to be followed; the "
@@ -136,7 +143,8 @@ inline void require_followed(std::string_view place, const Path& path, double le
                               path.end() * height);
 }
 
-inline CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
+REVCHAIN_LAZY
+CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length near a critical height
     const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
@@ -175,7 +183,8 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
 /// series with T = V, as crossing j of a chain that continues beyond its support falls with the
 /// height. Accuracy: 4e-15 relative. Cost: eight paths each; one path for all if the chain is
 /// uniform without tip. Throws InvalidArgument for a count below 1 or above 1e5.
-inline Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
+REVCHAIN_LAZY
+Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     constexpr std::string_view place = "modes";
     if (count < 1 || count > 100'000) detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
     Vector<double> heights(count);
@@ -208,7 +217,8 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
 
 /// The number of critical heights above `height`. Throws InvalidArgument for a length above 1e6
 /// heights and for a density or tip that the series cannot follow.
-inline Index critical_heights_above(const ContinuousChain& chain, double height) {
+REVCHAIN_LAZY
+Index critical_heights_above(const ContinuousChain& chain, double height) {
     constexpr std::string_view place = "count_modes";
     const double length = length_in_heights(place, chain.length, height);
     const Path path = path_at_rest(chain, height, {.farthest = length});

@@ -5,6 +5,7 @@
 
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/cord/path.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -47,7 +48,8 @@ struct CordShape {
 
 namespace finite {
 
-inline CordPlace place_of(const CordShape& shape, const PathState& x) {
+REVCHAIN_LAZY
+CordPlace place_of(const CordShape& shape, const PathState& x) {
     const double below = shape.kind.weight_below(x.arc), lambda = shape.conical_height;
     const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);
     return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, inclination,
@@ -55,7 +57,8 @@ inline CordPlace place_of(const CordShape& shape, const PathState& x) {
 }
 
 /// The state of a path at an arc length, from its steps.
-inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset, double arc) {
+REVCHAIN_LAZY
+PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset, double arc) {
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), arc,
                                         [](double x, const Path::Step& step) { return x < step.start.arc; });
     const Path::Step& step = *(after - 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/zero_between.hpp"
 #include "revchain/system/line_density.hpp"
 
@@ -303,7 +304,8 @@ double time_of_zero(double latest, const F& value_and_slope) {
 }
 
 /// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
-inline double time_at(const PathSeries& series, double arc, double latest) {
+REVCHAIN_LAZY
+double time_at(const PathSeries& series, double arc, double latest) {
     return time_of_zero(latest, [&](double t) {
         return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
     });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/cord/branches.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -77,7 +78,8 @@ class WantedOnLine {
 };
 
 /// All shapes with a given number on the branch of a mode of height `critical`.
-inline CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
+REVCHAIN_LAZY
+CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
                                         std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));

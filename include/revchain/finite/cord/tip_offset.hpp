@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/cord/path.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -49,7 +50,8 @@ struct TipOffset {
     double value = 0;
     CrossingLaw law;
 };
-inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
+REVCHAIN_LAZY
+TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
                             CrossingLaw law) {
     const auto middle = [&] {
         if (range.low == 0) return 0.1 * range.high;

@@ -2,13 +2,15 @@
 #pragma once
 
 #include "revchain/finite/held/held.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Why a branch ends: back at the greatest speed; a link is slack or turns over; a chain with ends
 /// off the axis hangs as at rest; a cord hangs folded along the axis; after 3000 steps.
 enum class HeldBranchEnd { speed, slack, rest, folded, budget };
-inline std::string_view to_string(HeldBranchEnd end) {
+REVCHAIN_LAZY
+std::string_view to_string(HeldBranchEnd end) {
     constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
@@ -98,7 +100,8 @@ struct HeldStart {
 };
 
 /// The branch of a mode at a span, for heights from `least` up; none if it does not exist.
-inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
+REVCHAIN_LAZY
+std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
                                              double least, int mode, double max_step) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
@@ -122,7 +125,8 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, const H
 }
 
 /// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
-inline std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
+REVCHAIN_LAZY
+std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
                                                       double span, double tension, int mode) {
     HeldChain held(chain, supports);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());

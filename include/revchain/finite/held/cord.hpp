@@ -6,6 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/cord_series.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/system/cord.hpp"
 
@@ -75,12 +76,14 @@ class HeldCord {
     }
 };
 
-inline HeldCordPlace place_of(const HeldCordShape& shape, const HeldCordState& x) {
+REVCHAIN_LAZY
+HeldCordPlace place_of(const HeldCordShape& shape, const HeldCordState& x) {
     return {x.arc * shape.length, x.offset * shape.length, x.rise * shape.length, std::atan2(-x.across, x.along),
             std::hypot(x.across, x.along) * shape.length * shape.weight};
 }
 
-inline HeldCordShape described(const HeldState& state, double span, double length, double weight) {
+REVCHAIN_LAZY
+HeldCordShape described(const HeldState& state, double span, double length, double weight) {
     constexpr int per_step = 8;
     HeldCordShape shape;
     shape.span = span, shape.length = length, shape.weight = weight;
@@ -155,7 +158,8 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
 }
 
 /// The shape of each number of half waves at a span and height (0: no gravity).
-inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
+REVCHAIN_LAZY
+HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
     const double length = cord.length();
     auto result = each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
         if (const auto state = HeldCord().at_height(k, span / length, height / length))
@@ -168,7 +172,8 @@ inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double hei
 }
 
 /// All shapes with a given tension at the upper end times height.
-inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
+REVCHAIN_LAZY
+HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
                                                      int max_half_waves) {
     const double length = cord.length(), weight = cord.weight();
     return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {

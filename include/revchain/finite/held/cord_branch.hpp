@@ -3,6 +3,7 @@
 
 #include "revchain/finite/held/branch.hpp"
 #include "revchain/finite/held/cord.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -11,7 +12,8 @@ using HeldCordBranch = HeldBranchOf<HeldCordShape>;
 namespace finite {
 
 /// The branch of a number of half waves at a span, for heights from `least` up, if it exists.
-inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
+REVCHAIN_LAZY
+std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
                                                  double max_step) {
     HeldCord held;
     const double length = cord.length();
@@ -27,7 +29,8 @@ inline std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, 
 }
 
 /// The shape of a number of half waves at a span and height; none if the branch does not reach it.
-inline std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, double height, int half_waves) {
+REVCHAIN_LAZY
+std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, double height, int half_waves) {
     const double length = cord.length();
     const auto state = HeldCord().at_height(half_waves, span / length, height / length);
     if (!state) return {};
@@ -37,7 +40,8 @@ inline std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double spa
 }
 
 /// The fastest shape with a given tension at the upper end on the branch of a number of half waves.
-inline std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
+REVCHAIN_LAZY
+std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
                                                           int half_waves) {
     HeldCord held;
     const double length = cord.length(), wanted = tension / cord.weight();

@@ -5,6 +5,7 @@
 #include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/linear/counted_roots.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -198,7 +199,8 @@ class HeldChain {
 };
 
 /// Ascending ranges of the lowest link's inclination that contain cells.
-inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
+REVCHAIN_LAZY
+std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
     std::vector<InclinationRange> result;
     for (const HeldCell& cell : cells) {
         const double low = 2 * std::atan(cell.at[1].low), high = 2 * std::atan(cell.at[1].high), by = 1e-15;
@@ -226,21 +228,25 @@ struct HeldListOptions {
     long budget;
 };
 
-inline void sort_by_half_waves(std::vector<HeldShape>& shapes) {
+REVCHAIN_LAZY
+void sort_by_half_waves(std::vector<HeldShape>& shapes) {
     const auto before = [](const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; };
     std::stable_sort(shapes.begin(), shapes.end(), before);
 }
-inline bool has(const std::vector<HeldShape>& shapes, int half_waves) {
+REVCHAIN_LAZY
+bool has(const std::vector<HeldShape>& shapes, int half_waves) {
     return std::any_of(shapes.begin(), shapes.end(), [&](const auto& x) { return x.half_waves == half_waves; });
 }
-inline bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
+REVCHAIN_LAZY
+bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
     return std::any_of(shapes.begin(), shapes.end(), [&](const HeldShape& other) {
         return (other.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-8;
     });
 }
 
 /// Removes repeated shapes and sorts: several curves may lead to one shape or change half waves.
-inline void keep_different(HeldShapes& list, int max_half_waves) {
+REVCHAIN_LAZY
+void keep_different(HeldShapes& list, int max_half_waves) {
     std::vector<HeldShape> kept;
     for (const HeldShape& shape : list.shapes)
         if (shape.half_waves <= max_half_waves && !has(kept, shape)) kept.push_back(shape);
@@ -251,7 +257,8 @@ inline void keep_different(HeldShapes& list, int max_half_waves) {
 }
 
 /// Adds all other planar shapes to those found by branches, and the ranges where more may be.
-inline void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
+REVCHAIN_LAZY
+void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
                      const HeldListOptions& options) {
     const EnclosedLinks<double> links = enclosed<double>(held.links().links);
     const HeldCells cells(links, enclosed<double>(held.ends(height)), enclosed<double>(height), goal,
@@ -280,7 +287,8 @@ inline void complete(HeldShapes& list, HeldChain& held, const Fine& height, cons
 }
 
 /// Shapes of up to `max_half_waves` half waves at a span and a height (0: no gravity).
-inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span, const Fine& height,
+REVCHAIN_LAZY
+HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span, const Fine& height,
                               const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
@@ -299,7 +307,8 @@ inline HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& su
 }
 
 /// Shapes of up to `max_half_waves` half waves with a given tension at the upper end times height.
-inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
+REVCHAIN_LAZY
+HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
                                             const Fine& height_times_tension, const Fine& conical_height,
                                             const HeldListOptions& options) {
     HeldChain held(chain, supports);

@@ -2,14 +2,17 @@
 #pragma once
 
 #include "revchain/finite/held/sweep.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-inline double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
+REVCHAIN_LAZY
+double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
 /// Encloses the direction of a link near one found. Returns the derivative of its moment by the
 /// inclination, not positive if the link may be slack or have another inclination.
-inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
+REVCHAIN_LAZY
+Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
     if (is_zero(link.cross)) {
         const Span sum = square(R) + square(V);
@@ -23,7 +26,8 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
 
 /// Encloses the upper end for forces at the lower end within `radius` of those of a state with
 /// directions `found`, and the sine of the largest turn of a link from them.
-inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
+REVCHAIN_LAZY
+std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
                                                     const Span& height, const std::array<Far, 2>& forces,
                                                     const std::array<double, 2>& radius,
                                                     const std::vector<Direction<Far>>& found) {
@@ -46,7 +50,8 @@ inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& li
 /// Bounds the angle (rad) between found directions and those of the one steady shape near them at a
 /// span, by Krawczyk's test on the two forces at the lower end (doi:10.1007/BF02234767). Infinite
 /// if the test decides nothing: intervals grow by about e^pi for each half wave.
-inline double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height,
+REVCHAIN_LAZY
+double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height,
                          const Span& span, const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     constexpr double unproved = std::numeric_limits<double>::infinity();
     const auto centre = held_box(links, ends, height, forces, {0, 0}, found).first;

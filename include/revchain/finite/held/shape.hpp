@@ -3,6 +3,7 @@
 
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
@@ -54,7 +55,8 @@ struct Sides {
 };
 
 /// The shape for forces at the lower end, with directions near `direction`.
-inline HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends, const HeldForces<Fine>& forces,
+REVCHAIN_LAZY
+HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends, const HeldForces<Fine>& forces,
                            const Fine& span, std::vector<Direction<Fine>>& direction) {
     const auto size = static_cast<Index>(chain.links.size());
     const auto narrow = [](const Fine& x) { return as_double(x); };

@@ -5,6 +5,7 @@
 
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/balance/newton.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -13,14 +14,16 @@ struct SteadyShape;  // revchain/steady_shapes.hpp
 namespace finite {
 
 /// g/n^2 in double-double; infinite or 0 if out of range.
-inline Fine height_at_speed(double angular_speed, double gravity) {
+REVCHAIN_LAZY
+Fine height_at_speed(double angular_speed, double gravity) {
     int of_speed = 0, of_gravity = 0;
     const Fine n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
     return ldexp(g / n / n, of_gravity - 2 * of_speed);
 }
 
 /// angle + pi, or angle - pi, rounded once.
-inline double beyond(double angle, bool backwards) {
+REVCHAIN_LAZY
+double beyond(double angle, bool backwards) {
     const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }

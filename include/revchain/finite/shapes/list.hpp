@@ -14,6 +14,7 @@
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
 #include "revchain/finite/shapes/verification.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 
 /// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
@@ -36,7 +37,8 @@ bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
                        [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
 
-inline bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
+REVCHAIN_LAZY
+bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
     return single_valued(enclosed<double>(links.links), height);
 }
 
@@ -205,7 +207,8 @@ void leave_open(const Bracket<Far>& part, Result& result) {
 
 /// Whether a link is so near the horizontal that the offset of a support on a spring may be wrong:
 /// offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
-inline bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
+REVCHAIN_LAZY
+bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
         if (std::abs(as_double(tangent_in(found, links, m))) > 1e8) return true;
     return false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/shapes/described.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/system/rig_links.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -38,7 +39,8 @@ Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
 
 inline const Held<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
 inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
-inline bool may_all_stand(const RiggedLinks&) { return true; }
+REVCHAIN_LAZY
+bool may_all_stand(const RiggedLinks&) { return true; }
 
 template <class T>
 EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
@@ -106,7 +108,8 @@ Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>
 
 /// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,
 /// or the moment of the moving weight of the lowest link, cannot be told from 0.
-inline RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
+REVCHAIN_LAZY
+RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;
     result.units = rig.chain().units();
     result.given = detail::rig_links(rig);

@@ -3,6 +3,7 @@
 
 #include "revchain/finite/balance/newton.hpp"
 #include "revchain/finite/shapes/posture_search.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -51,7 +52,8 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
 }
 
 /// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
-inline bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
+REVCHAIN_LAZY
+bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
                    const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
         const double off = as_double(abs(found.offset[m] - offset[m]));

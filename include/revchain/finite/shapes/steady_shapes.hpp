@@ -16,18 +16,21 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options) {
+REVCHAIN_LAZY
+SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options) {
     const auto links = links_of(chain);
     return listed<SteadyShapes>(links, ldexp(height, -links.units.length_exponent), options);
 }
 
-inline bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
+REVCHAIN_LAZY
+bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
     for (std::size_t m = 0; m < rig.links.size(); ++m)
         if (rig.posture[m] == Posture::stands || rig.turned(m)) return false;
     return single_valued(swept_links<double>(rig), height);
 }
 
-inline SteadyShape mirrored(SteadyShape shape) {
+REVCHAIN_LAZY
+SteadyShape mirrored(SteadyShape shape) {
     const auto turn = [](Vector<double>& x) {
         for (double& value : x) value = value == std::numbers::pi ? value : 0 - value;
     };
@@ -37,7 +40,8 @@ inline SteadyShape mirrored(SteadyShape shape) {
 }
 
 /// Whether two shapes, each unique within its error bound, are the same.
-inline bool same(const SteadyShape& x, const SteadyShape& y) {
+REVCHAIN_LAZY
+bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
     if (!(off < 1e-12)) return false;
     for (Index m = 0; m < x.inclination.size(); ++m) {
@@ -48,7 +52,8 @@ inline bool same(const SteadyShape& x, const SteadyShape& y) {
 }
 
 /// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
-inline SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
+REVCHAIN_LAZY
+SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                                   const RigShapesOptions& options) {
     if (rig == Rig(rig.chain(), {}))
         return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
@@ -104,7 +109,8 @@ bool height_is_given(const Options& options) {
 
 }  // namespace finite
 
-REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
     const detail::Threads threads("steady_shapes", options.threads);
     if (finite::height_is_given(options))
         return finite::steady_shapes(chain, Wide<double>(*options.conical_height), options);
@@ -122,7 +128,8 @@ REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const Ste
     return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
     const detail::Threads threads("steady_shapes", options.threads);
     if (finite::height_is_given(options)) {
         const Wide<double> height(*options.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);

@@ -25,7 +25,8 @@ struct CordProfile {
     bool is_held = false;                                 ///< the lower end too
 };
 
-inline CordProfile profile_of(const CordShape& shape) {
+REVCHAIN_LAZY
+CordProfile profile_of(const CordShape& shape) {
     CordProfile profile{shape.support_arc, shape.kind.tip, shape.half_waves, {}, {}, {}, {}, {}};
     for (const Path::Step& step : shape.steps) profile.steps.push_back(step.start.arc);
     if (shape.density)
@@ -40,7 +41,8 @@ inline CordProfile profile_of(const CordShape& shape) {
     return profile;
 }
 
-inline CordProfile profile_of(const HeldCordShape& shape) {
+REVCHAIN_LAZY
+CordProfile profile_of(const HeldCordShape& shape) {
     CordProfile profile{1, 0, shape.half_waves, {}, {}, {}, {}, {}, true};
     for (const HeldCordState& step : shape.steps) profile.steps.push_back(step.arc);
     profile.at = [&shape](double arc) {
@@ -265,11 +267,13 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-REVCHAIN_INLINE Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame) {
+REVCHAIN_DEFINE
+Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame) {
     return finite::judged(frame, cord, shape);
 }
 
-REVCHAIN_INLINE Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame) {
+REVCHAIN_DEFINE
+Stability stability(const Cord& cord, const HeldCordShape& shape, StabilityFrame frame) {
     return finite::judged(frame, cord, shape);
 }
 

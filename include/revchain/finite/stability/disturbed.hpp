@@ -8,13 +8,16 @@
 
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/finite/balance/links.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-inline bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
-inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
+REVCHAIN_LAZY
+bool isinf(const DoubleDouble& x) { return std::isinf(x.high()); }
+REVCHAIN_LAZY
+bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 }  // namespace revchain
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/balance/links.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -12,7 +13,8 @@ struct EnergySigns {
     Index negative;
     bool is_minimum, is_certain;
 };
-inline EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+REVCHAIN_LAZY
+EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
     const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
     const double stiffness =
         std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
@@ -42,7 +44,8 @@ std::complex<double> rounded(const std::complex<S>& x) {
     return {as_double(x.real()), as_double(x.imag())};
 }
 
-inline double error_of_root(double square, double error) {
+REVCHAIN_LAZY
+double error_of_root(double square, double error) {
     return error / (std::sqrt(square) + std::sqrt(std::max(square - error, error)));
 }
 

@@ -25,7 +25,8 @@ struct Judgement {
 /// The verdict from squares of exponents and their errors. A square farther from the negative
 /// numbers than its error is unstable. A negative square separated from all others stays imaginary:
 /// squares leave the real axis in pairs, and those of a symmetric matrix never.
-inline Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
+REVCHAIN_LAZY
+Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
                           bool is_symmetric) {
     bool still = true;
     for (std::size_t j = 0; j < square.size(); ++j) {
@@ -195,7 +196,8 @@ Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const Ch
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& shape) {
+REVCHAIN_LAZY
+PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& shape) {
     PulledLinks result(chain.units);
     const std::vector<Link<double>> links = rounded<double>(chain.links);
     const auto [pull, doubt] = pulls(links, shape, chain.units);
@@ -204,7 +206,8 @@ inline PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& sha
     return result;
 }
 
-inline PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape) {
+REVCHAIN_LAZY
+PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape) {
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
     PulledLinks result(chain.units);
@@ -248,7 +251,8 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
 }
 
 /// Throws InvalidArgument if a moving pin has no mass, but for a balanced upper end.
-inline void require_mass(const PulledLinks& links, const Disturbed& d) {
+REVCHAIN_LAZY
+void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
     const auto top = static_cast<Index>(links.links.size());
     for (const Index pin : d.massless)
@@ -283,17 +287,20 @@ Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& 
 
 }  // namespace finite
 
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
     return finite::judged(frame, chain, shape);
 }
-REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
     return finite::judged(frame, chain, shape);
 }
 
 namespace finite {
 
 /// The shape of a rig. Momentum p of a link about its own axis adds p/a to the pull.
-inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
+REVCHAIN_LAZY
+PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
     result.turns_freely = given.support.symmetric;
@@ -317,7 +324,8 @@ inline PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const 
     return result;
 }
 
-inline bool displaces_turning_fluid(const Rig& rig) {
+REVCHAIN_LAZY
+bool displaces_turning_fluid(const Rig& rig) {
     for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
         if (rig.displaced(m).weight > 0) return true;
     return false;
@@ -349,7 +357,8 @@ REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed
 
 }  // namespace finite
 
-REVCHAIN_INLINE Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
+REVCHAIN_DEFINE
+Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
     finite::require_shape_of(rig.chain(), shape);

@@ -15,10 +15,12 @@ struct JudgedPlace {
     Verdict verdict;
 };
 
-inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
+REVCHAIN_LAZY
+Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
     return stability(chain, shape, frame).verdict;
 }
-inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShape& shape, StabilityFrame frame) {
+REVCHAIN_LAZY
+Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShape& shape, StabilityFrame frame) {
     const BranchSystem& system = *trace_of(branch).system;
     const RigStabilityOptions options{.frame = frame, .direction = system.direction, .gravity = system.gravity};
     return stability(rig, shape, options).verdict;
@@ -111,11 +113,13 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
 
 }  // namespace finite
 
-REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
+REVCHAIN_DEFINE
+std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
                                                                const StabilityWindowsOptions& options) {
     return finite::windows_of(chain, branch, options);
 }
-REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
+REVCHAIN_DEFINE
+std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
                                                                const StabilityWindowsOptions& options) {
     return finite::windows_of(rig, branch, options);
 }
