@@ -14,6 +14,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "revchain/methods.hpp"
 #include "support/truth.hpp"
 #include "timing.hpp"
 #include "worker/direct.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "modes_by_all_methods.hpp"
+#include "revchain/questions/modes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 template Modes<DoubleDouble> modes(const Chain<DoubleDouble>&, const ModesOptions<DoubleDouble>&);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 // Scalars in which the Python module does not compute.
 #include "revchain/questions/batch.hpp"
+#include "revchain/questions/modes.hpp"
 #include "revchain/questions/sensitivity.hpp"
-#include "modes_by_all_methods.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);

@@ -137,17 +137,31 @@ Modes<T> modes_by_bisection(const Chain<T>& chain, const ModesOptions<T>& option
         return modes_in_scalar(chain, options);
 }
 
+#if defined(REVCHAIN_COMPILED)
+/// Modes by the cheapest of all methods. The library has it, so that its users need not compile them.
+Modes<double> modes_by_all_methods(const Chain<double>& chain, const ModesOptions<double>& options);
+#endif
+
 }  // namespace detail
 
-#if !defined(REVCHAIN_COMPILED)  // the library answers with all methods
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
+#if defined(REVCHAIN_COMPILED)
+    if constexpr (std::is_same_v<T, double>) {
+        return detail::modes_by_all_methods(chain, options);
+    } else if constexpr (std::is_same_v<T, float>) {
+        detail::check(options);
+        return detail::modes_in_double(chain, options, detail::modes_by_all_methods);
+    } else {
+        return detail::modes_by_bisection(chain, options);
+    }
+#else
     if (options.method != ModesMethod::automatic && options.method != ModesMethod::bisection)
         detail::throw_invalid("modes",
                               "this method needs an include: write #include <revchain/methods.hpp> and "
                               "modes(chain, options, revchain::methods::all)");
     return detail::modes_by_bisection(chain, options);
-}
 #endif
+}
 
 }  // namespace revchain
