@@ -14,11 +14,10 @@
 #define REVCHAIN_INLINE
 #else
 #define REVCHAIN_DECLARE template <int = 0>
-#define REVCHAIN_DEFINE template <int>
+#define REVCHAIN_DEFINE template <int> inline
 #define REVCHAIN_INLINE inline
 #endif
-#define REVCHAIN_LAZY template <int = 0>
-
+#define REVCHAIN_LAZY template <int = 0> inline
 
 /// The same for functions that need GSL. Only the Python module and the tests define
 /// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.

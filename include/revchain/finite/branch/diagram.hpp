@@ -13,6 +13,7 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
+template <int = 0>  // compiled where a diagram is
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
@@ -53,6 +54,7 @@ class ChainQuestions {
     const DiagramOptions& options_;
 };
 
+template <int = 0>  // compiled where a diagram is
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const RigDiagramOptions& options)
@@ -331,11 +333,11 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions>(chain, options);
+    return finite::diagram_of<finite::ChainQuestions<>>(chain, options);
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions>(rig, options);
+    return finite::diagram_of<finite::RigQuestions<>>(rig, options);
 }
 
 }  // namespace revchain
