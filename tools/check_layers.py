@@ -100,7 +100,10 @@ MACROS_THAT_STAY = {
     "REVCHAIN_BUILD_LIBRARY",
     "REVCHAIN_JOIN",
     "REVCHAIN_JOINED",
-    "REVCHAIN_INLINE",  # before definitions of public functions
+    "REVCHAIN_DECLARE",  # before public functions that are not templates, and before their definitions
+    "REVCHAIN_DEFINE",
+    "REVCHAIN_LAZY",
+    "REVCHAIN_INLINE",
     "REVCHAIN_INLINE_ANALYTIC",
     "REVCHAIN_INLINED",  # before bodies of lambdas in kernels
     "REVCHAIN_SEVERAL_TARGETS",  # what kernels are compiled for

@@ -147,7 +147,7 @@ def symbol(code: list[str]) -> str:
     """The name that a declaration introduces; empty for an explicit instantiation."""
     if code[0].startswith("extern template"):
         return ""
-    whole = "\n".join(code).replace("[[nodiscard]] ", "")
+    whole = "\n".join(code).replace("[[nodiscard]] ", "").replace("REVCHAIN_DECLARE\n", "")
     whole = re.sub(r"^template\s*<.*?>\s*(requires .*?\n)?(?=\w)", "", whole, count=1, flags=re.DOTALL)
     if kind := re.match(r"(?:struct|class|enum class|concept|using)\s+(\w+)", whole):
         return kind[1]
