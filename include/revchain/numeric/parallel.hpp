@@ -89,7 +89,8 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
         } catch (const std::system_error&) {
         }  // no more threads: those started do the work
         ranges();
-        for (std::unique_lock lock(mutex); running > 0;) {
+        std::unique_lock lock(mutex);
+        while (running > 0) {
             ended.wait_for(lock, std::chrono::milliseconds(50));
             lock.unlock();
             look();
