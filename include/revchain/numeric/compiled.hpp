@@ -10,8 +10,8 @@
 #define REVCHAIN_INLINE inline
 #endif
 
-/// The same for functions that need GSL. Only the Python module and the tests define
-/// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
+/// REVCHAIN_INLINE_ANALYTIC marks definitions of functions that need GSL. Only the Python module and
+/// the tests define REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_INLINE_ANALYTIC
 #else

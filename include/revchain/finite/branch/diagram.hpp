@@ -12,7 +12,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
+/// Answers the questions of a diagram about a chain: lists of shapes, modes, limits of the proof.
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
