@@ -119,8 +119,8 @@ void compare_engines(const support::Family& family, Index n, Index asked, std::o
         for (Engine& e : engines) {
             e.heights.push_back(
                 1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).conical_height[0]; }, 1e-3));
-            e.shapes.push_back(1e6 *
-                               bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
+            e.shapes.push_back(
+                1e6 * bench::seconds_of([&] { sink += ask(e, Chain<double>(links)).shapes()(0, 0); }, 1e-3));
         }
     if (sink == 0) return;
     const Chain<DoubleDouble> exact = revchain::detail::converted<DoubleDouble>(chain);
@@ -128,8 +128,7 @@ void compare_engines(const support::Family& family, Index n, Index asked, std::o
     for (const Engine& e : engines) found.push_back(ask(e, chain));
     std::vector<double> worst(engines.size());
     for (Index j = 0; j < count; j += std::max<Index>(1, count / 50)) {  // a sample where there are many
-        const DoubleDouble height =
-            revchain::modes(exact, {.first = j + 1, .count = 1}, revchain::methods::all).conical_height[0];
+        const DoubleDouble height = revchain::modes(exact, {.first = j + 1, .count = 1}).conical_height[0];
         for (std::size_t i = 0; i < engines.size(); ++i) {
             const DoubleDouble off = (DoubleDouble(found[i].conical_height[j]) - height) / height;
             worst[i] = std::max(worst[i], std::abs(static_cast<double>(off)) / 0x1p-52);

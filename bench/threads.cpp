@@ -61,8 +61,7 @@ int main(int argc, char** argv) {
         (void)revchain::modes(many, {.count = revchain::all_modes, .threads = t}, revchain::methods::all);
     });
     report("100 heights of 3000 plummets by bisection", threads, repetitions, [&](Index t) {
-        (void)revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection},
-                              revchain::methods::all);
+        (void)revchain::modes(many, {.count = 100, .threads = t, .method = revchain::ModesMethod::bisection});
     });
     const auto modes_of_many = [&](Index t) {
         return revchain::modes(many, {.count = 100, .threads = t}, revchain::methods::all);

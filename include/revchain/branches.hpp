@@ -172,7 +172,8 @@ struct RigDiagramOptions {
 
 /// All branches found above one conical height.
 struct Branches {
-    /// Of the modes, slowest first, or the one from rest; then isolated ones by first point.
+    /// First the branches of the modes, slowest first, or the branch from rest; then isolated
+    /// branches, sorted by their first point.
     std::vector<Branch> branches;
     double conical_height = 0;  ///< lowest conical height of the diagram
     /// true if every branch ends at that height or is closed, and at every height of `looked_at`
@@ -273,12 +274,12 @@ struct ShapesOnBranch {
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
-/// The same for a rig. On the axis `mode` is a mode of the rig. Off the axis it must be 1: the
-/// branch from rest, followed from a ten-thousandth of the first critical speed, or from below the
-/// given speed. `tip_inclination` is the magnitude of the lowest link's inclination, off the axis
-/// the inclination outwards; it is between pi/2 and pi if that link stands. `top_tension` is the
-/// tension at the topmost pin, as in `SteadyShape::tension`. Also throws InvalidArgument for a link
-/// without effective tension.
+/// Returns the shape of a rig on one branch. On the axis `mode` is a mode of the rig. Off the axis
+/// it must be 1: the branch from rest, followed from a ten-thousandth of the first critical speed,
+/// or from below the given speed. `tip_inclination` is the magnitude of the lowest link's
+/// inclination, off the axis the inclination outwards; it is between pi/2 and pi if that link
+/// stands. `top_tension` is the tension at the topmost pin, as in `SteadyShape::tension`. Also
+/// throws InvalidArgument for a link without effective tension.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 

@@ -42,7 +42,7 @@ struct ChainUnits {
 template <Real T>
 class Chain {
    public:
-    /// What is the same for all links is stored once. Cost: 5 ns a link, 25 where no two are equal.
+    /// If all links are equal, one is stored. Cost: 7 ns a link, 33 if they differ.
     explicit Chain(const std::vector<Link<T>>& links) : Chain(links, equal_links(links)) {}
 
     /// `size` links from columns of `size` numbers or one.
@@ -125,8 +125,8 @@ class Chain {
 
    private:
     static bool equal_links(const std::vector<Link<T>>& links) {
-        return std::all_of(links.begin(), links.end(),
-                           [&](const Link<T>& link) { return link == links.front(); });
+        const auto as_first = [&](const Link<T>& link) { return link == links.front(); };
+        return !links.empty() && std::all_of(links.begin(), links.end(), as_first);
     }
     template <class V>
     static Column<V> column(const std::vector<Link<T>>& links, bool equal, V Link<T>::*member);

@@ -3,9 +3,7 @@
 
 #include <tuple>
 
-#include "revchain/models/long_chains.hpp"
-#include "revchain/models/many_modes.hpp"
-#include "revchain/models/within_tolerance.hpp"
+#include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
 
 /// Methods of `modes` that are faster for many modes, for long chains and for loose tolerances.
@@ -19,15 +17,22 @@
 /// `modes` has all of them in programs that link `revchain::compiled`.
 namespace revchain::inline REVCHAIN_BUILD {
 
+/// Lists of methods. A program compiles the methods that it names.
 namespace methods {
-/// All methods. A program compiles the methods that it names.
+/// Closed forms, zeros of Bessel functions and coarse chains: cheaper where a tolerance is given.
+inline constexpr std::tuple<models::ClosedForms, models::EqualPlummets, models::ContinuousChain,
+                            models::TaperedChain, models::CoarseChain>
+    within_tolerance{};
+/// All modes of a small chain at once, and many modes of a long one.
+inline constexpr std::tuple<models::Aberth, models::Interpolated> many_modes{};
+/// A few of the slowest modes of a chain of 256 links or more.
+inline constexpr std::tuple<models::Condensed> long_chains{};
+/// All of the above.
 inline constexpr auto all = std::tuple_cat(within_tolerance, many_modes, long_chains);
 }  // namespace methods
 
 /// The modes chosen by `options`, by the cheapest of `methods` and bisection whose error bound is
-/// at most `rtol`. `methods` is `methods::many_modes` (Aberth, interpolated),
-/// `methods::long_chains` (condensed), `methods::within_tolerance` (closed forms, zeros of Bessel
-/// functions, coarse chains), a tuple of your own (docs/howto/model.md), or `methods::all`.
+/// at most `rtol`. `methods` is a list above, or a tuple of your own models (docs/howto/model.md).
 /// Accuracy: as `modes`. Bounds are proved by counts; with `rtol`, those of closed forms,
 /// continuous chains and asymptotic formulas are derived and measured to hold, and `certify` proves
 /// them. Cost: all modes of 1000 links in 7 ms instead of 32 (`bench_all_modes engines`); `explain`

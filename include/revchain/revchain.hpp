@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-// The public headers that need Eigen alone, and the scalar DoubleDouble. Left out, because they
-// cost seconds of compile time: batch.hpp, rig_modes.hpp, stability.hpp and stability_windows.hpp.
-// What needs GSL is in revchain/analytic.hpp.
+// The public headers that need Eigen alone, and the scalar DoubleDouble. Left out, because they cost
+// seconds of compile time: batch.hpp, methods.hpp, rig_modes.hpp, stability.hpp and
+// stability_windows.hpp. The headers that need GSL are in revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                   // IWYU pragma: export
 #include "revchain/branches.hpp"               // IWYU pragma: export

@@ -64,13 +64,13 @@ struct Swing {
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Chain<double>& chain, const SwingOptions& options);
 
-/// The same for a rig that is stable at rest: a support that yields, with its carriage, still fluid
-/// with buoyancy and added mass, standing links. If the support yields, its offset and velocity may
-/// be given, last in each start; a carriage without weight goes where the chain pulls it. Links do
-/// not turn about their own axes, so axial moments of wheels have no effect.
-/// Also throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support
-/// that is carried round (`response`); for a fluid that turns; where the straight rig is unstable
-/// or in neutral balance (the message says how fast it falls); for lowest links without inertia.
+/// The swing of a rig that is stable at rest: with a support that yields, with its carriage, still
+/// fluid with buoyancy and added mass, standing links. If the support yields, its offset and
+/// velocity may be given, last in each start; a carriage without weight goes where the chain pulls
+/// it. Links do not turn about their own axes, so axial moments of wheels have no effect. Also
+/// throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support that is
+/// carried round (`response`); for a fluid that turns; where the straight rig is unstable or in
+/// neutral balance (the message says how fast it falls); for lowest links without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 

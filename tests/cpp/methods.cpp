@@ -22,10 +22,37 @@ namespace {
 /// As a program gets them that includes modes.hpp alone.
 template <class T>
 Modes<T> by_bisection(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
-    return revchain::detail::modes_by_bisection(chain, options);
+    return revchain::detail::modes_through(revchain::detail::modes_in_scalar<double>, chain, options);
 }
 
+/// A model of one's own: the height of one plummet is the length of its thread.
+struct OnePlummet {
+    static constexpr std::string_view name = "one plummet";
+    using Kind = revchain::models::ChainKind;
+    using Question = revchain::models::Question;
+    revchain::Fit applies(const Kind& kind, const Question&) const {
+        return kind.size == 1 && kind.plummets ? revchain::Fit{} : revchain::Fit::no("not one plummet");
+    }
+    double error_bound(const Kind&, const Question&) const { return 1e-15; }
+    double cost(const Kind&, const Question&) const { return 1e-9; }
+    revchain::models::Answer solve(const Chain<double>& chain, const Kind&, const Question& question) const {
+        return revchain::models::answer_of_each(question, [&](Index) {
+            return revchain::models::Enclosed{chain.total_length(), 1e-15};
+        });
+    }
+};
+
 }  // namespace
+
+TEST_CASE("a model of one's own is a method", "[linear]") {
+    const std::tuple<OnePlummet> own;
+    const auto m = revchain::modes(Chain<double>({revchain::plummet(2.0, 0.75)}), {.rtol = 1e-3}, own);
+    CHECK(m.method == "one plummet");
+    CHECK(m.conical_height[0] == 0.75);
+    CHECK(m.shape(0) == revchain::Vector<double>{{1.0, 0.0}});
+    const auto rods = revchain::modes(Chain<double>::uniform_rods(3), {.rtol = 1e-3}, own);
+    CHECK(rods.method == "bisection");
+}
 
 TEST_CASE("without further methods every height is within its bound, and the nearest double", "[linear]") {
     double worst = 0;

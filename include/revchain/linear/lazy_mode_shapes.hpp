@@ -71,6 +71,7 @@ class LazyModeShapes {
             ModeShapes<T> found = state.find(0, count, details, progress);
             state.has_details = details || found.residual.size() == count;
             // Offsets that are known may be in use.
+            // Offsets that are there already may be read by another thread.
             if (!state.has_offsets) state.known.offset = std::move(found.offset);
             state.known.residual = std::move(found.residual), state.known.nodes = std::move(found.nodes);
             state.has_offsets = true;

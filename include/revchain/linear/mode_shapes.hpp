@@ -55,13 +55,14 @@ void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
     shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, pin_places(chain), vector.crossings);
 }
 
-/// Shapes of the modes of `shapes`, eight at a time, and residuals if there is room. Pins of the
-/// pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a mode's root,
-/// `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)` receives the others.
+/// Shapes of the modes of `shapes`, `pencil::shape_lanes` at a time, and residuals if there is
+/// room. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a
+/// mode's root, `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)` receives the
+/// others.
 template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
-void shapes_in_eights(ModeShapes<T>& shapes,
-                      const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
-                      const Root& root, const Alone& alone, const Take& take, Progress* progress) {
+void shapes_by_lanes(ModeShapes<T>& shapes,
+                     const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
+                     const Root& root, const Alone& alone, const Take& take, Progress* progress) {
     const FloatingPointStateGuard quiet;
     const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
     const auto stride = static_cast<std::size_t>(shapes.offset.cols());
@@ -83,22 +84,22 @@ void shapes_in_eights(ModeShapes<T>& shapes,
             advance(progress, 1.0);  // may be cancelled
         }
     };
-    pencil::for_eights<T>(count, pencil.elements.size(), find);
+    pencil::for_lanes<T>(count, pencil.elements.size(), find);
 }
 
 /// Finds shapes of modes of a chain from heights in the units of its pencils.
 template <Real T>
 class ShapeFinder {
    public:
-    /// `loose`: T suffices at the height given; else shapes are found in `Wide<T>` at the height before it was rounded.
+    /// `loose`: T suffices at the height given; else shapes are found in `Wide<T>` at the height
+    /// before it was rounded.
     ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose)
         : chain_(chain), height_(std::move(height)), loose_(loose) {}
 
     /// The shapes of `count` modes from index `from` on; residuals and nodes if asked.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
-        const auto begin = height_.begin() + from;
-        const Heights<T> height(begin, begin + count);
+        const Heights<T> height = heights(from, count);
         ModeShapes<T> shapes = room_for_shapes(chain_, count, details);
         const Pencils<T> pencils(chain_);
         if constexpr (std::is_same_v<T, double>)
@@ -113,6 +114,11 @@ class ShapeFinder {
             }
         });
         return shapes;
+    }
+
+    const Chain<T>& chain() const { return chain_; }
+    Heights<T> heights(Index from, Index count) const {
+        return Heights<T>(height_.begin() + from, height_.begin() + from + count);
     }
 
    private:
@@ -139,7 +145,7 @@ class ShapeFinder {
             shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, places, crossed);
         };
         const auto one = [&](Index j) { alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]); };
-        shapes_in_eights(shapes, pencils.wide(), 0, root, one, take, progress);
+        shapes_by_lanes(shapes, pencils.wide(), 0, root, one, take, progress);
     }
 
     Chain<T> chain_;

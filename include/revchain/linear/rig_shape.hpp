@@ -91,7 +91,7 @@ class RigShapeFinder {
     const RigWord& root(Index j) const { return roots_[static_cast<std::size_t>(j)]; }
 
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
-        shapes_in_eights(shapes, *elements_, shape_.idle(),
+        shapes_by_lanes(shapes, *elements_, shape_.idle(),
             [&](Index j, RigWord& exact, RigWord& rounded) { exact = rounded = root(from + j); },
             [&](Index j) { shape_.find(shapes, j, root(from + j)); },
             [&](Index j, const auto&, std::size_t) { shape_.complete(shapes, j); }, progress);

@@ -3,9 +3,7 @@
 
 #include "revchain/models/double_double.hpp"
 #include "revchain/models/finite_amplitude.hpp"
-#include "revchain/models/long_chains.hpp"
-#include "revchain/models/many_modes.hpp"
-#include "revchain/models/within_tolerance.hpp"
+#include "revchain/models/for_modes.hpp"
 #include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::models {

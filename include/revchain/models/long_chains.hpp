@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <tuple>
-
 #include "revchain/linear/condensed_shapes.hpp"
 #include "revchain/models/bisection.hpp"
-#include "revchain/models/select.hpp"
 
 /// The method for a few of the slowest modes of a long chain, as a model. Its bounds are proved.
 namespace revchain::inline REVCHAIN_BUILD::models {
@@ -39,26 +36,6 @@ struct Condensed {
             revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
         return found ? detail::answered(chain, std::move(found->found)) : Answer::none();
     }
-    /// Shapes of modes found by any method; absent where lanes are faster.
-    template <std::same_as<double> T>
-    static std::optional<revchain::detail::ModeShapes<T>> shapes(const Chain<T>& chain, Index first,
-                                                                 const revchain::detail::Heights<T>& heights,
-                                                                 Progress* progress) {
-        return revchain::detail::condensed_shapes(chain, first, heights, progress);
-    }
 };
 
 }  // namespace revchain::models
-
-namespace revchain::inline REVCHAIN_BUILD::methods {
-
-/// The method for a few of the slowest modes of a chain of hundreds of links and more.
-inline constexpr std::tuple<models::Condensed> long_chains{};
-
-}  // namespace revchain::methods
-
-#if defined(REVCHAIN_COMPILED)
-namespace revchain::inline REVCHAIN_BUILD::models::detail {
-extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
-}  // namespace revchain::models::detail
-#endif

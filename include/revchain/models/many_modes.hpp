@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <tuple>
-
 #include "revchain/linear/aberth_heights.hpp"
 #include "revchain/linear/interpolated_heights.hpp"
 #include "revchain/models/bisection.hpp"
-#include "revchain/models/select.hpp"
 
 /// The methods for many modes at once, as models. Their bounds are proved.
 namespace revchain::inline REVCHAIN_BUILD::models {
@@ -77,17 +74,3 @@ struct Interpolated {
 };
 
 }  // namespace revchain::models
-
-namespace revchain::inline REVCHAIN_BUILD::methods {
-
-/// Methods that find many modes at once: all modes of a small chain, and of a long one.
-inline constexpr std::tuple<models::Aberth, models::Interpolated> many_modes{};
-
-}  // namespace revchain::methods
-
-#if defined(REVCHAIN_COMPILED)
-namespace revchain::inline REVCHAIN_BUILD::models::detail {
-extern template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&, const Question&);
-extern template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&, const Question&);
-}  // namespace revchain::models::detail
-#endif

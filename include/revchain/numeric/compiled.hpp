@@ -19,8 +19,8 @@
 #endif
 #define REVCHAIN_LAZY template <int = 0> inline
 
-/// The same for functions that need GSL. Only the Python module and the tests define
-/// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
+/// REVCHAIN_INLINE_ANALYTIC marks definitions of functions that need GSL. Only the Python module and
+/// the tests define REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_INLINE_ANALYTIC
 #else

@@ -27,8 +27,7 @@ class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {
         if (threads < 0) throw_invalid(place, "threads must not be negative", threads);
-        const auto processors = static_cast<Index>(std::thread::hardware_concurrency());
-        used_ = threads > 0 ? threads : std::max<Index>(1, processors);
+        used_ = threads > 0 ? threads : processors();
     }
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
@@ -36,6 +35,9 @@ class Threads {
     static Index used() { return used_; }
 
    private:
+    /// Reads a file: not for every question.
+    static Index processors() { return std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency())); }
+
     static inline thread_local Index used_ = 1;
     Index before_;
 };
@@ -89,7 +91,8 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
         } catch (const std::system_error&) {
         }  // no more threads: those started do the work
         ranges();
-        for (std::unique_lock lock(mutex); running > 0;) {
+        std::unique_lock lock(mutex);
+        while (running > 0) {
             ended.wait_for(lock, std::chrono::milliseconds(50));
             lock.unlock();
             look();

@@ -53,7 +53,7 @@ template <class T>
     return written(Limits::is_specialized ? Limits::max_digits10 : 17);
 }
 
-// What throws is cold: a compiler optimizes it for size, which takes less time.
+// Functions that throw are marked cold: a compiler optimizes them for size, which takes less time.
 template <class T>
 [[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function, std::string_view sentence,
                                                           const T& value) {

@@ -33,7 +33,7 @@ struct Segment {
     Index first = 0, last = 0;
 };
 
-/// Finds that bracket by counts, from `guess` on.
+/// Finds a bracket of the eigenvalues `first` ... `last - 1` by counts, starting at `guess`.
 template <class Pencil, Real T>
 Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     using std::ldexp;

@@ -29,7 +29,8 @@ bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& 
     return bracketed(count(std::array<S, 2>{centre - reach, centre + reach}), j);
 }
 
-/// The same for an eigenvalue of the exact pencil. Cost: one pass of two shifts in S.
+/// Whether eigenvalue number `j` of the exact pencil is proved to lie within a relative `margin` of
+/// `eigenvalue`. Cost: one pass of two shifts in S.
 template <Real S, Real T>
 bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, const Narrow<S>& margin) {
     const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };

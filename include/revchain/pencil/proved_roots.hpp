@@ -28,9 +28,9 @@ struct ProvedRoot {
 template <std::floating_point T>
 using ProvedRoots = std::optional<std::vector<ProvedRoot<T>>>;
 
-/// Calls f(first, count, scratch) for every eight of `count`, on several threads (`parallel_for`).
+/// Calls f(first, there, scratch) for `shape_lanes` of `count` roots at a time, by `parallel_for`.
 template <std::floating_point T, class F>
-void for_eights(std::size_t count, std::size_t links, const F& f) {
+void for_lanes(std::size_t count, std::size_t links, const F& f) {
     revchain::detail::parallel_for(count, shape_lanes, [&](std::size_t begin, std::size_t end) {
         with_shapes_in_lanes<T>(links, [&](ShapesInLanes<T>& scratch) {
             for (std::size_t first = begin; first < end; first += shape_lanes) {
@@ -97,7 +97,7 @@ ProvedRoots<T> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, b
     const std::size_t count = starts.size();
     std::vector<ProvedRoot<T>> roots(count);
     std::vector<T> reach(count);
-    for_eights<T>(count, pencil.elements.size(), [&](std::size_t from, std::size_t there, ShapesInLanes<T>& scratch) {
+    for_lanes<T>(count, pencil.elements.size(), [&](std::size_t from, std::size_t there, ShapesInLanes<T>& scratch) {
         QuotientsInLanes<T> found;
         for (std::size_t i = 0; i < shape_lanes; ++i) found.start[i] = starts[from + std::min(i, there - 1)];
         quotients_in_lanes(pencil, lumped, scratch, found);

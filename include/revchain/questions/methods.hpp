@@ -69,16 +69,10 @@ std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const m
     return heights;
 }
 
-/// Shapes by the method for long chains, where it is among the methods and pays.
-template <class... Models>
-std::optional<ModeShapes<double>> shapes_of_long_chain(const std::tuple<Models...>&, const Chain<double>& chain,
-                                                       Index first, const Heights<double>& heights,
-                                                       Progress* progress) {
-    if constexpr ((std::same_as<Models, models::Condensed> || ...))
-        return condensed_shapes(chain, first, heights, progress);
-    else
-        return std::nullopt;
-}
+template <class Model, class Methods>
+inline constexpr bool is_among = false;
+template <class Model, class... Models>
+inline constexpr bool is_among<Model, std::tuple<Models...>> = (std::same_as<Model, Models> || ...);
 
 /// Modes of a chain of doubles by any of the methods.
 template <class Methods>
@@ -86,29 +80,24 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
     LazyCounter<double> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
     Modes<double> result = room_for_modes<double>(range);
-    result.method = models::Bisection::name;
-    if (range.count == 0) {
-        ShapesBehind::of(result) = LazyModeShapes<double>(room_for_shapes(chain, 0));
-        return result;
-    }
-    models::Solution found = solved(chain, range, options, methods);
+    models::Solution found{{}, models::Bisection::name, Status::success};
+    if (range.count > 0) found = solved(chain, range, options, methods);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
+    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    ShapesBehind::of(result) =
-        LazyModeShapes<double>([chain, first = range.first, answer = std::move(found.answer), loose, methods,
-                                condense = options.method != ModesMethod::bisection,
-                                threads = options.threads](Index from, Index count, bool details, Progress* progress) {
-            const Threads used("modes", threads);
-            const Heights<double> all = heights_in_units(chain, answer);
-            const Heights<double> some(all.begin() + from, all.begin() + from + count);
+    auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose),
+                       condense = options.method != ModesMethod::bisection, first = range.first](
+                          Index from, Index count, bool details, Progress* progress) {
+        if constexpr (is_among<models::Condensed, Methods>)
             if (condense && count > 0)
-                if (auto shapes = shapes_of_long_chain(methods, chain, first + from, some, progress)) return *shapes;
-            return ShapeFinder<double>(chain, some, loose)(0, count, details, progress);
-        });
-    if (options.certify) certify(result, assembled.pencils(), chain.mode_count());
-    advance(options.progress, 1.0);
+                if (auto shapes = condensed_shapes(finder.chain(), first + from, finder.heights(from, count), progress))
+                    return std::move(*shapes);
+        return finder(from, count, details, progress);
+    };
+    ShapesBehind::of(result) = shapes_when_read<double>(std::move(find), options.threads);
+    if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }
 
@@ -116,20 +105,10 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
 
 template <Real T, class... Models>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options, const std::tuple<Models...>& methods) {
-    const auto in_double = [all = detail::with_bisection(methods)](const Chain<double>& wide,
-                                                                   const ModesOptions<double>& asked) {
-        detail::check(asked);
-        const detail::Threads threads("modes", asked.threads);
-        return detail::modes_by(all, wide, asked);
+    const auto in_double = [&](const Chain<double>& wide, const ModesOptions<double>& asked) {
+        return detail::modes_by(detail::with_bisection(methods), wide, asked);
     };
-    if constexpr (std::is_same_v<T, double>) {
-        return in_double(chain, options);
-    } else if constexpr (std::is_same_v<T, float>) {
-        detail::check(options);
-        return detail::modes_in_double(chain, options, in_double);
-    } else {
-        return detail::modes_by_bisection(chain, options);
-    }
+    return detail::modes_through(in_double, chain, options);
 }
 
 }  // namespace revchain

@@ -50,12 +50,13 @@ void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
     });
 }
 
-template <Real T>
-LazyModeShapes<T> shapes_when_read(ShapeFinder<T> finder, Index threads) {
-    return LazyModeShapes<T>([finder = std::move(finder), threads](Index first, Index count,
-                                                                   bool details, Progress* progress) {
+/// Shapes that `find(first, count, details, progress)` finds on so many threads when they are read.
+template <Real T, class Find>
+LazyModeShapes<T> shapes_when_read(Find find, Index threads) {
+    return LazyModeShapes<T>([find = std::move(find), threads](Index first, Index count, bool details,
+                                                               Progress* progress) {
         const Threads used("modes", threads);
-        return finder(first, count, details, progress);
+        return find(first, count, details, progress);
     });
 }
 
@@ -118,21 +119,23 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     }
     if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
     ShapesBehind::of(result) =
-        shapes_when_read(ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage)), options.threads);
+        shapes_when_read<T>(ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage)), options.threads);
     if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }
 
-/// Modes by bisection. Throws InvalidArgument for a method that needs an include of its own.
-template <Real T>
-Modes<T> modes_by_bisection(const Chain<T>& chain, const ModesOptions<T>& options) {
+/// Modes of a chain of any scalar, those of doubles and floats by `in_double(chain, options)`.
+template <Real T, class InDouble>
+Modes<T> modes_through(const InDouble& in_double, const Chain<T>& chain, const ModesOptions<T>& options) {
     static_assert(
         !std::is_same_v<T, DoubleWord<double>> && !std::is_same_v<T, DoubleWord<long double>>,
         "a double word is the working arithmetic of a narrower scalar; as a scalar of its own take DoubleDouble");
     check(options);
     const Threads threads("modes", options.threads);
-    if constexpr (std::is_same_v<T, float>)
-        return modes_in_double(chain, options, modes_in_scalar<double>);
+    if constexpr (std::is_same_v<T, double>)
+        return in_double(chain, options);
+    else if constexpr (std::is_same_v<T, float>)
+        return modes_in_double(chain, options, in_double);
     else
         return modes_in_scalar(chain, options);
 }
@@ -147,20 +150,13 @@ Modes<double> modes_by_all_methods(const Chain<double>& chain, const ModesOption
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
 #if defined(REVCHAIN_COMPILED)
-    if constexpr (std::is_same_v<T, double>) {
-        return detail::modes_by_all_methods(chain, options);
-    } else if constexpr (std::is_same_v<T, float>) {
-        detail::check(options);
-        return detail::modes_in_double(chain, options, detail::modes_by_all_methods);
-    } else {
-        return detail::modes_by_bisection(chain, options);
-    }
+    return detail::modes_through(detail::modes_by_all_methods, chain, options);
 #else
     if (options.method != ModesMethod::automatic && options.method != ModesMethod::bisection)
         detail::throw_invalid("modes",
                               "this method needs an include: write #include <revchain/methods.hpp> and "
                               "modes(chain, options, revchain::methods::all)");
-    return detail::modes_by_bisection(chain, options);
+    return detail::modes_through(detail::modes_in_scalar<double>, chain, options);
 #endif
 }
 

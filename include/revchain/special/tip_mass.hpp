@@ -111,7 +111,7 @@ inline Index check(std::string_view where, std::string_view name, Index number, 
     revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
 
-/// What all modes share, and z_L - z_0 of each mode.
+/// The data that all modes share, and z_L - z_0 of each mode.
 struct Ends {
     TwoDoubles share;  ///< length / (length + tip)
     TwoDoubles ratio;  ///< z_0 / z_L

@@ -72,7 +72,7 @@ Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T wei
 template <Real T>
 template <class V>
 Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::*member) {
-    if (equal && !links.empty()) return links.front().*member;
+    if (equal) return links.front().*member;
     std::vector<V> values(links.size());
     std::transform(links.begin(), links.end(), values.begin(), [&](const Link<T>& link) { return link.*member; });
     return values;

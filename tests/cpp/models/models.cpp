@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // Truth: `modes` to the last digit (0.5 ulp, itself tested against quadruple precision). Error: relative.
+#include "revchain/methods.hpp"
 #include "revchain/models/heights.hpp"
 #include "revchain/modes.hpp"
 

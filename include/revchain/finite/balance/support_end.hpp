@@ -54,8 +54,8 @@ struct Held {
 template <class End>
 inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
-/// What the sweep needs of a chain: its support, the posture in which all links hang, its links,
-/// and whether all links may stand (never: nothing would bear the load). See also `RiggedLinks`.
+/// The sweep of a chain asks these functions for its support, for the posture in which all links
+/// hang, and whether all links may stand (never: nothing would bear the load). See `RiggedLinks`.
 REVCHAIN_LAZY
 OnAxis support_of(const Links<Fine>&) { return {}; }
 REVCHAIN_LAZY

@@ -12,7 +12,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// What a diagram needs of a chain: lists of shapes, modes, and whether a proof covers it.
+/// Answers the questions of a diagram about a chain: lists of shapes, modes, limits of the proof.
 template <int = 0>  // compiled where a diagram is
 class ChainQuestions {
    public:

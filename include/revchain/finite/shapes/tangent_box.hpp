@@ -41,32 +41,33 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     return result;
 }
 
-/// The inverse by elimination, if it is finite. Eigen's LU would add a quarter to the compile time
-/// of `steady_shapes`.
+/// The inverse of a matrix of n rows, by elimination, if it is finite. Eigen's LU would add a
+/// quarter to the compile time of `steady_shapes`.
 template <Real T>
-std::optional<Table<T>> inverse_of(const Table<T>& a) {
+std::optional<std::vector<T>> inverse_of(const std::vector<T>& a, std::size_t n) {
     using std::abs, std::isfinite;
-    const Index n = a.rows();
-    Table<T> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
-    for (Index i = 0; i < n; ++i)
-        for (Index k = 0; k < n; ++k) rows(i, k) = a(i, k), rows(i, n + k) = T(i == k ? 1 : 0);
-    for (Index j = 0; j < n; ++j) {
-        Index pivot = j;
-        for (Index i = j + 1; i < n; ++i)
-            if (abs(rows(i, j)) > abs(rows(pivot, j))) pivot = i;
-        const T top = rows(pivot, j);
-        if (!(abs(top) > T(0))) return std::nullopt;
-        if (pivot != j) rows.row(j).swap(rows.row(pivot));
-        for (Index k = j; k < 2 * n; ++k) rows(j, k) /= top;
-        for (Index i = 0; i < n; ++i)
-            if (const T share = rows(i, j); i != j && share != T(0))
-                for (Index k = j; k < 2 * n; ++k) rows(i, k) -= share * rows(j, k);
+    std::vector<std::vector<T>> rows(n, std::vector<T>(2 * n));  // of a, and beside them those of its inverse
+    for (std::size_t i = 0; i < n; ++i) {
+        std::copy_n(&a[i * n], n, rows[i].begin());
+        rows[i][n + i] = T(1);
     }
-    Table<T> inverse(n, n);
-    for (Index i = 0; i < n; ++i)
-        for (Index k = 0; k < n; ++k) {
-            inverse(i, k) = rows(i, n + k);
-            if (!isfinite(inverse(i, k))) return std::nullopt;
+    for (std::size_t j = 0; j < n; ++j) {
+        std::size_t pivot = j;
+        for (std::size_t i = j + 1; i < n; ++i)
+            if (abs(rows[i][j]) > abs(rows[pivot][j])) pivot = i;
+        std::swap(rows[j], rows[pivot]);
+        const T top = rows[j][j];
+        if (!(abs(top) > T(0))) return std::nullopt;
+        for (std::size_t k = j; k < 2 * n; ++k) rows[j][k] /= top;
+        for (std::size_t i = 0; i < n; ++i)
+            if (const T share = rows[i][j]; i != j && share != T(0))
+                for (std::size_t k = j; k < 2 * n; ++k) rows[i][k] -= share * rows[j][k];
+    }
+    std::vector<T> inverse;
+    for (const std::vector<T>& row : rows)
+        for (std::size_t k = n; k < 2 * n; ++k) {
+            if (!isfinite(row[k])) return std::nullopt;
+            inverse.push_back(row[k]);
         }
     return inverse;
 }
@@ -131,8 +132,8 @@ class WholeBalance {
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T> product(T(0));  // of the inverse and B
                 for (std::size_t q = 0; q < size_; ++q)
-                    product = product + Interval<T>((*inverse)(m, q)) * matrix_[q * size_ + r];
-                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)(m, r)) * stiffness_[r];
+                    product = product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
+                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
                 if (m == r) entry = entry + Interval<T>(T(1));
                 sum = sum + entry * off[r];
             }
@@ -169,7 +170,7 @@ class WholeBalance {
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)(m, r))) * terms[r];
+            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)[m * size_ + r])) * terms[r];
             const double tangent = as_double(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
@@ -209,21 +210,21 @@ class WholeBalance {
         return F;
     }
     /// The inverse of the derivative, in T: double would not do near a critical height.
-    std::optional<Table<T>> inverse_at(const std::vector<T>& t) const {
+    std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
         using std::sqrt;
-        Table<T> jacobian(size_, size_);
+        std::vector<T> jacobian(size_ * size_);
         for (std::size_t r = 0; r < size_; ++r) {
             const T secant_squared = T(1) + t[r] * t[r];
             const T slope = T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
-            for (std::size_t m = 0; m < size_; ++m) jacobian(m, r) = -(middle_[m * size_ + r] * slope);
-            jacobian(r, r) += stiffness_[r].middle();
+            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
+            jacobian[r * size_ + r] += stiffness_[r].middle();
         }
-        return inverse_of(jacobian);
+        return inverse_of(jacobian, size_);
     }
-    TangentBox<T> scaled(const Table<T>& a, const TangentBox<T>& x) const {
+    TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {
         TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a(m, r)) * x[r];
+            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
         return result;
     }
 

@@ -210,7 +210,7 @@ Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vect
     return result;
 }
 
-/// Of two mirror images chooses the one with its free end at a positive offset.
+/// Mirrors a shape, where that is a shape too, so that its free end has a positive offset.
 template <class End>
 void turn_outwards(Balanced<Fine>& shape, const End& support) {
     if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();

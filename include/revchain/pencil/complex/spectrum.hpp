@@ -119,7 +119,7 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
 }
 
 /// Roots of the real polynomial: first those on the real axis, within the share `flat`, then pairs.
-/// Nothing unless as many are above the axis as below.
+/// Absent unless as many roots are above the axis as below.
 struct Conjugates {
     std::vector<ComplexWord> roots;
     std::size_t real = 0;

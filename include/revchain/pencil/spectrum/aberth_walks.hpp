@@ -217,7 +217,7 @@ template <bool rigid, bool tall, std::size_t P>
             const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
             const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
             const Four square = gap * gap * Four(flexibility_above[m]);
-            const Four other = joined.square * energy, own = square * joined.energy;  // NaN: no
+            const Four other = joined.square * energy, own = square * joined.energy;  // comparisons with NaN are false
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);

@@ -27,9 +27,10 @@ inline constexpr std::size_t sample_packs = 6;
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// With `count` it also counts eigenvalues below the shift; else `history` receives the sign of the
-/// offset after every `history_step` links from the free end, 64 signs to a word, the first in the
-/// highest bit used. Cost per shift and link (AVX-512): 0.13 ns without cross masses, 0.23 with.
+/// With `count` it also counts eigenvalues below the shift. Without, it stores in `history` the sign
+/// of the offset after every `history_step` links from the free end: 64 signs in a word, the first
+/// sign in the highest of the bits that are used. Cost per shift and link (AVX-512): 0.13 ns without
+/// cross masses, 0.23 with.
 template <class V, bool has_cross, bool count>
 [[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts, Sample* samples,
                                           std::uint64_t* history) {
