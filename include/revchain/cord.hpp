@@ -90,12 +90,14 @@ struct CordModesOptions {
 /// microseconds a mode; power series 1 ms for each mode up to the last one wanted. Throws
 /// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with
 /// series for modes above number 1e5, a density too rough or a tip too heavy.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Cord& cord, const CordModesOptions& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the given
 /// one may be counted on either side. Cost: that of some 40 modes, with series one path. Throws
 /// InvalidArgument unless exactly one of height and speed is given, positive and finite, for more
 /// than 1e15 modes, and with series for a length above 1e6 heights.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
 /// Modes of a uniform cord that a tension holds straight between two points of the axis, and how
@@ -106,7 +108,9 @@ struct CordModesOptions {
 /// (tests/cpp/cord.cpp); offsets within 1e-15 times the mode number of the largest one. Cost: as
 /// with a tip weight. Throws InvalidArgument for a span, for a tension that does not exceed the
 /// weight (the cord would not be straight), and as for a hanging cord.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordModes modes(const Held<Cord>& held, const CordModesOptions& options = {});
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// d(conical height)/d(datum) of each mode, (k,), all else constant; dn = -n/(2 lambda) dlambda.
@@ -126,6 +130,7 @@ struct CordSensitivity {
 /// Heights are proportional to the length; otherwise they depend only on ratios of weights (and
 /// tension). Accuracy: 1e-12 of the height over the datum (tests/cpp/held_cord.cpp). Cost: some 800
 /// offsets and slopes a mode; held at both ends two slopes, or 16 for each half wave.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSensitivity sensitivity(const CordModes& modes);
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed through every fold
@@ -140,6 +145,7 @@ struct CordSensitivity {
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and
 /// speed is given, positive and finite, a height not below that of the mode, a length above 1e6
 /// heights.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
 /// How far to follow all branches of a cord. Give either `min_conical_height` or
@@ -161,6 +167,7 @@ struct CordDiagramOptions {
 /// theorem counts the shapes (finite/cord/continuous_chain.hpp): a uniform cord, a power s^p
 /// without a tip or with p below 0, and one mode.
 /// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
 /// The first shape along the branch of a mode at which one number is as given, as for a chain.
@@ -168,10 +175,12 @@ struct CordDiagramOptions {
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-14 of the one at which the number is reached
 /// (tests/cpp/cord_branches.cpp). Cost: that of the branch up to there. Throws as for a chain.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
 /// All shapes on the branch at which the number is as given, at most `max_shapes`; none where the
 /// number is not reached. Otherwise as `steady_shape`.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
                                                   std::size_t max_shapes = all_shapes);
 
@@ -236,6 +245,7 @@ struct CordSwing {
 /// Throws InvalidArgument for starts that are not finite, continuous, of the length of
 /// `arc_length`, or 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,
 /// gravity not positive and times not finite.
+REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 
 }  // namespace revchain

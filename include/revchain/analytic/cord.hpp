@@ -50,7 +50,8 @@ struct StringMode {
 };
 
 /// The tension at the lower end as the length of cord that weighs as much.
-inline Wide<double> lower_length(std::string_view place, const Held<Cord>& of, double gravity) {
+REVCHAIN_LAZY
+Wide<double> lower_length(std::string_view place, const Held<Cord>& of, double gravity) {
     return lower_tension(place, of, gravity).tension / Wide<double>(of.system().weight()) *
            Wide<double>(of.system().length());
 }
@@ -77,7 +78,8 @@ struct CordMethod {
     bool is_closed;  ///< whether mode k is known without those before it
 };
 
-inline CordMethod method_for(const StraightCord& straight) {
+REVCHAIN_LAZY
+CordMethod method_for(const StraightCord& straight) {
     const double ulp = epsilon<double>();
     const Cord& cord = straight.cord;
     if (straight.held && straight.held->weightless) return {"half waves of a string", 2 * ulp, true};
@@ -102,7 +104,8 @@ auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
     return f(analytic::tip_mass::Mode(mode, length, cord.tip_length()));
 }
 
-inline double closed_height(const StraightCord& straight, Index mode) {
+REVCHAIN_LAZY
+double closed_height(const StraightCord& straight, Index mode) {
     if (straight.held && !straight.held->weightless)
         return analytic::taut_cord::conical_height(mode, straight.cord.length(), straight.taut);
     return in_closed_form(straight, mode, [](const auto& form) { return form.conical_height(); });
@@ -120,7 +123,8 @@ auto with_mode(std::string_view place, const CordModes& modes, Index j, const F&
 }
 
 /// The number of conical heights that exceed `height`.
-inline Index modes_above(const StraightCord& straight, double height) {
+REVCHAIN_LAZY
+Index modes_above(const StraightCord& straight, double height) {
     if (!method_for(straight).is_closed)
         return finite::critical_heights_above(finite::ContinuousChain(straight.cord), height);
     constexpr Index most = 1'000'000'000'000'000;
@@ -136,7 +140,8 @@ inline Index modes_above(const StraightCord& straight, double height) {
 }
 
 /// The modes of a straight cord that the options choose.
-inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
+REVCHAIN_LAZY
+CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
     if (options.count == all_modes)
         throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
     double lowest = 1;
@@ -178,21 +183,25 @@ inline CordModes modes_of(const StraightCord& straight, const CordModesOptions& 
 
 }  // namespace detail
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Cord& cord, const CordModesOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordModes modes(const Cord& cord, const CordModesOptions& options) {
     detail::check(options);
     return detail::modes_of(cord, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordModes modes(const Held<Cord>& held, const CordModesOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordModes modes(const Held<Cord>& held, const CordModesOptions& options) {
     detail::check(options);
     return detail::modes_of({"modes", held, options.gravity}, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC Index count_modes(const Cord& cord, const CountOptions<double>& options) {
+REVCHAIN_DEFINE_ANALYTIC
+Index count_modes(const Cord& cord, const CountOptions<double>& options) {
     return detail::modes_above(cord, detail::height_given("count_modes", options));
 }
 
-REVCHAIN_INLINE_ANALYTIC Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
+REVCHAIN_DEFINE_ANALYTIC
+Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
     return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
 }
 
@@ -236,14 +245,16 @@ REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::period(double gravity) const 
 namespace detail {
 
 /// The height at which a mode leaves the vertical.
-inline double critical_height(std::string_view place, const Cord& cord, Index mode) {
+REVCHAIN_LAZY
+double critical_height(std::string_view place, const Cord& cord, Index mode) {
     if (!(mode >= 1 && mode <= 100'000)) throw_invalid(place, "mode must be from 1 to 100000", mode);
     return modes(cord, {.first = mode, .count = 1}).conical_height[0];
 }
 
 }  // namespace detail
 
-REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordBranch branch(const Cord& cord, const BranchOptions& options) {
     const double height = finite::lowest_height("branch", options);
     detail::require_positive("branch", "max_step", options.max_step);
     finite::length_in_heights("branch", cord.length(), height);
@@ -258,7 +269,8 @@ REVCHAIN_INLINE_ANALYTIC CordBranch branch(const Cord& cord, const BranchOptions
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
@@ -271,14 +283,16 @@ REVCHAIN_INLINE_ANALYTIC CordBranches branches(const Cord& cord, const CordDiagr
     return finite::CordDiagram(cord, critical.head(count).eval(), height, options).run();
 }
 
-REVCHAIN_INLINE_ANALYTIC CordShapesOnBranch shapes_on_branch(const Cord& cord,
+REVCHAIN_DEFINE_ANALYTIC
+CordShapesOnBranch shapes_on_branch(const Cord& cord,
                                                              const OnBranchOptions& options,
                                                              std::size_t max_shapes) {
     const double critical = detail::critical_height("steady_shape", cord, options.mode);
     return finite::search_branch(cord, critical, options, max_shapes);
 }
 
-REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
     CordShapesOnBranch found = shapes_on_branch(cord, options, 1);
     if (found.shapes.empty())
         detail::throw_invalid("steady_shape",
@@ -291,7 +305,8 @@ REVCHAIN_INLINE_ANALYTIC CordShape steady_shape(const Cord& cord, const OnBranch
 
 /// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
 /// lambda integral of V y_k' f' / N, N = lambda integral of V y_k'^2. The density may jump.
-REVCHAIN_INLINE_ANALYTIC CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
+REVCHAIN_DEFINE_ANALYTIC
+CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     using namespace detail;
     constexpr std::string_view place = "swing";
     require_positive(place, "gravity", options.gravity);

@@ -13,7 +13,8 @@ namespace detail {
 /// moves lambda by lambda b y_b'^2 over the second integral (Hadamard), and lambda is homogeneous in
 /// a and b, so that the integral is b^2 y_b'^2 - a^2 y_a'^2. With a great pull that is a small
 /// difference, and Gauss's rule is used.
-inline double by_tension(const CordModes& modes, Index j, double lower) {
+REVCHAIN_LAZY
+double by_tension(const CordModes& modes, Index j, double lower) {
     const double length = modes.cord.length(), upper = lower + length, height = modes.conical_height[j];
     double ratio = 0;  // of the two integrals
     if (lower < length) {
@@ -40,7 +41,8 @@ inline double by_tension(const CordModes& modes, Index j, double lower) {
 
 }  // namespace detail
 
-REVCHAIN_INLINE_ANALYTIC CordSensitivity sensitivity(const CordModes& modes) {
+REVCHAIN_DEFINE_ANALYTIC
+CordSensitivity sensitivity(const CordModes& modes) {
     const Cord& cord = modes.cord;
     CordSensitivity result;
     result.first = modes.first, result.length = modes.conical_height / cord.length();

@@ -113,7 +113,8 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
 }
 
 /// Panels fine enough for modes up to number `modes`, and for a start.
-inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
+REVCHAIN_LAZY
+CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
                                const Vector<double>* places, Index modes) {
     const CordStartOnPanels panels;
     const double length = cord.length();
@@ -179,7 +180,8 @@ inline CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 
 
 /// Twice the sum of the modes left out, from the sums of amplitude times shape over modes K/2 ... K
 /// and K ... 2K at each point, whose ratio says how fast they fall.
-inline Vector<double> tail_estimate(const Vector<double>& before, const Vector<double>& after) {
+REVCHAIN_LAZY
+Vector<double> tail_estimate(const Vector<double>& before, const Vector<double>& after) {
     Vector<double> result(before.size());
     for (Index i = 0; i < before.size(); ++i) {
         const double ratio = before[i] > 0 ? after[i] / before[i] : 0.0;

@@ -19,10 +19,14 @@
 #endif
 #define REVCHAIN_LAZY template <int = 0> inline
 
-/// REVCHAIN_INLINE_ANALYTIC marks definitions of functions that need GSL. Only the Python module and
-/// the tests define REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
+/// The same for functions that need GSL. Only the Python module and the tests define
+/// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
+#define REVCHAIN_DECLARE_ANALYTIC
+#define REVCHAIN_DEFINE_ANALYTIC
 #define REVCHAIN_INLINE_ANALYTIC
 #else
+#define REVCHAIN_DECLARE_ANALYTIC template <int = 0>
+#define REVCHAIN_DEFINE_ANALYTIC template <int> inline
 #define REVCHAIN_INLINE_ANALYTIC inline
 #endif

@@ -6,13 +6,12 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/held/cord.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
+#include "revchain/finite/stability/stability.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/stability.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
-
-Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units);
 
 /// A shape of a cord along its arc, from the lower end, in any units of length and weight.
 struct CordProfile {
@@ -66,6 +65,7 @@ CordProfile profile_of(const HeldCordShape& shape) {
 /// rule; they need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
 /// rule on panels, or on each piece of the density in a panel, since near a free end it may be a
 /// power of the arc. The order is twice the number of nodes for smooth shapes.
+template <int = 0>  // compiled where it is used
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)

@@ -162,7 +162,8 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     return judgement;
 }
 
-REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
+REVCHAIN_LAZY
+Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
     const auto found = judged_in(frame, d, units);
     return found ? found->stability : Stability();
 }
@@ -264,7 +265,8 @@ void require_mass(const PulledLinks& links, const Disturbed& d) {
 }
 
 /// The verdict on a shape, in double or, if rounding spoils that, in double-double.
-REVCHAIN_INLINE Stability judged(StabilityFrame frame, const PulledLinks& links) {
+REVCHAIN_LAZY
+Stability judged(StabilityFrame frame, const PulledLinks& links) {
     constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
@@ -333,7 +335,8 @@ bool displaces_turning_fluid(const Rig& rig) {
 
 /// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
 /// shape with minimal potential energy, but for a rotation, is stable.
-REVCHAIN_INLINE Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
+REVCHAIN_LAZY
+Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;
     Matrix<double> in_plane = d.in_plane, across(0, 0);
     if (!free) {

@@ -5,6 +5,7 @@
 #include <complex>
 #include <optional>
 
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/complex_words.hpp"
 #include "revchain/numeric/scalar.hpp"
 
@@ -126,7 +127,8 @@ struct Inertia {
     Index negative = 0;
     double least = std::numeric_limits<double>::infinity();
 };
-inline Inertia inertia(const Matrix<double>& A) {
+REVCHAIN_LAZY
+Inertia inertia(const Matrix<double>& A) {
     if (A.size() == 0) return {};
     const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(A, Eigen::EigenvaluesOnly);
     return {(solver.eigenvalues().array() < 0).count(), solver.eigenvalues().minCoeff()};
