@@ -74,6 +74,7 @@ PUBLIC = {
     "rope.hpp": "special",
     "statics.hpp": "questions",
     "two_links.hpp": "paper",
+    "thorough.hpp": "numeric",
     "revchain.hpp": "",
     "analytic.hpp": "",
 }
@@ -104,6 +105,8 @@ MACROS_THAT_STAY = {
     "REVCHAIN_DEFINE",
     "REVCHAIN_LAZY",
     "REVCHAIN_INLINE",
+    "REVCHAIN_DECLARE_ANALYTIC",
+    "REVCHAIN_DEFINE_ANALYTIC",
     "REVCHAIN_INLINE_ANALYTIC",
     "REVCHAIN_INLINED",  # before bodies of lambdas in kernels
     "REVCHAIN_SEVERAL_TARGETS",  # what kernels are compiled for

@@ -96,7 +96,7 @@ int find_shapes(double speed, double budget) {
         direction = speed < 0 ? revchain::Rotation::backward : revchain::Rotation::forward;
         const revchain::RigShapesOptions options{
             .angular_speed = speed, .budget = static_cast<long>(budget), .gravity = gravity};
-        revchain::SteadyShapes found = revchain::steady_shapes(*rig, options);
+        revchain::SteadyShapes found = revchain::steady_shapes(*rig, options, revchain::thorough);
         shapes = std::move(found.shapes);
         put(found.complete), put(static_cast<double>(shapes.size()));
         for (const auto& shape : shapes) {
@@ -111,8 +111,8 @@ int judge_shapes(int first, int last) {
     return answered([&] {
         for (int i = first; i < last; ++i) {
             const auto& shape = shapes.at(static_cast<std::size_t>(i));
-            const revchain::Stability judged =
-                revchain::stability(*rig, shape, {.direction = direction, .gravity = gravity});
+            const revchain::RigStabilityOptions options{.direction = direction, .gravity = gravity};
+            const revchain::Stability judged = revchain::stability(*rig, shape, options, revchain::thorough);
             put(static_cast<double>(judged.verdict)), put(judged.growth_rate);
         }
     });
@@ -134,7 +134,7 @@ int find_branches(double speed, int lists, double budget, double proof_budget) {
                                                   .budget = static_cast<long>(budget),
                                                   .proof_budget = static_cast<long>(proof_budget),
                                                   .gravity = gravity};
-        const revchain::Branches found = revchain::branches(*rig, options);
+        const revchain::Branches found = revchain::branches(*rig, options, revchain::thorough);
         put(found.complete), put(static_cast<double>(found.branches.size()));
         for (const auto& branch : found.branches) put_branch(branch);
     });

@@ -153,7 +153,7 @@ struct DiagramOptions {
     double max_step = 0.1;                      ///< along the arc
     int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each
+    long proof_budget = 1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
@@ -190,8 +190,9 @@ struct Branches {
 /// Method: `branch` from every mode, then proved lists of all shapes (`steady_shapes`) at `lists`
 /// heights from the end up. Each shape is matched with a crossing of a branch. A shape without one
 /// lies on an isolated branch, which is followed from it both ways. `consistent` is true if all
-/// lists are proved complete and every shape in them is met once. finite::DiagramProver then proves
-/// that no loop opens and closes between two of the heights, or finds it, and sets `complete`.
+/// lists are proved complete and every shape in them is met once. With `thorough` as the last
+/// argument, or revchain::compiled, finite::DiagramProver then proves that no loop opens and closes
+/// between two of the heights, or finds it, and sets `complete`.
 /// `complete` is false if the budget of the proof is used up, or if links could hang at several
 /// inclinations; `remark` names the heights. The proof shows where branches are; that a computed
 /// branch is one of them is checked, not proved (see finite::BranchWalk).
@@ -200,9 +201,11 @@ struct Branches {
 /// eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with
 /// AVX-512; with SSE2 up to twice as long).
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
-/// >= 1.
+/// >= 1; and for links that may hang at several inclinations, unless `thorough` is given.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
+REVCHAIN_DECLARE
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
 /// if its support is off the axis, and isolated ones. Method and proof are those of chains.
@@ -216,6 +219,8 @@ REVCHAIN_DECLARE
 /// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
+REVCHAIN_DECLARE
+[[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough);
 
 /// Which shape on a branch of a chain or a rig. Give exactly one of the five numbers from
 /// `conical_height` to `top_tension`.

@@ -8,6 +8,7 @@
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/thorough.hpp"
 
 /// Stability of a steady shape: whether a small disturbance grows.
 ///
@@ -76,7 +77,8 @@ struct Stability {
 /// of drag over mass to each growth rate, for any shape.
 /// Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each error,
 /// and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, up
-/// to 100 motions are computed with twice the digits: masses 1e16 apart mostly to 2e-13 of the
+/// to 100 motions are computed with twice the digits if `thorough` is given, or in programs that
+/// link revchain::compiled: masses 1e16 apart mostly to 2e-13 of the
 /// largest (3e-11 at worst of 900 shapes), on arms and springs 5e-9, as the shape is given in
 /// double (tests/python/test_light_links.py).
 /// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
@@ -85,6 +87,9 @@ struct Stability {
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
+REVCHAIN_DECLARE
+[[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
+                                  StabilityFrame frame, Thorough);
 
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
@@ -95,6 +100,9 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
+REVCHAIN_DECLARE
+[[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
+                                  StabilityFrame frame, Thorough);
 
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {
@@ -123,6 +131,9 @@ struct RigStabilityOptions {
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});
+REVCHAIN_DECLARE
+[[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
+                                  const RigStabilityOptions& options, Thorough);
 
 }  // namespace revchain
 

@@ -8,6 +8,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/rig.hpp"
+#include "revchain/thorough.hpp"
 
 /// Steady shapes of a whirling chain at any inclination: relative equilibria in the turning frame.
 ///
@@ -87,9 +88,10 @@ struct SteadyShapes {
 
 /// All steady shapes (relative equilibria) of a chain that whirls at a given speed. `hanging_only`
 /// lists shapes with every link within a right angle of the downward vertical, otherwise any
-/// posture. Straight shapes are omitted. Of two mirror images the one with the free end at a
-/// positive offset is listed (if that is 0, the one whose lowest inclined link has a positive
-/// inclination).
+/// posture. Other postures, and links that hang at several inclinations under one load, take
+/// `thorough` as the last argument, or revchain::compiled. Straight shapes are omitted. Of two
+/// mirror images the one with the free end at a positive offset is listed (if that is 0, the one
+/// whose lowest inclined link has a positive inclination).
 ///
 /// Method: the offset of the support is a function of the tangent t of the lowest link's
 /// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with
@@ -116,10 +118,14 @@ struct SteadyShapes {
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
 /// D^-1/2 w| < |w|: only w = 0 is possible.
 /// An angular speed n gives the height g/n^2, formed in double-double.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite; and
+/// for links that stand or may hang at several inclinations, unless `thorough` is given.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
                                          const SteadyShapesOptions& options);
+REVCHAIN_DECLARE
+[[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
+                                         const SteadyShapesOptions& options, Thorough);
 
 /// All steady shapes of a rig that whirls at a given speed, in its posture or in any posture.
 /// Accuracy, cost and `complete` are those of chains (tests/cpp/finite/shapes/rigs.cpp); the cost
@@ -139,6 +145,8 @@ REVCHAIN_DECLARE
 /// moving weights balance about its pin.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
+REVCHAIN_DECLARE
+[[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options, Thorough);
 
 }  // namespace revchain
 

@@ -9,8 +9,9 @@ void fuzz::branches(Random& random) {
     const double height = random.number() * (random.one_in(2) ? 0.1 : 1) * hung.total_length();
     const std::uint64_t kind = random.below(3);
     if (kind == 0) {
-        (void)revchain::branches(hung,
-                                 {.min_conical_height = height, .lists = 2, .budget = 3000, .proof_budget = 3000});
+        const revchain::DiagramOptions options{
+            .min_conical_height = height, .lists = 2, .budget = 3000, .proof_budget = 3000};
+        (void)revchain::branches(hung, options, revchain::thorough);
     } else if (kind == 1) {
         const auto found = revchain::branch(hung, {.mode = mode, .min_conical_height = height, .max_points = 40});
         for (const auto& window : revchain::stability_windows(hung, found, {.tolerance = 1e-3, .samples = 1}))

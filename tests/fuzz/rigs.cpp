@@ -18,9 +18,10 @@ void fuzz::rigs(Random& random) {
         (void)revchain::sensitivity(rig, random.number(), offset, random.number());
     } else {
         const auto sense = random.one_in(2) ? revchain::Rotation::forward : revchain::Rotation::backward;
-        (void)revchain::steady_shapes(rig, {.conical_height = random.number() * rig.chain().total_length(),
-                                            .budget = 3000,
-                                            .hanging_only = random.one_in(2),
-                                            .direction = sense});
+        const revchain::RigShapesOptions options{.conical_height = random.number() * rig.chain().total_length(),
+                                                 .budget = 3000,
+                                                 .hanging_only = random.one_in(2),
+                                                 .direction = sense};
+        (void)revchain::steady_shapes(rig, options, revchain::thorough);
     }
 }

@@ -16,12 +16,14 @@ void fuzz::shapes(Random& random) {
     }
     const Chain<double> hung = random.chain(4);
     const double height = random.number() * hung.total_length();
-    const auto found =
-        revchain::steady_shapes(hung, {.conical_height = height, .budget = 5000, .hanging_only = random.one_in(2)});
+    const revchain::SteadyShapesOptions options{
+        .conical_height = height, .budget = 5000, .hanging_only = random.one_in(2)};
+    const auto found = revchain::steady_shapes(hung, options, revchain::thorough);
     for (const revchain::SteadyShape& shape : found.shapes) {
         expect_number(shape.inclination.sum());
         expect_number(shape.error_bound);
-        if (random.one_in(3)) (void)revchain::stability(hung, shape);
+        if (random.one_in(3))
+            (void)revchain::stability(hung, shape, revchain::StabilityFrame::free, revchain::thorough);
         if (random.one_in(3)) (void)revchain::force_diagram(hung, shape);
     }
 }

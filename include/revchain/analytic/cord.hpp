@@ -23,9 +23,7 @@ struct HeavyChainMode {
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
     double slope(double s) const { return analytic::heavy_chain::slope(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
-    Vector<double> vertical_points() const {
-        return analytic::heavy_chain::vertical_points(mode, length);
-    }
+    Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
 };
 
 /// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as much.
@@ -41,9 +39,7 @@ struct StringMode {
     }
     double shape(double s) const { return s < length ? std::sin(waves * s / length) : 0.0; }
     double slope(double s) const { return waves / length * std::cos(waves * s / length); }
-    Vector<double> nodes() const {
-        return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1);
-    }
+    Vector<double> nodes() const { return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1); }
     Vector<double> vertical_points() const {
         return Vector<double>::LinSpaced(mode, 0.5, number - 0.5) * (length / number);
     }
@@ -83,8 +79,7 @@ CordMethod method_for(const StraightCord& straight) {
     const double ulp = epsilon<double>();
     const Cord& cord = straight.cord;
     if (straight.held && straight.held->weightless) return {"half waves of a string", 2 * ulp, true};
-    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0)
-        return {"zeros of J_0", 3 * ulp, true};
+    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0) return {"zeros of J_0", 3 * ulp, true};
     if (cord.is_uniform()) return {"zeros of a cross product of Bessel functions", 2 * ulp, true};
     if (cord.exponent() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
     return {"power series", 4e-15, false};
@@ -95,11 +90,9 @@ template <class F>
 auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
     const Cord& cord = straight.cord;
     const double length = cord.length();
-    if (straight.held && straight.held->weightless)
-        return f(StringMode{mode, length, straight.taut});
+    if (straight.held && straight.held->weightless) return f(StringMode{mode, length, straight.taut});
     if (straight.held) return f(analytic::taut_cord::Mode(mode, length, straight.taut));
-    if (!cord.is_uniform())
-        return f(analytic::tapered_chain::Mode(mode, length, *cord.exponent()));
+    if (!cord.is_uniform()) return f(analytic::tapered_chain::Mode(mode, length, *cord.exponent()));
     if (cord.tip_weight() == 0) return f(HeavyChainMode{mode, length});
     return f(analytic::tip_mass::Mode(mode, length, cord.tip_length()));
 }
@@ -132,8 +125,7 @@ Index modes_above(const StraightCord& straight, double height) {
     while (closed_height(straight, not_above) > height) {
         above = not_above, not_above *= 2;
         if (not_above > most)
-            throw_invalid("count_modes", "there are more than 1e15 modes above conical height",
-                          height);
+            throw_invalid("count_modes", "there are more than 1e15 modes above conical height", height);
     }
     const auto side = [&](Index mode) { return closed_height(straight, mode) > height ? -1 : 1; };
     return halved(above, not_above, side).first;
@@ -146,20 +138,18 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
         throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
     double lowest = 1;
     if (options.conical_height) lowest = options.conical_height->low;
-    if (options.angular_speed)
-        lowest = window_of_heights(*options.angular_speed, options.gravity).low;
+    if (options.angular_speed) lowest = window_of_heights(*options.angular_speed, options.gravity).low;
     if (!(lowest > 0))
-        throw_invalid("modes", "a cord has infinitely many modes; the window must end at a height "
-                               "above 0, or at a finite speed; its lowest height is",
+        throw_invalid("modes",
+                      "a cord has infinitely many modes; the window must end at a height "
+                      "above 0, or at a finite speed; its lowest height is",
                       lowest);
     const auto above = [&](double height) { return modes_above(straight, height); };
-    const ModeRange range = chosen(all_modes, options, above, [&](double speed) {
-        return above(options.gravity / speed / speed);
-    });
+    const ModeRange range =
+        chosen(all_modes, options, above, [&](double speed) { return above(options.gravity / speed / speed); });
     const CordMethod method = method_for(straight);
     CordModes result{straight.cord, range.first, Vector<double>(range.count),
-                     Vector<double>::Constant(range.count, method.error_bound),
-                     std::string(method.name)};
+                     Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
     result.held = straight.held;
     if (!method.is_closed && range.count > 0) {
         const finite::ContinuousChain chain(straight.cord);
@@ -176,8 +166,7 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
         result.conical_height[j] = closed_height(straight, range.first + j);
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all())
-        result.status = Status::tolerance_not_met;
+    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all()) result.status = Status::tolerance_not_met;
     return result;
 }
 
@@ -261,10 +250,8 @@ CordBranch branch(const Cord& cord, const BranchOptions& options) {
     const double critical = detail::critical_height("branch", cord, options.mode);
     if (!(height < critical))
         detail::throw_invalid("branch",
-                              "mode " + std::to_string(options.mode) +
-                                  " leaves the vertical at the conical height " +
-                                  detail::in_digits(critical) +
-                                  ": the height to follow it to must be less",
+                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                                  detail::in_digits(critical) + ": the height to follow it to must be less",
                               height);
     return finite::branch_of_mode(cord, critical, height, options);
 }
@@ -274,8 +261,7 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
-    if (options.lists < 1)
-        detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     Index count = count_modes(cord, {.conical_height = height});
     Vector<double> critical;
     if (count > 0) critical = modes(cord, {.count = count}).conical_height;
@@ -284,9 +270,7 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
 }
 
 REVCHAIN_DEFINE_ANALYTIC
-CordShapesOnBranch shapes_on_branch(const Cord& cord,
-                                                             const OnBranchOptions& options,
-                                                             std::size_t max_shapes) {
+CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options, std::size_t max_shapes) {
     const double critical = detail::critical_height("steady_shape", cord, options.mode);
     return finite::search_branch(cord, critical, options, max_shapes);
 }
@@ -296,8 +280,7 @@ CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
     CordShapesOnBranch found = shapes_on_branch(cord, options, 1);
     if (found.shapes.empty())
         detail::throw_invalid("steady_shape",
-                              "the number is not met on the branch of mode " +
-                                  std::to_string(options.mode) +
+                              "the number is not met on the branch of mode " + std::to_string(options.mode) +
                                   ", which was followed to the conical height",
                               found.searched_to);
     return std::move(found.shapes.front());
@@ -317,8 +300,7 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     CordSwing result;
     result.arc_length = options.arc_length;
     const double length = cord.length();
-    if (result.arc_length.size() == 0)
-        result.arc_length = Vector<double>::LinSpaced(101, 0, length);
+    if (result.arc_length.size() == 0) result.arc_length = Vector<double>::LinSpaced(101, 0, length);
     const Vector<double>& arc = result.arc_length;
     for (Index i = 0; i < arc.size(); ++i)
         if (!(arc[i] >= 0 && arc[i] <= length && (i == 0 || arc[i] > arc[i - 1])))

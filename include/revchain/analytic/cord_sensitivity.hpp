@@ -26,8 +26,7 @@ double by_tension(const CordModes& modes, Index j, double lower) {
         const auto node = [&](Index i) { return rule[static_cast<std::size_t>(i % nodes)]; };
         Vector<double> arc(panels * nodes);
         for (Index i = 0; i < arc.size(); ++i)
-            arc[i] = length * (static_cast<double>(i / nodes) + node(i).first) /
-                     static_cast<double>(panels);
+            arc[i] = length * (static_cast<double>(i / nodes) + node(i).first) / static_cast<double>(panels);
         const Vector<double> slope = modes.slope(j, arc);
         double free = 0, pulled = 0;
         for (Index i = 0; i < arc.size(); ++i) {
@@ -52,8 +51,8 @@ CordSensitivity sensitivity(const CordModes& modes) {
         const double tension = modes.held->tension->high;
         const double lower = detail::lower_length("sensitivity", {cord, *modes.held}, 1.0).high;
         for (Index j = 0; j < modes.size(); ++j)
-            result.tension[j] = modes.held->weightless ? -modes.conical_height[j] / tension
-                                                       : detail::by_tension(modes, j, lower);
+            result.tension[j] =
+                modes.held->weightless ? -modes.conical_height[j] / tension : detail::by_tension(modes, j, lower);
         result.weight = -tension / cord.weight() * result.tension;  // heights depend on the ratio alone
         return result;
     }
@@ -69,8 +68,7 @@ CordSensitivity sensitivity(const CordModes& modes) {
             const double form = -share * (2 * offset[i] + height * slope[i]);
             const double part = at[i] / cord.length();
             whole += share * slope[i] * nodes.below[k], tip += form;
-            if (cord.exponent())
-                exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
+            if (cord.exponent()) exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
         }
         result.tip_weight[j] = tip / whole, result.exponent[j] = exponent * cord.weight() / whole;
     }

@@ -43,8 +43,7 @@ class CordStartOnPanels {
         for (std::size_t i = 0; i < nodes; ++i)
             for (std::size_t k = 0; k < nodes; ++k)
                 if (k != i)
-                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) /
-                                 (rule_[i].first - rule_[k].first);
+                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) / (rule_[i].first - rule_[k].first);
         return result;
     }
 
@@ -67,9 +66,7 @@ struct CordStartNodes {
     std::vector<double> arc, weight, below;           // `below`: the weight below, with the tip
     std::array<std::vector<double>, 2> value, slope;  // of offset and velocity, the slope by s
 
-    Vector<double> arcs() const {
-        return Eigen::Map<const Vector<double>>(arc.data(), static_cast<Index>(arc.size()));
-    }
+    Vector<double> arcs() const { return Eigen::Map<const Vector<double>>(arc.data(), static_cast<Index>(arc.size())); }
 };
 
 using CordFunction = std::function<double(double)>;
@@ -89,15 +86,16 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
         };
     } else if (const auto* values = std::get_if<Vector<double>>(&start)) {
         if (values->size() != places.size())
-            throw_invalid(place, name + " must have a number for each of the " +
-                                     std::to_string(places.size()) + " places",
+            throw_invalid(place,
+                          name + " must have a number for each of the " + std::to_string(places.size()) + " places",
                           values->size());
         for (const double y : *values)
             if (!std::isfinite(y)) throw_invalid(place, name + " must be finite", y);
         const double last = places[places.size() - 1];
         if (places[0] != 0 || last != length)
-            throw_invalid(place, "places at which offsets are given must begin at 0 and end at the "
-                                 "length, not at",
+            throw_invalid(place,
+                          "places at which offsets are given must begin at 0 and end at the "
+                          "length, not at",
                           places[0] != 0 ? places[0] : last);
         given = [v = *values, places](double s) {
             const double* after = std::upper_bound(places.data() + 1, places.data() + places.size() - 1, s);
@@ -114,8 +112,8 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
 
 /// Panels fine enough for modes up to number `modes`, and for a start.
 REVCHAIN_LAZY
-CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
-                               const Vector<double>* places, Index modes) {
+CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start, const Vector<double>* places,
+                        Index modes) {
     const CordStartOnPanels panels;
     const double length = cord.length();
     std::vector<double> ends{0, 1};
@@ -124,17 +122,14 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
     if (places != nullptr)
         for (const double s : *places) ends.push_back(std::sqrt(s / length));
     if (!cord.is_uniform()) {
-        for (int i = 1; i < 40; ++i)
-            ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
+        for (int i = 1; i < 40; ++i) ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
         const auto density = cord.line_density();
-        for (const auto& piece : density->pieces())
-            ends.push_back(std::sqrt((piece.middle + piece.half) / length));
+        for (const auto& piece : density->pieces()) ends.push_back(std::sqrt((piece.middle + piece.half) / length));
     }
     std::sort(ends.begin(), ends.end());
     std::vector<double> kept{0};
     for (const double x : ends)
-        if (x > kept.back() + 1e-7 || (x > 0 && kept.size() == 1))
-            kept.push_back(std::min(x, 1.0));
+        if (x > kept.back() + 1e-7 || (x > 0 && kept.size() == 1)) kept.push_back(std::min(x, 1.0));
     kept.back() = 1;
     const finite::ContinuousChain chain(cord);  // keeps the density
     const finite::PathKind kind = finite::kind_of(chain, 1, 1);
@@ -149,12 +144,10 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
             const auto f = [&](double x) { return start[i](std::min(length * x * x, length)); };
             if (panels.is_resolved(f, low, high, CordStartOnPanels::rounding * largest[i])) continue;
             const double middle = low + (high - low) / 2;
-            if (high - low > CordStartOnPanels::narrowest)
-                return divide(low, middle), divide(middle, high);
+            if (high - low > CordStartOnPanels::narrowest) return divide(low, middle), divide(middle, high);
             const std::string name = i == 0 ? "offset" : "velocity";
             if (!panels.is_resolved(f, low, high, CordStartOnPanels::jump * largest[i]))
-                throw_invalid("swing", name + " must be continuous; it is not at arc length",
-                              length * low * low);
+                throw_invalid("swing", name + " must be continuous; it is not at arc length", length * low * low);
         }
         const double wide = high - low;
         std::array<CordStartOnPanels::Values, 2> values{};

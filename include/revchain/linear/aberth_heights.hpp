@@ -24,7 +24,7 @@ struct SpringOnTop {
 /// no carriage it joins the top thread: 1/k has three roundings, k four.
 REVCHAIN_LAZY
 bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
-                 const std::optional<SpringOnTop>& top = std::nullopt) {
+          const std::optional<SpringOnTop>& top = std::nullopt) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
     const ChainUnits units = chain.units();
     const double per_weight = std::ldexp(1.0, -units.weight_exponent);
@@ -100,9 +100,8 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
 
 /// A range of the roots in `all`, each to the relative error `worst`; nothing if one is not proved.
 REVCHAIN_LAZY
-pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
-                                           const ModeRange& range, Index modes,
-                                           const pencil::AberthSpectrum& all, double worst) {
+pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil, const ModeRange& range,
+                                    Index modes, const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
         return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
@@ -111,8 +110,8 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
     const double below = last == modes ? 0.0 : end(last, 1);
     const double above = first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1);
-    auto roots = pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above,
-                                      worst, [](double) { return pencil::CertifiedCount{}; });
+    auto roots = pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above, worst,
+                                      [](double) { return pencil::CertifiedCount{}; });
     if (roots)
         for (const auto& root : *roots)
             if (!std::isfinite(root.off)) return std::nullopt;
@@ -124,12 +123,11 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
 /// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
 REVCHAIN_LAZY
 std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
-                                                        const HeightsOptions<double>& options) {
+                                                 const HeightsOptions<double>& options) {
     constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
     const auto most = static_cast<Index>(pencil::aberth::most_links);
-    if (chain.size() > most || chain.mode_count() != chain.size() || !chain.has_one_weight_unit())
-        return std::nullopt;
+    if (chain.size() > most || chain.mode_count() != chain.size() || !chain.has_one_weight_unit()) return std::nullopt;
     const FloatingPointStateGuard quiet;
     pencil::aberth::LumpedLinks links;
     if (!lump(links, chain)) return std::nullopt;

@@ -130,7 +130,8 @@ Index number_above(const RigWord& x, bool quadratic, std::string_view place, dou
     }
     throw_invalid(place,
                   "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
-                  "a little beside it", value);
+                  "a little beside it",
+                  value);
 }
 
 /// The roots of one sense of rotation, counted without finding them.
@@ -140,8 +141,7 @@ struct CountedSense {
 
     /// `count`: the proved number of roots, or nothing where it has to be counted.
     CountedSense(CountedRoots counted, std::optional<Index> count)
-        : roots(std::move(counted)),
-          available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
+        : roots(std::move(counted)), available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
 
     Index above(const RigWord& x, std::string_view place, double value) const {
         const bool quadratic = roots.pencil().quadratic;
@@ -167,8 +167,8 @@ CountedSense counted_heights(const RigPencil& rig) {
 /// The roots from number `first` on; `bracketed` and `finished` receive the number done.
 REVCHAIN_LAZY
 std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
-                                            const std::function<void(Index)>& bracketed,
-                                            const std::function<void(Index)>& finished) {
+                                     const std::function<void(Index)>& bracketed,
+                                     const std::function<void(Index)>& finished) {
     const auto brackets = roots.brackets(first, count, guess, bracketed);
     std::vector<FoundRoot> found(brackets.size());
     std::atomic<Index> done = 0;

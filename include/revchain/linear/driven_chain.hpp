@@ -81,8 +81,7 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
             for (std::size_t i = begin; i < end; i += together) {
                 const std::size_t taken = std::min(together, end - i);
                 for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-                const auto offset = [&](std::size_t lane, std::size_t which,
-                                        const Wide<double>& y) REVCHAIN_INLINED {
+                const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
                     if (lane < taken) put(static_cast<Index>(i + lane), which, y);
                 };
                 if (chain.turning)

@@ -54,15 +54,13 @@ void restore_order(Heights<T>& heights) {
 /// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
 /// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
 REVCHAIN_LAZY
-std::optional<Heights<double>> loose_heights(
-    const Chain<double>& chain, const ModeRange& range, double goal,
-    const std::function<void(Index)>& finished = {}) {
+std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
+                                             const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const double length = std::ldexp(chain.total_length(), -chain.units().length_exponent);
-    const auto brackets =
-        pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal, length, finished);
+    const auto brackets = pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal, length, finished);
     Heights<double> result(brackets.size());
     std::atomic<bool> proved = true;
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -86,18 +84,16 @@ inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::ep
 /// Heights to 2 ulp, eight at a time; those that this does not prove, one by one. Nothing where one
 /// unit of weight does not serve, or where counts leave numbers in doubt.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
-                                                       const ModeRange& range, Index available,
-                                                       double guess,
-                                                       const std::function<void(Index)>& finished) {
+std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range, Index available,
+                                                double guess, const std::function<void(Index)>& finished) {
     const auto& wide = pencils.wide();
     if (!wide.units.empty() || wide.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto count = [&](double height) {
         return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0];
     };
-    const auto roots = pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count,
-                                            available, guess, worst_unrounded, finished);
+    const auto roots = pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count, available,
+                                            guess, worst_unrounded, finished);
     if (!roots) return std::nullopt;
     Heights<double> heights;
     heights.reserve(roots->size());
@@ -107,10 +103,9 @@ std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
             continue;
         }
         const Index j = range.first - 1 + static_cast<Index>(heights.size());
-        const auto bracket =
-            pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
-        heights.push_back(pencil::certified_eigenvalue(wide, pencils.rounded(), j,
-                                                       pencil::between(bracket.lower, bracket.upper)));
+        const auto bracket = pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
+        heights.push_back(
+            pencil::certified_eigenvalue(wide, pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
     }
     restore_order<double>(heights);
     return heights;
@@ -123,9 +118,7 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);
-    const auto half_way = [&](Index done) {
-        advance(options.progress, 0.5 * static_cast<double>(done) / count);
-    };
+    const auto half_way = [&](Index done) { advance(options.progress, 0.5 * static_cast<double>(done) / count); };
     if constexpr (std::is_same_v<T, double>)
         if (loose)
             if (auto found = loose_heights(chain, range, goal, half_way)) return std::move(*found);

@@ -12,9 +12,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// Heights of many modes; nothing where this cannot be done. Cost: as `pencil::all_eigenvalues`.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_by_interpolation(
-    LazyCounter<double>& assembled, const ModeRange& range, Index mode_count,
-    const HeightsOptions<double>& options) {
+std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
+                                                        Index mode_count, const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;

@@ -45,11 +45,10 @@ namespace detail {
 
 /// An element of a chain, whose numbers have small relative errors, with errors of its own.
 REVCHAIN_LAZY
-RigElement with_errors(const pencil::Element<Wide<double>>& e, double part,
-                              double stiffness_underflow = 0) {
+RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
     return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
-                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high,
-                           part * e.upper.high, part * (std::abs(e.cross.high) + 2 * e.turning.high)});
+                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
+                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
 }
 
 /// Whether it has no weight, spin or inertia: at the lower end no equation determines such links.
@@ -57,8 +56,8 @@ REVCHAIN_LAZY
 bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
     const auto& off = e.error;
-    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none &&
-           e.cross == none && off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
+    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
+           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
 }
 
 /// A support at the lower end of a chain, and the tension there that pulls the chain straight.

@@ -64,8 +64,8 @@ HeldPins held_by(const Rig& rig, Index m) {
 /// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
 /// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
 REVCHAIN_LAZY
-MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
-                                  const std::vector<HeldPins>& held, bool free) {
+MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held,
+                           bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -165,7 +165,7 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
 /// range.
 REVCHAIN_LAZY
 RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity,
-                            const std::optional<detail::LowerEnd>& lower_end = {}) {
+                     const std::optional<detail::LowerEnd>& lower_end = {}) {
     using S = RigPencil::S;
     using detail::HeldPins;
     detail::require_positive("rig_pencil", "gravity", gravity);

@@ -46,8 +46,7 @@ class RigRoots {
    public:
     /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements
     /// whose roots have to be isolated. `advance(share)` as in `complex_spectrum`.
-    RigRoots(std::string_view place, const Rig& rig, double gravity,
-             const std::function<void(double)>& advance)
+    RigRoots(std::string_view place, const Rig& rig, double gravity, const std::function<void(double)>& advance)
         : rig_(rig_pencil(rig, gravity)), gravity_(gravity) {
         const bool quadratic = rig_.pencil.quadratic;
         if (rig_.pencil.size() == 0) return;

@@ -16,13 +16,11 @@ inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, Continu
 
 /// `select` and `solve` among all of them.
 REVCHAIN_LAZY
-auto select(const Chain<double>& chain, const Question& question,
-                   std::optional<double> time_budget = std::nullopt) {
+auto select(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
     return select(height_models, chain, question, time_budget);
 }
 REVCHAIN_LAZY
-Solution solve(const Chain<double>& chain, const Question& question,
-                      std::optional<double> time_budget = std::nullopt) {
+Solution solve(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
     return solve(height_models, chain, question, time_budget);
 }
 

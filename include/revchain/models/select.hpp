@@ -61,9 +61,7 @@ void check(const ChainKind& kind, const Question& question) {
 
 /// The tolerance to be kept: the one asked for, or full accuracy.
 REVCHAIN_LAZY
-double kept_tolerance(const Question& question) {
-    return question.rtol > 0 ? question.rtol : full_accuracy;
-}
+double kept_tolerance(const Question& question) { return question.rtol > 0 ? question.rtol : full_accuracy; }
 
 template <Model M>
 Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {

@@ -14,10 +14,14 @@
 #define REVCHAIN_INLINE
 #else
 #define REVCHAIN_DECLARE template <int = 0>
-#define REVCHAIN_DEFINE template <int> inline
+#define REVCHAIN_DEFINE \
+    template <int>      \
+    inline
 #define REVCHAIN_INLINE inline
 #endif
-#define REVCHAIN_LAZY template <int = 0> inline
+#define REVCHAIN_LAZY  \
+    template <int = 0> \
+    inline
 
 /// The same for functions that need GSL. Only the Python module and the tests define
 /// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
@@ -27,6 +31,8 @@
 #define REVCHAIN_INLINE_ANALYTIC
 #else
 #define REVCHAIN_DECLARE_ANALYTIC template <int = 0>
-#define REVCHAIN_DEFINE_ANALYTIC template <int> inline
+#define REVCHAIN_DEFINE_ANALYTIC \
+    template <int>               \
+    inline
 #define REVCHAIN_INLINE_ANALYTIC inline
 #endif

@@ -38,20 +38,17 @@ REVCHAIN_INLINE std::string Explanation::text() const {
         bound.precision(1);
         bound << std::scientific << model.error_bound;
         const std::string arrow = i == chosen ? "->" : "", name(model.name);
-        lines.push_back(model.fit.applies
-                            ? Line{arrow, name, bound.str(), detail::time_text(model.cost), ""}
-                            : Line{arrow, name, "-", "-", std::string(model.fit.reason)});
+        lines.push_back(model.fit.applies ? Line{arrow, name, bound.str(), detail::time_text(model.cost), ""}
+                                          : Line{arrow, name, "-", "-", std::string(model.fit.reason)});
     }
     std::array<std::size_t, 4> width{};
     for (const Line& line : lines)
         for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
     std::string result = meets_tolerance ? "" : "no model keeps the tolerance\n";
     for (const Line& line : lines) {
-        const auto space = [&](std::size_t i) {
-            return std::string(width[i] - line[i].size(), ' ');
-        };
-        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] +
-                          "  " + space(3) + line[3] + "  " + line[4];
+        const auto space = [&](std::size_t i) { return std::string(width[i] - line[i].size(), ' '); };
+        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] + "  " + space(3) +
+                          line[3] + "  " + line[4];
         row.erase(row.find_last_not_of(' ') + 1);
         result += row + '\n';
     }

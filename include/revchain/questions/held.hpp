@@ -22,12 +22,12 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
     if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
     if (by.weightless) {
         if (options.conical_height)
-            throw_invalid(place,
-                          "without gravity there is no conical height; give angular_speed instead of it",
+            throw_invalid(place, "without gravity there is no conical height; give angular_speed instead of it",
                           *options.conical_height);
         if (by.tension && !options.angular_speed)
-            throw_invalid(place, "without gravity the shape under a tension depends on the speed; "
-                                 "give angular_speed");
+            throw_invalid(place,
+                          "without gravity the shape under a tension depends on the speed; "
+                          "give angular_speed");
         return Wide<double>(0);
     }
     require_one_speed(place, options);
@@ -36,8 +36,7 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
         return Wide<double>(*options.conical_height);
     }
     if (options.gravity == 0)
-        throw_invalid(place,
-                      "gravity must be positive; for none, hold the system with weightless = true");
+        throw_invalid(place, "gravity must be positive; for none, hold the system with weightless = true");
     require_positive(place, "gravity", options.gravity);
     const Wide<double> height = finite::height_at_speed(*options.angular_speed, options.gravity);
     require_positive(place, "gravity / angular_speed^2", static_cast<double>(height));
@@ -47,7 +46,7 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
 /// The conical height times the upper tension; without gravity, tension over speed squared.
 REVCHAIN_LAZY
 Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
-                                         const std::optional<double>& angular_speed) {
+                                  const std::optional<double>& angular_speed) {
     const Wide<double> tension = by.tension.value(), speed(angular_speed.value_or(1));
     const Wide<double> product = by.weightless ? tension / speed / speed : height * tension;
     require_positive("steady_shapes", "conical height times tension", product.high);
@@ -57,11 +56,12 @@ Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
 /// The supports at a speed; without gravity stiffnesses are divided by the square of the speed.
 REVCHAIN_LAZY
 finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
-                                        const std::optional<double>& angular_speed) {
+                                 const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
     if (!angular_speed)
-        throw_invalid("steady_shapes", "without gravity shapes between springs depend on the speed; "
-                                       "give angular_speed");
+        throw_invalid("steady_shapes",
+                      "without gravity shapes between springs depend on the speed; "
+                      "give angular_speed");
     const Wide<double> speed(*angular_speed), unit(1.0);
     return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
 }
@@ -98,12 +98,14 @@ struct TautChain {
 REVCHAIN_LAZY
 double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
-        throw_invalid(place, "is for what is held at a span; under a tension use steady_shapes at "
-                             "each speed, or modes",
+        throw_invalid(place,
+                      "is for what is held at a span; under a tension use steady_shapes at "
+                      "each speed, or modes",
                       by.tension->high);
     if (by.weightless)
-        throw_invalid(place, "without gravity (where firm ends make shapes the same at every speed) "
-                             "use steady_shapes");
+        throw_invalid(place,
+                      "without gravity (where firm ends make shapes the same at every speed) "
+                      "use steady_shapes");
     return *by.span;
 }
 
@@ -122,8 +124,7 @@ auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHe
     constexpr std::string_view place = "steady_shape";
     const double span = span_asked(place, by);
     if (options.mode < 1) throw_invalid(place, "mode must be at least 1", options.mode);
-    if (options.conical_height.has_value() + options.angular_speed.has_value() +
-            options.top_tension.has_value() != 1)
+    if (options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value() != 1)
         throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
     if (options.top_tension) {
         require_positive(place, "top_tension", *options.top_tension);
@@ -132,8 +133,7 @@ auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHe
     }
     const Wide<double> height = height_asked(by, options);
     if (auto shape = at_height(span, height)) return *shape;
-    throw_invalid(place,
-                  "the branch does not reach this conical height; branches says how far it goes",
+    throw_invalid(place, "the branch does not reach this conical height; branches says how far it goes",
                   static_cast<double>(height));
 }
 
@@ -204,11 +204,10 @@ HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOption
     };
     return detail::held_shape(by, options, at_height, [&](double span, double tension) {
         if (!by.firm())
-            detail::throw_invalid(
-                "steady_shape",
-                "the speed of a tension between springs is not available: a spring gives way without "
-                "end as the speed grows; give angular_speed, or read it from branches; top_tension",
-                tension);
+            detail::throw_invalid("steady_shape",
+                                  "the speed of a tension between springs is not available: a spring gives way without "
+                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                                  tension);
         return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
     });
 }
@@ -234,9 +233,7 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
     const Index available = taut.mode_count();
     const ModeRange range = chosen(
         available, options, [&](double height) { return taut.above(place, height); },
-        [&](double speed) {
-            return taut.above(place, finite::height_at_speed(speed, options.gravity));
-        });
+        [&](double speed) { return taut.above(place, finite::height_at_speed(speed, options.gravity)); });
     Modes<double> result = room_for_modes<double>(range);
     result.method = "bisection";
     std::vector<RigWord> found;
@@ -247,8 +244,7 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
         };
         for (const auto& root : refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
             set_height(result, static_cast<Index>(found.size()), static_cast<double>(root.x),
-                       pencil::bound_of_margin<RigWord>(root.margin), taut.pencil.units.length_exponent,
-                       options.rtol);
+                       pencil::bound_of_margin<RigWord>(root.margin), taut.pencil.units.length_exponent, options.rtol);
             found.push_back(root.x);
         }
     }
@@ -256,9 +252,9 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
         certify(result, available, [&](double lower, double upper) {
             return std::array{roots.certified(taut.scaled(lower)), roots.certified(taut.scaled(upper))};
         });
-    ShapesBehind::of(result) = LazyModeShapes<double>(
-        [shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()), found = std::move(found)](
-            Index first, Index count, bool details, Progress* progress) {
+    ShapesBehind::of(result) =
+        LazyModeShapes<double>([shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()),
+                                found = std::move(found)](Index first, Index count, bool details, Progress* progress) {
             auto shapes = room_for_shapes(shape.chain(), count, details);
             for (Index j = 0; j < count; ++j) {
                 shape.find(shapes, j, found[static_cast<std::size_t>(first + j)]);
@@ -273,8 +269,7 @@ REVCHAIN_DEFINE
 Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
     constexpr std::string_view place = "count_modes";
     Wide<double> height = detail::height_given(place, options);
-    if (options.angular_speed)
-        height = finite::height_at_speed(*options.angular_speed, options.gravity);
+    if (options.angular_speed) height = finite::height_at_speed(*options.angular_speed, options.gravity);
     return detail::TautChain(place, held, options.gravity).above(place, height);
 }
 

@@ -23,7 +23,7 @@ auto with_bisection(const std::tuple<Models...>& methods) {
 /// The question about a range of modes. Without a tolerance bounds have to be proved.
 REVCHAIN_LAZY
 models::Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
-                                    Progress* progress = nullptr) {
+                             Progress* progress = nullptr) {
     const double rtol = tolerance.value_or(0.0);
     return {range.first, range.count, rtol, 0, progress, !(rtol > 0)};
 }
@@ -88,8 +88,8 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
     if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
     auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose),
-                       condense = options.method != ModesMethod::bisection, first = range.first](
-                          Index from, Index count, bool details, Progress* progress) {
+                 condense = options.method != ModesMethod::bisection,
+                 first = range.first](Index from, Index count, bool details, Progress* progress) {
         if constexpr (is_among<models::Condensed, Methods>)
             if (condense && count > 0)
                 if (auto shapes = condensed_shapes(finder.chain(), first + from, finder.heights(from, count), progress))

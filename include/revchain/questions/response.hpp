@@ -50,9 +50,7 @@ struct PinsAsked {
 REVCHAIN_LAZY
 PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.pencil.elements.size();
-    const auto place = [&](Index pin) {
-        return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle));
-    };
+    const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
     PinsAsked result;
     if (options.pins) {
         result.asked = *options.pins;
@@ -82,8 +80,8 @@ PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenCh
 }
 
 REVCHAIN_LAZY
-void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
-                  const DrivenChain& chain, double radius) {
+void store(Response& result, Index row, const pencil::Driven& found, const Driving& at, const DrivenChain& chain,
+           double radius) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const bool finite = found.decided && result.offset.row(row).allFinite();
@@ -98,8 +96,7 @@ void store(Response& result, Index row, const pencil::Driven& found, const Drivi
     }
     const double rounding = 0x1.00001p-53 + std::numeric_limits<double>::denorm_min() / radius;
     result.error_bound[row] = found.error_bound * (1 + 0x1p-50) + rounding;
-    const double over = std::ldexp(radius / at.height.high,
-                                   chain.units.weight_exponent - chain.units.length_exponent);
+    const double over = std::ldexp(radius / at.height.high, chain.units.weight_exponent - chain.units.length_exponent);
     result.support_force[row] = -found.stiffness * over;
     result.support_force_error[row] = found.stiffness_error * over * (1 + 0x1p-40) +
                                       0x1p-50 * std::abs(result.support_force[row]) +
@@ -159,8 +156,6 @@ Response response(const Chain<double>& chain, const ResponseOptions& options) {
     return detail::responses(chain, options);
 }
 REVCHAIN_DEFINE
-Response response(const Rig& rig, const ResponseOptions& options) {
-    return detail::responses(rig, options);
-}
+Response response(const Rig& rig, const ResponseOptions& options) { return detail::responses(rig, options); }
 
 }  // namespace revchain

@@ -26,9 +26,7 @@ ModeRange numbered(const RigModesOptions& options, Index available) {
 REVCHAIN_LAZY
 ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
     if (!options.conical_height && !options.angular_speed) return numbered(options, available);
-    const auto above = [&](const RigWord& x, double given) {
-        return roots.above(x, forward, "modes", given);
-    };
+    const auto above = [&](const RigWord& x, double given) { return roots.above(x, forward, "modes", given); };
     return chosen(
         available, options, [&](double height) { return above(roots.at_height(height), height); },
         [&](double speed) { return above(roots.at_speed(speed), speed); });
@@ -44,8 +42,8 @@ void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
 
 /// Stores mode number j (from 0) of those found; returns whether it is proved.
 REVCHAIN_LAZY
-bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
-                     const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
+bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
+              const FoundRoot& root) {
     const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
@@ -54,8 +52,7 @@ bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
     const double ulp = epsilon<double>();
     const double margin = root.margin * (1 + 4 * root.margin) + 32 * operation_error<RigWord>();
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
-    if (pencil.quadratic)
-        of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
     const bool proved = of_height < 1;
     if (!proved) of_height = of_speed = std::numeric_limits<double>::infinity();
     modes.error_bound[j] = of_height, modes.speed_error_bound[j] = of_speed;
@@ -64,8 +61,8 @@ bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
 
 /// Finds the modes of one sense by counts; returns whether all are proved.
 REVCHAIN_LAZY
-bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
-                           bool forward, const RigModesOptions& options, double from, double to) {
+bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
+                    const RigModesOptions& options, double from, double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
     const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
@@ -82,34 +79,29 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
     const auto finished = [&](Index done) { report(0, done, 0.4); };
     bool proved = true;
     std::vector<RigWord> found;
-    const auto store = [&]<bool Spins>(
-                           const std::vector<FoundRoot>& stored,
-                           std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
+    const auto store = [&]<bool Spins>(const std::vector<FoundRoot>& stored,
+                                       std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
         for (const FoundRoot& root : stored) {
             const auto j = static_cast<Index>(found.size());
             proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
             found.push_back(root.x);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(
-            RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
-                                  std::move(found), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<Spins>(
+            rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
         if (!elements) return false;
         std::optional<std::vector<FoundRoot>> several_roots;
-        if constexpr (!Spins)
-            several_roots = roots_under_a_spring(rig, *elements, range, available);
-        if (!several_roots)
-            several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if constexpr (!Spins) several_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!several_roots) several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
         if (!several_roots) return false;
         using Elements = pencil::ElementPencil<RigWord, Spins>;
         store(*several_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type()))
-            return proved;
+        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type())) return proved;
     store(refined_roots(roots, range.first - 1, range.count, guess, finished,
                         [&](Index done) { report(0.4, done, 0.6); }),
           std::shared_ptr<const pencil::ElementPencil<RigWord>>());
@@ -227,8 +219,8 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x);
             const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
-            result.other.push_back({height * unit, speed, std::abs(speed.imag()),
-                                    2 * bound * (1 + bound) + 8 * epsilon<double>()});
+            result.other.push_back(
+                {height * unit, speed, std::abs(speed.imag()), 2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
     result.other_available = static_cast<Index>(result.other.size());
@@ -243,8 +235,8 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.x);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
-            rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
+            RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
@@ -283,8 +275,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     check(options);
     const Threads used("modes", options.threads);
     if (has_nothing(rig)) return plain_modes(rig, options);
-    const RigRoots roots("modes", rig, options.gravity,
-                         [&](double share) { advance(options.progress, 0.9 * share); });
+    const RigRoots roots("modes", rig, options.gravity, [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = RigMethod::counts;
@@ -322,8 +313,7 @@ REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) :
     if (detail::has_nothing(rig))
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
-        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity,
-                                                          [](double) {});
+        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
 }
 
 REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {

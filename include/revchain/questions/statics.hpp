@@ -31,8 +31,7 @@ void check_string(std::string_view where, const Vector<T>& weight, const Vector<
 
 }  // namespace detail
 
-REVCHAIN_LAZY
-ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
+inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
     detail::check_shape("force_diagram", chain, shape);
     const Index n = chain.size();
     const auto exact = finite::links_of(chain);
@@ -67,8 +66,7 @@ ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape)
     return d;
 }
 
-REVCHAIN_LAZY
-Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
+inline Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
     detail::check_shape("transferred_to_axis", chain, shape);
     std::vector<Link<double>> links;
     for (Index m = 0; m < chain.size(); ++m) {

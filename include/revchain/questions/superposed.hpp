@@ -35,9 +35,8 @@ class PencilForms {
     template <class Offsets>
     S stiffness(const Offsets& x, const Offsets& y) const {
         const S *u = x.data(), *v = y.data();
-        return sum([&](const Element& e, std::size_t m) {
-            return e.stiffness * (u[m] - u[m + 1]) * (v[m] - v[m + 1]);
-        });
+        return sum(
+            [&](const Element& e, std::size_t m) { return e.stiffness * (u[m] - u[m + 1]) * (v[m] - v[m + 1]); });
     }
     /// |y_m|^2 <= flexibility_m y^T K y, where every stiffness is positive.
     Vector<double> flexibility() const {
@@ -48,14 +47,11 @@ class PencilForms {
     }
 
    protected:
-    const Element& element(Index m) const {
-        return pencil_.elements[static_cast<std::size_t>(m)];
-    }
+    const Element& element(Index m) const { return pencil_.elements[static_cast<std::size_t>(m)]; }
     template <class F>
     S sum(const F& f) const {
         S total(0.0);
-        for (std::size_t m = 0; m < pencil_.elements.size(); ++m)
-            total = total + f(pencil_.elements[m], m);
+        for (std::size_t m = 0; m < pencil_.elements.size(); ++m) total = total + f(pencil_.elements[m], m);
         return total;
     }
 
@@ -70,8 +66,7 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
 
     explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(assemble(converted<S>(chain))) {
         if (!pencil().units.empty())
-            throw_invalid("swing", "weights must not be more than 1e123 apart",
-                          chain.total_weight());
+            throw_invalid("swing", "weights must not be more than 1e123 apart", chain.total_weight());
     }
     explicit OscillatingChain(AssembledChain<S> assembled)
         : PencilForms(std::move(assembled.pencil)), units_(assembled.units) {}
@@ -209,13 +204,12 @@ auto checked_start(std::string_view place, Index links, bool yields, const Optio
         auto result = given;
         result.setZero(links + 1);
         if (given.size() != 0 && given.size() != links && given.size() != links + 1)
-            throw_invalid(place, name + " must have a number for each of the " +
-                                     std::to_string(links + 1) +
-                                     " pins, the support's last or left out",
+            throw_invalid(place,
+                          name + " must have a number for each of the " + std::to_string(links + 1) +
+                              " pins, the support's last or left out",
                           given.size());
         for (const auto& x : given)
-            if (!std::isfinite(std::abs(x)))
-                throw_invalid(place, name + " must be finite", std::abs(x));
+            if (!std::isfinite(std::abs(x))) throw_invalid(place, name + " must be finite", std::abs(x));
         result.head(given.size()) = given;
         if (!yields && std::abs(result[links]) != 0)
             throw_invalid(place, name + " of the support must be 0", std::abs(result[links]));

@@ -158,8 +158,7 @@ Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     if (options.mode < 1 || options.mode > size)
         throw_invalid(place, "mode must be from 1 to " + std::to_string(size), options.mode);
     if (options.link < 0 || options.link >= size)
-        throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1),
-                      options.link);
+        throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1), options.link);
     if (!chain.has_one_weight_unit())
         throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
     using S = Wide<double>;

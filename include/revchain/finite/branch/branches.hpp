@@ -101,13 +101,9 @@ Branch followed(const System& system, const Options& options) {
 }  // namespace finite
 
 REVCHAIN_DEFINE
-Branch branch(const Chain<double>& chain, const BranchOptions& options) {
-    return finite::followed(chain, options);
-}
+Branch branch(const Chain<double>& chain, const BranchOptions& options) { return finite::followed(chain, options); }
 REVCHAIN_DEFINE
-Branch branch(const Rig& rig, const RigBranchOptions& options) {
-    return finite::followed(rig, options);
-}
+Branch branch(const Rig& rig, const RigBranchOptions& options) { return finite::followed(rig, options); }
 
 namespace finite {
 
@@ -131,13 +127,11 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
 }  // namespace finite
 
 REVCHAIN_DEFINE
-ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
-                                                std::size_t max_shapes) {
+ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options, std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
 REVCHAIN_DEFINE
-ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
-                                                std::size_t max_shapes) {
+ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options, std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
 REVCHAIN_DEFINE

@@ -6,14 +6,14 @@
 #include "revchain/branches.hpp"
 #include "revchain/finite/branch/diagram_proof.hpp"
 #include "revchain/finite/branch/trace.hpp"
-#include "revchain/finite/shapes/list.hpp"
+#include "revchain/finite/shapes/steady_shapes.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// Answers the questions of a diagram about a chain: lists of shapes, modes, limits of the proof.
-template <int = 0>  // compiled where a diagram is
+template <class Means>
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const DiagramOptions& options)
@@ -29,7 +29,7 @@ class ChainQuestions {
                                .gravity = options_.gravity});
     }
     SteadyShapes list(double height) const {
-        return steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
+        return all_shapes(chain_, {.conical_height = height, .budget = options_.budget}, Means{});
     }
     /// Heights of the modes above one, the slowest first.
     std::vector<double> modes_above(double height) const {
@@ -54,7 +54,7 @@ class ChainQuestions {
     const DiagramOptions& options_;
 };
 
-template <int = 0>  // compiled where a diagram is
+template <class Means>
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const RigDiagramOptions& options)
@@ -75,10 +75,11 @@ class RigQuestions {
                              .direction = options_.direction});
     }
     SteadyShapes list(double height) const {
-        return steady_shapes(rig_, {.conical_height = height,
-                                    .budget = options_.budget,
-                                    .direction = options_.direction,
-                                    .gravity = options_.gravity});
+        const RigShapesOptions options{.conical_height = height,
+                                       .budget = options_.budget,
+                                       .direction = options_.direction,
+                                       .gravity = options_.gravity};
+        return all_shapes(rig_, options, Means{});
     }
     std::vector<double> modes_above(double height) const {
         std::vector<double> found;
@@ -127,7 +128,7 @@ class RigQuestions {
 };
 
 /// Combines branches with proved lists of shapes.
-template <class Questions, class Options>
+template <class Questions, class Options, class Means>
 class Diagram {
    public:
     template <class System>
@@ -260,8 +261,14 @@ class Diagram {
             "of the heights looked at are not excluded" +
             explained();
         if (!reason.empty()) return;
+        if constexpr (detail::is_thorough<Means>)
+            prove_between(lowest, *settled * unit_ * (1 + 1e-9));
+        else
+            result_.remark += "; with revchain::thorough as the last argument, this is decided";
+    }
+    /// Proves that no loop is missing between two heights, and writes what is proved.
+    void prove_between(double lowest, double first) {
         DiagramProof proof;
-        const double first = *settled * unit_ * (1 + 1e-9);
         if (first > lowest) proof = proved_between(lowest, first);
         result_.complete = proof.complete && result_.consistent;
         if (result_.complete)
@@ -320,11 +327,11 @@ class Diagram {
     Branches result_;
 };
 
-template <class Questions, class System, class Options>
-Branches diagram_of(const System& system, const Options& options) {
+template <class Questions, class System, class Options, class Means>
+Branches diagram_of(const System& system, const Options& options, Means) {
     const double lowest = lowest_height("branches", options);
     if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
-    return Diagram<Questions, Options>(system, lowest, options).run();
+    return Diagram<Questions, Options, Means>(system, lowest, options).run();
 }
 
 }  // namespace revchain::finite
@@ -333,11 +340,19 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions<>>(chain, options);
+    return finite::diagram_of<finite::ChainQuestions<detail::Means>>(chain, options, detail::Means{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions<>>(rig, options);
+    return finite::diagram_of<finite::RigQuestions<detail::Means>>(rig, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {
+    return finite::diagram_of<finite::ChainQuestions<Thorough>>(chain, options, thorough);
+}
+REVCHAIN_DEFINE
+Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough) {
+    return finite::diagram_of<finite::RigQuestions<Thorough>>(rig, options, thorough);
 }
 
 }  // namespace revchain

@@ -99,8 +99,7 @@ double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const 
 /// The state at a height so close to the mode's that double hardly resolves it: from the law of the
 /// onset, balanced in double-double. None if that fails.
 REVCHAIN_LAZY
-std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
-                                                const Fine& height) {
+std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
     BranchState state = onset.state(rounded(system.links), amplitude);

@@ -123,7 +123,7 @@ struct Polished {
 /// condition's change for that of the number, `growth` 1/(a cos^2) of links.
 REVCHAIN_LAZY
 double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
-                           const std::vector<double>& growth, double given) {
+                    const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
     double worst = 0;
@@ -229,8 +229,8 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start, cons
 
 /// A shape found at a height by Newton's method, `verified` at heights in `within`.
 REVCHAIN_LAZY
-SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
-                                  Balanced<Fine> found, bool height_is_given) {
+SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within, Balanced<Fine> found,
+                           bool height_is_given) {
     if (!system.rig)
         return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
                               height_is_given);
@@ -244,8 +244,7 @@ SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const
 /// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
 /// the condition number; where nothing is proved, as at a fold, it is that alone.
 REVCHAIN_LAZY
-std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
-                                           const Condition& condition) {
+std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near, const Condition& condition) {
     auto found = polished(system.links, near, condition);
     if (!found.shape.converged) return std::nullopt;
     const bool given = condition.gives_height();

@@ -89,8 +89,7 @@ Path path_at_rest(const ContinuousChain& chain, double height, Path::Options opt
 
 /// The shape near an almost exact path; none if no path could be followed that far.
 REVCHAIN_LAZY
-std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
-                                         double height) {
+std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length, double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
         const Path path(kind, tip_offset, {.crossings = crossing}, samples);
@@ -105,8 +104,7 @@ std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int c
 
 /// For each crossing, ranges of eta_0 at whose ends it is on different sides of the support.
 REVCHAIN_LAZY
-std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
-                                                  int count) {
+std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length, int count) {
     std::vector<std::vector<TipRange>> ranges(crossings);
     std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
     double last = 0;

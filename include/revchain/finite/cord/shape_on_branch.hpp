@@ -80,7 +80,7 @@ class WantedOnLine {
 /// All shapes with a given number on the branch of a mode of height `critical`.
 REVCHAIN_LAZY
 CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
-                                        std::size_t max_shapes) {
+                                 std::size_t max_shapes) {
     constexpr std::string_view place = "steady_shape";
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(given.mode));
     const WantedOnLine wanted(*line, critical, given);

@@ -52,7 +52,7 @@ struct TipOffset {
 };
 REVCHAIN_LAZY
 TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
-                            CrossingLaw law) {
+                     CrossingLaw law) {
     const auto middle = [&] {
         if (range.low == 0) return 0.1 * range.high;
         return std::clamp(std::sqrt(range.low) * std::sqrt(range.high), range.low, range.high);

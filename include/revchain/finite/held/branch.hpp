@@ -102,7 +102,7 @@ struct HeldStart {
 /// The branch of a mode at a span, for heights from `least` up; none if it does not exist.
 REVCHAIN_LAZY
 std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
-                                             double least, int mode, double max_step) {
+                                      double least, int mode, double max_step) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
@@ -126,8 +126,8 @@ std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupp
 
 /// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
 REVCHAIN_LAZY
-std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports,
-                                                      double span, double tension, int mode) {
+std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports, double span,
+                                               double tension, int mode) {
     HeldChain held(chain, supports);
     const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
     const ChainUnits units = held.links().units;

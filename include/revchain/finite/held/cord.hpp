@@ -174,7 +174,7 @@ HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, in
 /// All shapes with a given tension at the upper end times height.
 REVCHAIN_LAZY
 HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
-                                                     int max_half_waves) {
+                                              int max_half_waves) {
     const double length = cord.length(), weight = cord.weight();
     return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
         HeldCord held;

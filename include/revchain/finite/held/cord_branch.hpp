@@ -14,7 +14,7 @@ namespace finite {
 /// The branch of a number of half waves at a span, for heights from `least` up, if it exists.
 REVCHAIN_LAZY
 std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least, int half_waves,
-                                                 double max_step) {
+                                          double max_step) {
     HeldCord held;
     const double length = cord.length();
     const auto first = held.at_height(half_waves, span / length, least / length);
@@ -41,8 +41,7 @@ std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, doub
 
 /// The fastest shape with a given tension at the upper end on the branch of a number of half waves.
 REVCHAIN_LAZY
-std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
-                                                          int half_waves) {
+std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension, int half_waves) {
     HeldCord held;
     const double length = cord.length(), wanted = tension / cord.weight();
     // By the depth times weight/length the tension falls; both ends bear the weight.

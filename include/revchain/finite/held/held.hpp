@@ -259,7 +259,7 @@ void keep_different(HeldShapes& list, int max_half_waves) {
 /// Adds all other planar shapes to those found by branches, and the ranges where more may be.
 REVCHAIN_LAZY
 void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
-                     const HeldListOptions& options) {
+              const HeldListOptions& options) {
     const EnclosedLinks<double> links = enclosed<double>(held.links().links);
     const HeldCells cells(links, enclosed<double>(held.ends(height)), enclosed<double>(height), goal,
                           options.max_half_waves);
@@ -289,7 +289,7 @@ void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldG
 /// Shapes of up to `max_half_waves` half waves at a span and a height (0: no gravity).
 REVCHAIN_LAZY
 HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span, const Fine& height,
-                              const HeldListOptions& options) {
+                       const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent);
@@ -309,8 +309,8 @@ HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports,
 /// Shapes of up to `max_half_waves` half waves with a given tension at the upper end times height.
 REVCHAIN_LAZY
 HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
-                                            const Fine& height_times_tension, const Fine& conical_height,
-                                            const HeldListOptions& options) {
+                                     const Fine& height_times_tension, const Fine& conical_height,
+                                     const HeldListOptions& options) {
     HeldChain held(chain, supports);
     const ChainUnits units = held.links().units;
     const Fine wanted = ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),

@@ -12,8 +12,7 @@ double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 /// Encloses the direction of a link near one found. Returns the derivative of its moment by the
 /// inclination, not positive if the link may be slack or have another inclination.
 REVCHAIN_LAZY
-Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
-                   Direction<Span>& way) {
+Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found, Direction<Span>& way) {
     if (is_zero(link.cross)) {
         const Span sum = square(R) + square(V);
         if (!sum.positive()) return Span(Far(0));
@@ -28,9 +27,9 @@ Span settle(const Link<Span>& link, const Span& R, const Span& V, const Directio
 /// directions `found`, and the sine of the largest turn of a link from them.
 REVCHAIN_LAZY
 std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends,
-                                                    const Span& height, const std::array<Far, 2>& forces,
-                                                    const std::array<double, 2>& radius,
-                                                    const std::vector<Direction<Far>>& found) {
+                                             const Span& height, const std::array<Far, 2>& forces,
+                                             const std::array<double, 2>& radius,
+                                             const std::vector<Direction<Far>>& found) {
     const auto about = [&](std::size_t i) {
         const Far off(radius[i]);
         return Span(detail::down(Far(forces[i] - off)), detail::up(Far(forces[i] + off)));
@@ -51,8 +50,8 @@ std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, co
 /// span, by Krawczyk's test on the two forces at the lower end (doi:10.1007/BF02234767). Infinite
 /// if the test decides nothing: intervals grow by about e^pi for each half wave.
 REVCHAIN_LAZY
-double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height,
-                         const Span& span, const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
+double held_error(const EnclosedLinks<Far>& links, const HeldEnds<Span>& ends, const Span& height, const Span& span,
+                  const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     constexpr double unproved = std::numeric_limits<double>::infinity();
     const auto centre = held_box(links, ends, height, forces, {0, 0}, found).first;
     if (!centre.known) return unproved;

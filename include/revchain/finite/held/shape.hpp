@@ -57,7 +57,7 @@ struct Sides {
 /// The shape for forces at the lower end, with directions near `direction`.
 REVCHAIN_LAZY
 HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends, const HeldForces<Fine>& forces,
-                           const Fine& span, std::vector<Direction<Fine>>& direction) {
+                    const Fine& span, std::vector<Direction<Fine>>& direction) {
     const auto size = static_cast<Index>(chain.links.size());
     const auto narrow = [](const Fine& x) { return as_double(x); };
     const auto in_long = [](const Fine& x) { return static_cast<long double>(Far(x)); };

@@ -16,6 +16,7 @@
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
+#include "revchain/thorough.hpp"
 
 /// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -215,7 +216,7 @@ bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>
 }
 
 /// Adds the shape in the bracket to an empty `result`, or leaves the bracket open.
-template <class AnyLinks, class Result>
+template <class Means, class AnyLinks, class Result>
 void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
@@ -235,16 +236,17 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
     }
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
-    if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
-        result.shapes.clear();
-        add(links, height, *settled, result);
-    } else if (result.shapes.empty()) {
-        leave_open(part, result);
+    if constexpr (detail::is_thorough<Means>) {
+        if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
+            result.shapes.clear();
+            add(links, height, *settled, result);
+        }
     }
+    if (result.shapes.empty()) leave_open(part, result);
 }
 
 /// Adds all shapes if each link has one inclination under its load.
-template <class AnyLinks, class Result>
+template <class Means, class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget, Result& result) {
     const auto narrow = swept_links<Far>(links);
     const auto isolation = isolated(links, height, last, budget);
@@ -254,7 +256,7 @@ void add_single_valued(const AnyLinks& links, const Fine& height, double last, l
     detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             detail::look();
-            add_isolated(links, narrow, height, isolation.shapes[i], each[i]);
+            add_isolated<Means>(links, narrow, height, isolation.shapes[i], each[i]);
         }
     });
     for (Result& one : each) {
@@ -280,6 +282,14 @@ void add_several_valued(const AnyLinks& links, const Fine& height, double last, 
     }
 }
 
+template <int = 0>
+[[noreturn]] void throw_not_thorough(std::string_view where, double height) {
+    detail::throw_invalid(where,
+                          "links may stand, or hang at several inclinations under one load; with revchain::thorough "
+                          "as the last argument, their shapes are found too; the conical height is",
+                          height);
+}
+
 template <class Result>
 void sort(Result& found) {
     const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
@@ -288,8 +298,9 @@ void sort(Result& found) {
     found.complete = found.undecided.empty();
 }
 
-/// All shapes at a height in the units of the links.
-template <class Result, class AnyLinks, class Options>
+/// All shapes at a height in the units of the links. Throws InvalidArgument where links stand or
+/// have several inclinations, unless the means are `Thorough`.
+template <class Result, class Means, class AnyLinks, class Options>
 Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
     // slightly beyond: an almost horizontal link is at the bound, to rounding
@@ -300,9 +311,11 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
         return result;
     }
     if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
-        add_single_valued(links, scaled, last, options.budget, result);
-    else
+        add_single_valued<Means>(links, scaled, last, options.budget, result);
+    else if constexpr (detail::is_thorough<Means>)
         add_several_valued(links, scaled, last, options, result);
+    else
+        throw_not_thorough("steady_shapes", std::ldexp(as_double(scaled), links.units.length_exponent));
     sort(result);
     return result;
 }

@@ -54,7 +54,7 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
 /// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
 REVCHAIN_LAZY
 bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
-                   const std::vector<Fine>& offset) {
+            const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
         const double off = as_double(abs(found.offset[m] - offset[m]));
         if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length))) return false;

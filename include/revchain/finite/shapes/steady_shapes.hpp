@@ -16,10 +16,10 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace finite {
 
-REVCHAIN_LAZY
-SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options) {
+template <class Means>
+SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height, const SteadyShapesOptions& options, Means) {
     const auto links = links_of(chain);
-    return listed<SteadyShapes>(links, ldexp(height, -links.units.length_exponent), options);
+    return listed<SteadyShapes, Means>(links, ldexp(height, -links.units.length_exponent), options);
 }
 
 REVCHAIN_LAZY
@@ -52,11 +52,13 @@ bool same(const SteadyShape& x, const SteadyShape& y) {
 }
 
 /// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
-REVCHAIN_LAZY
-SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
-                                  const RigShapesOptions& options) {
-    if (rig == Rig(rig.chain(), {}))
-        return steady_shapes(rig.chain(), height, {.budget = options.budget, .hanging_only = options.hanging_only});
+template <class Means>
+SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed, const RigShapesOptions& options,
+                           Means means) {
+    if (rig == Rig(rig.chain(), {})) {
+        const SteadyShapesOptions plain{.budget = options.budget, .hanging_only = options.hanging_only};
+        return steady_shapes(rig.chain(), height, plain, means);
+    }
     const double scaled = std::ldexp(as_double(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
@@ -68,7 +70,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     const Fine lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !options.hanging_only,
                                          enclosed<double>(links.support));
-    result = listed<SteadyShapes>(links, lambda, options);
+    result = listed<SteadyShapes, Means>(links, lambda, options);
     const bool unbounded = !links.support.firm &&
                            left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
@@ -82,7 +84,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     links.support.radius = -links.support.radius;
     RigShapesOptions rest = options;
     rest.budget -= result.cells * static_cast<long>(rig.size());
-    auto other = listed<SteadyShapes>(links, lambda, rest);
+    auto other = listed<SteadyShapes, Means>(links, lambda, rest);
     leave_beyond(other);
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
@@ -107,13 +109,10 @@ bool height_is_given(const Options& options) {
     return options.conical_height.has_value();
 }
 
-}  // namespace finite
-
-REVCHAIN_DEFINE
-SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
+template <class Means>
+SteadyShapes all_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Means means) {
     const detail::Threads threads("steady_shapes", options.threads);
-    if (finite::height_is_given(options))
-        return finite::steady_shapes(chain, Wide<double>(*options.conical_height), options);
+    if (height_is_given(options)) return steady_shapes(chain, Wide<double>(*options.conical_height), options, means);
     const double angular_speed = *options.angular_speed, gravity = options.gravity;
     detail::require_positive("steady_shapes", "angular speed", angular_speed);
     constexpr double least = std::numeric_limits<double>::min();
@@ -124,24 +123,43 @@ SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions
         return none;
     }
     if (near < least / epsilon<double>())
-        return finite::steady_shapes(chain, Wide<double>(std::max(near, least)), options);
-    return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
+        return steady_shapes(chain, Wide<double>(std::max(near, least)), options, means);
+    return steady_shapes(chain, height_at_speed(angular_speed, gravity), options, means);
 }
 
-REVCHAIN_DEFINE
-SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
+template <class Means>
+SteadyShapes all_shapes(const Rig& rig, const RigShapesOptions& options, Means means) {
     const detail::Threads threads("steady_shapes", options.threads);
-    if (finite::height_is_given(options)) {
+    if (height_is_given(options)) {
         const Wide<double> height(*options.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
-        return finite::steady_shapes(rig, height, options.direction == Rotation::forward ? speed : -speed, options);
+        return steady_shapes(rig, height, options.direction == Rotation::forward ? speed : -speed, options, means);
     }
     const double angular_speed = *options.angular_speed, size = std::abs(angular_speed);
-    const Wide<double> height = finite::height_at_speed(size, options.gravity);
+    const Wide<double> height = height_at_speed(size, options.gravity);
     if (!(size > 0) || !std::isfinite(static_cast<double>(height)) || !std::isfinite(size))
         detail::throw_invalid("steady_shapes",
                               "angular speed must be finite and not 0, nor so small that g/n^2 overflows",
                               angular_speed);
-    return finite::steady_shapes(rig, height, Wide<double>(angular_speed), options);
+    return steady_shapes(rig, height, Wide<double>(angular_speed), options, means);
+}
+
+}  // namespace finite
+
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
+    return finite::all_shapes(chain, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
+    return finite::all_shapes(rig, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Thorough) {
+    return finite::all_shapes(chain, options, thorough);
+}
+REVCHAIN_DEFINE
+SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options, Thorough) {
+    return finite::all_shapes(rig, options, thorough);
 }
 
 }  // namespace revchain

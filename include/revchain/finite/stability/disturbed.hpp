@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <Eigen/QR>
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "revchain/finite/balance/link_equation.hpp"
-#include "revchain/finite/balance/links.hpp"
+#include "revchain/finite/stability/pulled_links.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
@@ -23,60 +20,46 @@ bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An orthonormal basis of the complement of the columns.
+/// An orthonormal basis of the complement of the columns, by Householder's reflections, the longest
+/// column first. What is left of a column counts as 0 if it is at most `least` of the longest.
+/// Eigen's decompositions would take a third of the compile time of `stability`.
 template <class S>
-Matrix<S> beside(const Matrix<S>& columns) {
-    const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
-    return whole.rightCols(columns.rows() - columns.cols());
+Matrix<S> beside(Matrix<S> columns, double least = 0) {
+    using std::sqrt;
+    const Index size = columns.rows();
+    Matrix<S> basis = Matrix<S>::Identity(size, size);
+    double longest = 0;
+    Index done = 0;
+    for (; done < std::min(size, columns.cols()); ++done) {
+        const auto square_of = [&](Index j) { return S(columns.col(j).tail(size - done).squaredNorm()); };
+        Index next = done;
+        for (Index j = done + 1; j < columns.cols(); ++j)
+            if (square_of(j) > square_of(next)) next = j;
+        const S square = square_of(next);
+        const double norm = std::sqrt(as_double(square));
+        longest = std::max(longest, norm);
+        if (least > 0 && norm <= least * longest) break;
+        columns.col(next).swap(columns.col(done));
+        if (norm == 0) continue;
+        Vector<S> across = columns.col(done).tail(size - done);
+        across[0] += across[0] < S(0) ? -sqrt(square) : sqrt(square);
+        const S scale = S(2) / across.squaredNorm();
+        for (Index j = done + 1; j < columns.cols(); ++j) {
+            const S along = scale * across.dot(columns.col(j).tail(size - done));
+            columns.col(j).tail(size - done) -= along * across;
+        }
+        for (Index i = 0; i < size; ++i) {
+            const S along = scale * across.dot(basis.row(i).tail(size - done));
+            basis.row(i).tail(size - done) -= along * across.transpose();
+        }
+    }
+    return basis.rightCols(size - done);
 }
 
 template <class S>
 Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));
 }
-
-/// A shape as its links, their inclinations and lambda times the pulls along them.
-struct PulledLinks {
-    std::vector<Link<Fine>> links;
-    std::vector<double> inclination, pull;
-    std::vector<double> doubt;  // errors of pulls over rounding
-    double upper_offset = 0;
-    std::vector<double> momentum, axial;                         // of flywheels: lambda n times momentum, inertia
-    double stiffness = std::numeric_limits<double>::infinity();  // lambda times the support's
-    double carriage = 0;
-    double lower_stiffness = std::numeric_limits<double>::infinity();  // of a held lower end
-    double lower_carriage = 0;
-    bool held = false;         // the lower end too
-    bool turns_freely = true;  // no torque about the axis
-    ChainUnits units;
-
-    explicit PulledLinks(const ChainUnits& of) : units(of) {}
-
-    bool yields() const { return !std::isinf(stiffness); }
-    /// Whether the upper end is on a spring and moves no mass.
-    bool top_is_massless() const {
-        return yields() && carriage == 0 && is_zero(links.back().rest) && is_zero(links.back().cross);
-    }
-    bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
-
-    /// Adds a link, or merges it with the last if they are in line and their pin has no mass.
-    void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0, double about = 0) {
-        if (!links.empty()) {
-            Link<Fine>& below = links.back();
-            const bool massless =
-                is_zero(below.rest) && is_zero(below.cross) && is_zero(link.moment) && is_zero(link.cross);
-            const bool plain = turning == 0 && about == 0 && momentum.back() == 0 && axial.back() == 0;
-            const auto alike = [](double x, double z, double size) { return std::abs(x - z) <= 1e-9 * size; };
-            if (massless && plain && alike(delta, inclination.back(), 1) &&
-                alike(pulled, pull.back(), std::abs(pulled))) {
-                below.length = below.length + link.length, below.rest = link.rest;
-                return;
-            }
-        }
-        links.push_back(link), inclination.push_back(delta), pull.push_back(pulled), doubt.push_back(off);
-        momentum.push_back(turning), axial.push_back(about);
-    }
-};
 
 /// Links disturbed from a shape by angles q in its plane and angles b out of it, time in 1/n:
 ///     A q'' - 2 B b' + (diag(a P) - X'MX) q = 0,
@@ -228,10 +211,9 @@ struct DisturbedIn {
         }
         if (shape.turns_freely) left(2 * joints - 1, n) = 1;
         if (shape.turns_freely && shape.held) left(1, n + 1) = 1;
-        const Eigen::ColPivHouseholderQR<Matrix<double>> factor(left);
-        const Matrix<double> seen = factor.householderQ().transpose() * given;
-        const auto rest = seen.bottomRows(seen.rows() - factor.rank());
-        return rest.transpose() * rest;
+        const double rounding = 0x1p-52 * as_double(std::max(left.rows(), left.cols()));
+        const Matrix<double> rest = pencil::transposed_product(beside(left, rounding), given);
+        return pencil::transposed_product(rest, rest);
     }
 };
 

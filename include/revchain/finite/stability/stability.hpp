@@ -27,7 +27,7 @@ struct Judgement {
 /// squares leave the real axis in pairs, and those of a symmetric matrix never.
 REVCHAIN_LAZY
 Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
-                          bool is_symmetric) {
+                   bool is_symmetric) {
     bool still = true;
     for (std::size_t j = 0; j < square.size(); ++j) {
         const double off = square[j].real() > 0 ? std::abs(square[j]) : std::abs(square[j].imag());
@@ -168,80 +168,6 @@ Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& uni
     return found ? found->stability : Stability();
 }
 
-/// lambda times the pull along each link, and its error over rounding.
-struct Pulls {
-    std::vector<double> pull, doubt;
-};
-
-/// The pulls of a shape, from the force (H, tau) on the lowest pin, in the given units: load over
-/// cosine or, for a nearly level link, the load resolved along the link.
-template <class Shape>
-Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units, double H = 0,
-            double tau = 0) {
-    const auto length = [&](double x) { return std::ldexp(x, -units.length_exponent); };
-    Pulls result;
-    double sizes = std::abs(H);
-    for (Index m = 0; m < shape.inclination.size(); ++m) {
-        const Link<double>& link = links[static_cast<std::size_t>(m)];
-        const double s = std::sin(shape.inclination[m]), c = std::cos(shape.inclination[m]);
-        const double lower = link.moment * length(shape.offset[m]), upper = link.rest * length(shape.offset[m + 1]);
-        const double R = H + lower, V = length(shape.conical_height) * link.pull + tau;
-        const double turned = link.cross * link.length * s;
-        sizes += std::abs(lower);
-        const double over = V / c, off_over = std::abs(over) * (1 + std::abs(s / c)),
-                     off_along = std::abs(V * c) + (sizes + std::abs(turned)) * std::abs(s);
-        H = R + upper, sizes += std::abs(upper);
-        result.pull.push_back(off_over < off_along ? over : V * c + (R - turned) * s);
-        result.doubt.push_back(std::min(off_over, off_along));
-    }
-    return result;
-}
-
-REVCHAIN_LAZY
-PulledLinks pulled_links(const Links<Fine>& chain, const SteadyShape& shape) {
-    PulledLinks result(chain.units);
-    const std::vector<Link<double>> links = rounded<double>(chain.links);
-    const auto [pull, doubt] = pulls(links, shape, chain.units);
-    for (std::size_t i = 0; i < links.size(); ++i)
-        result.add(chain.links[i], shape.inclination[static_cast<Index>(i)], pull[i], doubt[i]);
-    return result;
-}
-
-REVCHAIN_LAZY
-PulledLinks pulled_links(const Links<Fine>& chain, const HeldShape& shape) {
-    const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
-    const auto weight = [&](double x) { return std::ldexp(x, -chain.units.weight_exponent); };
-    PulledLinks result(chain.units);
-    result.links = chain.links, result.held = true;
-    const auto& [lower, upper] = shape.ends;
-    result.turns_freely = lower.radius == 0 && upper.radius == 0;
-    result.stiffness = weight(upper.stiffness.high), result.carriage = weight(upper.carriage_weight);
-    result.lower_stiffness = weight(lower.stiffness.high), result.lower_carriage = weight(lower.carriage_weight);
-    result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
-    result.inclination.assign(shape.inclination.begin(), shape.inclination.end());
-    const double H = length(weight(-shape.lower_pull[0])), tau = length(weight(shape.lower_pull[1]));
-    Pulls found = pulls(rounded<double>(chain.links), shape, chain.units, H, tau);
-    result.pull = std::move(found.pull), result.doubt = std::move(found.doubt);
-    result.upper_offset = length(shape.offset[shape.inclination.size()]);
-    return result;
-}
-
-/// Throws InvalidArgument unless a shape has the links of a chain.
-template <class Shape>
-void require_shape_of(const Chain<double>& chain, const Shape& shape) {
-    const Index size = shape.inclination.size();
-    if (size != chain.size())
-        detail::throw_invalid("stability", "the shape is not of this chain; its links number", size);
-    const double rounding = 1e-12 * (chain.total_length() + std::abs(shape.offset[chain.size()]));
-    for (Index m = 0; m < chain.size(); ++m) {
-        const double across = shape.offset[m] - shape.offset[m + 1], along = shape.height[m] - shape.height[m + 1];
-        const double length = std::hypot(across, along);
-        if (std::abs(length - chain.length()[m]) <= rounding) continue;
-        const std::string link = "links[" + std::to_string(m) + "]";
-        detail::throw_invalid("stability", "the shape is not of this chain; in it " + link + " is as long as", length);
-    }
-}
-
 /// Disturbed links with the constraints of their ends.
 template <class S>
 DisturbedIn<S> disturbed_in(const PulledLinks& links) {
@@ -264,10 +190,10 @@ void require_mass(const PulledLinks& links, const Disturbed& d) {
                               "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
 }
 
-/// The verdict on a shape, in double or, if rounding spoils that, in double-double.
-REVCHAIN_LAZY
-Stability judged(StabilityFrame frame, const PulledLinks& links) {
-    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
+/// The verdict on a shape, in double or, by thorough means and if rounding spoils that, in
+/// double-double.
+template <class Means>
+Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
     if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
@@ -276,26 +202,36 @@ Stability judged(StabilityFrame frame, const PulledLinks& links) {
         return still;
     }
     auto found = judged_in(frame, d, links.units);
-    if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
-        if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
+    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
+    if constexpr (detail::is_thorough<Means>)
+        if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
+            if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
     if (!found) detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
     return found->stability;
 }
-template <class Shape>
-Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape) {
+template <class Shape, class Means>
+Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape, Means means) {
     require_shape_of(chain, shape);
-    return judged(frame, pulled_links(links_of(chain), shape));
+    return judged(frame, pulled_links(links_of(chain), shape), means);
 }
 
 }  // namespace finite
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
-    return finite::judged(frame, chain, shape);
+    return finite::judged(frame, chain, shape, detail::Means{});
 }
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    return finite::judged(frame, chain, shape);
+    return finite::judged(frame, chain, shape, detail::Means{});
+}
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame, Thorough) {
+    return finite::judged(frame, chain, shape, thorough);
+}
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame, Thorough) {
+    return finite::judged(frame, chain, shape, thorough);
 }
 
 namespace finite {
@@ -358,24 +294,33 @@ Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     return result;
 }
 
-}  // namespace finite
-
-REVCHAIN_DEFINE
-Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
+template <class Means>
+Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Means means) {
     constexpr std::string_view place = "stability";
     detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
-    finite::require_shape_of(rig.chain(), shape);
+    require_shape_of(rig.chain(), shape);
     const Support& support = rig.support();
     const double end = shape.offset[rig.size()];
     if (support.is_firm() && !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
         detail::throw_invalid(place, "the shape is not of this rig; its upper end is at", end);
     const Wide<double> height(shape.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
     const bool forward = options.direction == Rotation::forward;
-    const finite::RiggedLinks given = finite::rigged_links(rig, height, forward ? speed : -speed);
-    const finite::PulledLinks links =
-        finite::pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
-    if (finite::displaces_turning_fluid(rig)) return finite::judged_by_energy(options.frame, finite::Disturbed(links));
-    return finite::judged(options.frame, links);
+    const RiggedLinks given = rigged_links(rig, height, forward ? speed : -speed);
+    const PulledLinks links =
+        pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
+    if (displaces_turning_fluid(rig)) return judged_by_energy(options.frame, Disturbed(links));
+    return judged(options.frame, links, means);
+}
+
+}  // namespace finite
+
+REVCHAIN_DEFINE
+Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
+    return finite::judged(rig, shape, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Thorough) {
+    return finite::judged(rig, shape, options, thorough);
 }
 
 }  // namespace revchain

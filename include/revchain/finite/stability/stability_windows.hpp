@@ -115,12 +115,12 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
 
 REVCHAIN_DEFINE
 std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
-                                                               const StabilityWindowsOptions& options) {
+                                               const StabilityWindowsOptions& options) {
     return finite::windows_of(chain, branch, options);
 }
 REVCHAIN_DEFINE
 std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
-                                                               const StabilityWindowsOptions& options) {
+                                               const StabilityWindowsOptions& options) {
     return finite::windows_of(rig, branch, options);
 }
 

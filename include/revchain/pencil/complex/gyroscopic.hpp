@@ -110,8 +110,8 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
             const auto l = left.real.col(j), m = left.imag.col(j);
             const S squares = (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
             const double sizes = static_cast<double>(sqrt(squares));
-            const double overlap = std::hypot(static_cast<double>(p.dot(l) - q.dot(m)),
-                                              static_cast<double>(p.dot(m) + q.dot(l)));
+            const double overlap =
+                std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
             modes.error[j] = whole * sizes / overlap;
         }
     }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <type_traits>
+
+#include "revchain/numeric/compiler.hpp"
+
+/// All means of the library for one question, where fewer compile in less than half the time.
+///
+///     const auto found = revchain::steady_shapes(chain, {.angular_speed = 14.0, .hanging_only = false},
+///                                                revchain::thorough);
+///
+/// `steady_shapes` then also finds shapes with links that stand or hang at several inclinations,
+/// `branches` also proves that no branch is missing, and `stability` computes with twice the digits
+/// where a double does not decide. In programs that link `revchain::compiled` all questions are
+/// thorough.
+namespace revchain::inline REVCHAIN_BUILD {
+
+/// The type of `thorough`.
+struct Thorough {
+    explicit constexpr Thorough() = default;
+};
+/// Given as the last argument, it asks for all means.
+inline constexpr Thorough thorough{};
+
+namespace detail {
+/// What a question uses unless `thorough` is given.
+#if defined(REVCHAIN_COMPILED)
+using Means = Thorough;
+#else
+struct Means {};
+#endif
+template <class Chosen>
+inline constexpr bool is_thorough = std::is_same_v<Chosen, Thorough>;
+}  // namespace detail
+
+}  // namespace revchain
