@@ -147,7 +147,7 @@ def symbol(code: list[str]) -> str:
     """The name that a declaration introduces; empty for an explicit instantiation."""
     if code[0].startswith("extern template"):
         return ""
-    whole = "\n".join(code).replace("[[nodiscard]] ", "").replace("REVCHAIN_DECLARE\n", "")
+    whole = re.sub(r"\[\[nodiscard\]\] |REVCHAIN_DECLARE(_ANALYTIC)?\n", "", "\n".join(code))
     whole = re.sub(r"^template\s*<.*?>\s*(requires .*?\n)?(?=\w)", "", whole, count=1, flags=re.DOTALL)
     if kind := re.match(r"(?:struct|class|enum class|concept|using)\s+(\w+)", whole):
         return kind[1]
@@ -210,7 +210,7 @@ def purpose(header: Path) -> str:
 
 GROUPS = {
     "Systems": "chain rig cord held",
-    "Questions": "modes methods rig_modes count explain steady_shapes branches stability stability_windows response swing "
+    "Questions": "modes methods rig_modes count explain steady_shapes thorough branches stability stability_windows response swing "
     "sensitivity tune batch statics recurrence",
     "Closed forms of the paper": "conical_pendulum compound_link two_links hoop rope governor gyrostatic_string bell buffer",
     "All at once": "revchain analytic",

@@ -74,10 +74,12 @@ template <Real T>
 
 #if defined(REVCHAIN_COMPILED)
 namespace revchain::inline REVCHAIN_BUILD {
-extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 extern template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
+#if !defined(REVCHAIN_COMPILED_DOUBLE)
+extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
 extern template Table<long double> conical_heights(const ChainBatch<long double>&,
                                                    const BatchOptions&);
+#endif
 }  // namespace revchain
 #else
 #include "revchain/questions/batch.hpp"

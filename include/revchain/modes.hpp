@@ -141,7 +141,9 @@ template <Real T>
 
 #if defined(REVCHAIN_COMPILED)
 namespace revchain::inline REVCHAIN_BUILD {
+#if !defined(REVCHAIN_COMPILED_DOUBLE)
 extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
+#endif
 extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
 extern template Modes<long double> modes(const Chain<long double>&,
                                          const ModesOptions<long double>&);

@@ -150,17 +150,19 @@ REVCHAIN_DECLARE
 
 #if defined(REVCHAIN_COMPILED)
 namespace revchain::inline REVCHAIN_BUILD {
-extern template Sensitivity<float> sensitivity(const Chain<float>&, const Modes<float>&);
-extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const Vector<float>&,
-                                               const Deviations<float>&);
 extern template Sensitivity<double> sensitivity(const Chain<double>&, const Modes<double>&);
 extern template Uncertainty<double> uncertainty(const Sensitivity<double>&, const Vector<double>&,
                                                 const Deviations<double>&);
+#if !defined(REVCHAIN_COMPILED_DOUBLE)
+extern template Sensitivity<float> sensitivity(const Chain<float>&, const Modes<float>&);
+extern template Uncertainty<float> uncertainty(const Sensitivity<float>&, const Vector<float>&,
+                                               const Deviations<float>&);
 extern template Sensitivity<long double> sensitivity(const Chain<long double>&,
                                                      const Modes<long double>&);
 extern template Uncertainty<long double> uncertainty(const Sensitivity<long double>&,
                                                      const Vector<long double>&,
                                                      const Deviations<long double>&);
+#endif
 }  // namespace revchain
 #else
 #include "revchain/questions/rig_sensitivity.hpp"

@@ -7,8 +7,10 @@
 
 /// All means of the library for one question, where fewer compile in less than half the time.
 ///
-///     const auto found = revchain::steady_shapes(chain, {.angular_speed = 14.0, .hanging_only = false},
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const auto found = revchain::steady_shapes(chain, {.angular_speed = 9.0, .hanging_only = false},
 ///                                                revchain::thorough);
+///     found.shapes.size();                     // 3, one of them with both links hanging
 ///
 /// `steady_shapes` then also finds shapes with links that stand or hang at several inclinations,
 /// `branches` also proves that no branch is missing, and `stability` computes with twice the digits

@@ -53,14 +53,26 @@ if grep -qE 'revchain::for_[a-z0-9_]*::.*([Aa]berth|[Ii]nterpolat|[Cc]ondens|mod
   fail 'a program that includes modes.hpp alone carries methods that it did not ask for'
 fi
 
+say 'steady shapes and branches without `thorough`'
+build shapes shapes -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+shapes/consumer >brief
+nm -C shapes/consumer >symbols
+if grep -qE 'revchain::for_[a-z0-9_]*::.*(PostureSearch|WholeBalance|DiagramProver)' symbols; then
+  fail 'a program that did not ask for thorough shapes carries their searches and proofs'
+fi
+
 say 'find_package(revchain COMPONENTS compiled)'
 refuses "the component 'compiled' was not installed" 'revchain REQUIRED COMPONENTS compiled'
 if [[ ${1-} != --quick ]]; then
   # The library that ./run and ./test have compiled for this machine.
-  quietly cmake --build "$root/build/dev" --target revchain_compiled
+  quietly cmake --build "$root/build/dev" --target revchain_compiled revchain_compiled_analytic
   quietly cmake --install library --prefix "$work/with_library"
   quietly cmake --install "$root/build/dev" --component compiled --prefix "$work/with_library"
   build compiled core -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled
+  build compiled_shapes shapes -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled
+  compiled_shapes/consumer >thorough
+  diff brief thorough || fail 'steady_shapes and branches give other numbers without `thorough`'
+  build compiled_analytic analytic -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled_analytic
 
   say 'three builds of the library in one program, under the address sanitizer, linked in two orders'
   build mixed mixed -DCMAKE_PREFIX_PATH="$work/with_library"
@@ -96,6 +108,7 @@ fi
 
 say 'find_package that cannot succeed says why'
 refuses "the component 'analytic' needs GSL" 'revchain REQUIRED COMPONENTS analytic' -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+refuses "the component 'compiled_analytic' was not installed" 'revchain REQUIRED COMPONENTS compiled_analytic'
 refuses "there is no component 'dynamics'" 'revchain REQUIRED COMPONENTS dynamics'
 refuses 'compatible with requested version "99.1"' 'revchain 99.1 REQUIRED'
 

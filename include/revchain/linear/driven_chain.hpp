@@ -64,7 +64,8 @@ DrivenChain driven_chain(const Rig& rig) {
 
 /// `driven_lanes` for any number of drives, with sharper bounds where its own is not negligible.
 /// Calls `put(row, which, offset)` and then `take(row, found)` for each drive, on several threads.
-template <class Put, class Take>
+/// A chain that `can_turn` may have links that do; the others compile in half the time.
+template <bool can_turn, class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
                      const Put& put, const Take& take, Progress* progress) {
     parallel_for(at.size(), pencil::most_driven_together, [&](std::size_t begin, std::size_t end) {
@@ -84,17 +85,17 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
                 const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
                     if (lane < taken) put(static_cast<Index>(i + lane), which, y);
                 };
-                if (chain.turning)
-                    pencil::driven_lanes<true, fused, V>(elements, padded, wanted, found, offset);
-                else
-                    pencil::driven_lanes<false, fused, V>(elements, padded, wanted, found, offset);
-                const bool sharp = std::all_of(found, found + taken, [](const pencil::Driven& each) {
-                    return !each.decided || each.error_bound <= 0x1p-56;
-                });
-                if (!sharp && chain.turning)
-                    pencil::sharpen<true, fused, V>(elements, padded, found, scratch, chain.end);
-                if (!sharp && !chain.turning)
-                    pencil::sharpen<false, fused, V>(elements, padded, found, scratch, chain.end);
+                const auto solve = [&]<bool turning>(std::bool_constant<turning>) REVCHAIN_INLINED {
+                    pencil::driven_lanes<turning, fused, V>(elements, padded, wanted, found, offset);
+                    const bool sharp = std::all_of(found, found + taken, [](const pencil::Driven& each) {
+                        return !each.decided || each.error_bound <= 0x1p-56;
+                    });
+                    if (!sharp) pencil::sharpen<turning, fused, V>(elements, padded, found, scratch, chain.end);
+                };
+                if (!can_turn || !chain.turning)
+                    solve(std::false_type{});
+                else if constexpr (can_turn)
+                    solve(std::true_type{});
                 for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
                 advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
             }

@@ -23,8 +23,7 @@
     template <int = 0> \
     inline
 
-/// The same for functions that need GSL. Only the Python module and the tests define
-/// REVCHAIN_COMPILED_ANALYTIC: no library with these functions is installed.
+/// The same for functions that need GSL, whose library is revchain::compiled_analytic.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_DECLARE_ANALYTIC
 #define REVCHAIN_DEFINE_ANALYTIC

@@ -125,7 +125,7 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
         store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
     };
     const bool one_unit = chain.pencil.units.empty();
-    if (one_unit) driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
+    if (one_unit) driven_by_lanes<std::is_same_v<Carried, Rig>>(chain, at, pins.wanted, put, take, options.progress);
     std::vector<Index> left;
     for (Index row = 0; row < rows; ++row)
         if (!one_unit || result.resonant[static_cast<std::size_t>(row)] != 0) left.push_back(row);

@@ -6,7 +6,7 @@
 #include "revchain/branches.hpp"
 #include "revchain/finite/branch/diagram_proof.hpp"
 #include "revchain/finite/branch/trace.hpp"
-#include "revchain/finite/shapes/steady_shapes.hpp"
+#include "revchain/finite/shapes/all_shapes.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 

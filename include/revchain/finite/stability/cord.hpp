@@ -6,7 +6,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/held/cord.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/finite/stability/judged.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 #include "revchain/stability.hpp"
