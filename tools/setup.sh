@@ -122,7 +122,8 @@ build_package() {
   { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation \
     --config-settings=build-dir="$root/build/dev" --config-settings=build.targets=_core \
     --config-settings=cmake.define.REVCHAIN_PORTABLE=OFF --config-settings=cmake.define.REVCHAIN_BUILD_TESTS=AUTO \
-    --config-settings=cmake.define.REVCHAIN_BUILD_EXAMPLES=ON --config-settings=cmake.define.REVCHAIN_BUILD_BENCH=ON \
+    --config-settings=cmake.define.REVCHAIN_BUILD_COMPILED=OFF --config-settings=cmake.define.REVCHAIN_BUILD_BENCH=ON \
+    --config-settings=cmake.define.REVCHAIN_BUILD_EXAMPLES=ON \
     "${root}[$1]" 2>&1 && echo built || echo failed; } |
     tee "$log" | "$venv/bin/python" -c 'import re, sys
 for line in sys.stdin:

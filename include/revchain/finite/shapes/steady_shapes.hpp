@@ -7,6 +7,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
+namespace finite {  // declared again: a file that includes all_shapes.hpp first defines them after this
+template <class Means>
+SteadyShapes all_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Means means);
+template <class Means>
+SteadyShapes all_shapes(const Rig& rig, const RigShapesOptions& options, Means means);
+}  // namespace finite
+
 REVCHAIN_DEFINE
 SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
     return finite::all_shapes(chain, options, detail::Means{});

@@ -7,6 +7,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
+namespace finite {  // declared again: a file that includes judged.hpp first defines them after this
+template <class Shape, class Means>
+Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape, Means means);
+template <class Means>
+Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Means means);
+}  // namespace finite
+
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
     return finite::judged(frame, chain, shape, detail::Means{});
