@@ -18,7 +18,7 @@
 ///     const auto second = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
 ///     second.end == revchain::BranchEnd::height;   // true: it was followed to that speed
 ///     second.tip_radius[second.size() - 1];        // 0.524717 m there, from the axis
-///     const auto all = revchain::branches(chain, {.max_angular_speed = 15.0});
+///     const auto all = revchain::branches(chain, {.max_angular_speed = 15.0}, revchain::thorough);
 ///     all.branches.size();                         // 4: of three modes, and an isolated one
 ///     all.complete;                                // true: proved, there are no others
 ///     const auto shape = revchain::steady_shape(chain, {.mode = 1, .tip_radius = 2.0});
