@@ -302,5 +302,4 @@ REVCHAIN_DECLARE
 
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/branch/branches.hpp"
-#include "revchain/finite/branch/diagram.hpp"
 #endif

@@ -4,11 +4,21 @@
 #include <functional>
 
 #include "revchain/branches.hpp"
+#include "revchain/finite/branch/diagram.hpp"
 #include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/finite/branch/trace.hpp"
 #include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
+
+namespace finite {  // declared again: a file that includes diagram.hpp first defines them after this
+template <class Means>
+class ChainQuestions;
+template <class Means>
+class RigQuestions;
+template <class Questions, class System, class Options, class Means>
+Branches diagram_of(const System& system, const Options& options, Means means);
+}  // namespace finite
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     const auto reject = [&](std::string_view what) { detail::throw_invalid("Branch::shape", what, point); };
@@ -141,6 +151,22 @@ SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& opti
 REVCHAIN_DEFINE
 SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
     return finite::first_on_branch(rig, options);
+}
+REVCHAIN_DEFINE
+Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
+    return finite::diagram_of<finite::ChainQuestions<detail::Means>>(chain, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+Branches branches(const Rig& rig, const RigDiagramOptions& options) {
+    return finite::diagram_of<finite::RigQuestions<detail::Means>>(rig, options, detail::Means{});
+}
+REVCHAIN_DEFINE
+Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {
+    return finite::diagram_of<finite::ChainQuestions<Thorough>>(chain, options, thorough);
+}
+REVCHAIN_DEFINE
+Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough) {
+    return finite::diagram_of<finite::RigQuestions<Thorough>>(rig, options, thorough);
 }
 
 }  // namespace revchain

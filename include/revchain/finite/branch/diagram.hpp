@@ -335,24 +335,3 @@ Branches diagram_of(const System& system, const Options& options, Means) {
 }
 
 }  // namespace revchain::finite
-
-namespace revchain::inline REVCHAIN_BUILD {
-
-REVCHAIN_DEFINE
-Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions<detail::Means>>(chain, options, detail::Means{});
-}
-REVCHAIN_DEFINE
-Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions<detail::Means>>(rig, options, detail::Means{});
-}
-REVCHAIN_DEFINE
-Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {
-    return finite::diagram_of<finite::ChainQuestions<Thorough>>(chain, options, thorough);
-}
-REVCHAIN_DEFINE
-Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough) {
-    return finite::diagram_of<finite::RigQuestions<Thorough>>(rig, options, thorough);
-}
-
-}  // namespace revchain
