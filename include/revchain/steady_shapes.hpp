@@ -100,11 +100,12 @@ struct SteadyShapes {
 /// inclinations under one load (pendulum length l > a and lambda <= W h (l - a)/(W h + a S)), are
 /// followed along each inclination; Krawczyk's test then decides boxes of all tangents.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links
-/// stand); measured errors are at most 2 ulp of the inclination. `complete` is proved too. If it is
-/// false, `undecided` has the ranges where shapes may be missing: at exactly a critical speed or a
-/// fold, or where the budget is used up, as for chains of 20 plummets or more at heights near
-/// 1/1000 of their length. If each link has one inclination for its load, a scan adds the shapes it
-/// finds there.
+/// stand); measured errors are at most 2 ulp of the inclination. Without `thorough` bounds are wider
+/// where links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's
+/// length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided` has the ranges where
+/// shapes may be missing: at exactly a critical speed or a fold, or where the budget is used up, as
+/// for chains of 20 plummets or more at heights near 1/1000 of their length. If each link has one
+/// inclination for its load, a scan adds the shapes it finds there.
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is
 /// listed and `complete` is false: double-double resolves offsets to 2^-104 of that length, and a
 /// sideways pull is an offset over the height, so tensions would lose their digits.

@@ -34,7 +34,8 @@ TEST_CASE("one link at every height: one shape below its pendulum length, none a
                                                                              : i % 4 == 1 ? exponent(random) / 20
                                                                                           : unit(random));
         if (std::abs(height / pendulum - 1) < 1e-6) continue;
-        const auto found = steady_shapes(chain, {.conical_height = height, .hanging_only = i % 5 != 0});
+        const auto found =
+            steady_shapes(chain, {.conical_height = height, .hanging_only = i % 5 != 0}, revchain::thorough);
         INFO("length " << a << ", pendulum length " << pendulum << ", height " << height);
         const double unit_of_length = std::ldexp(1.0, chain.units().length_exponent);
         CHECK(found.complete == (height >= 0x1p-50 * unit_of_length));
@@ -56,7 +57,7 @@ TEST_CASE("two plummets at small heights: as many shapes as in the limit, or not
         const Link<double> lower = plummet(number(random), number(random)),
                            upper = plummet(number(random), number(random));
         const Chain<double> chain(Links{lower, upper});
-        const auto found = steady_shapes(chain, {.conical_height = std::pow(10, exponent(random))});
+        const auto found = steady_shapes(chain, {.conical_height = std::pow(10, exponent(random))}, revchain::thorough);
         for (const SteadyShape& shape : found.shapes) {
             CHECK(is_sound(shape));
             unproved += shape.error_bound > 1e-14;
@@ -81,8 +82,8 @@ TEST_CASE("lists of shapes end at every height", "[steady]") {
         const Chain<double> chain(links);
         const double height = std::pow(10, i % 2 == 0 ? exponent(random) : small(random));
         for (const bool hanging_only : {true, false}) {
-            const auto found =
-                steady_shapes(chain, {.conical_height = height, .budget = 30'000, .hanging_only = hanging_only});
+            const auto found = steady_shapes(
+                chain, {.conical_height = height, .budget = 30'000, .hanging_only = hanging_only}, revchain::thorough);
             CHECK(std::all_of(found.shapes.begin(), found.shapes.end(), is_sound));
             if (height > 20) CHECK((found.shapes.empty() && found.complete));
         }
@@ -90,7 +91,8 @@ TEST_CASE("lists of shapes end at every height", "[steady]") {
     const Chain<double> rods(Links(2, {1.0, 1.0, 0.5, Wide<double>(4.0)})), plummets(Links(2, plummet(1.0, 1.0)));
     for (const double height : {1e-300, 1e-200, 1e-170, 1e300})
         for (const Chain<double>& chain : {rods, plummets}) {
-            const auto found = steady_shapes(chain, {.conical_height = height, .hanging_only = false});
+            const auto found =
+                steady_shapes(chain, {.conical_height = height, .hanging_only = false}, revchain::thorough);
             CHECK(found.complete >= (height > 1));
         }
 }

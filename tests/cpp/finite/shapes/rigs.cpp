@@ -35,7 +35,7 @@ TEST_CASE("swing carousels of one to eight links: all roots", "[finite][rig]") {
         const double lambda = chain.total_length() * random.log_between(0.02, 2);
         const double b = chain.total_length() * random.log_between(1e-3, 2);
         const Rig rig(chain, {.support = carried_round(b)});
-        const auto found = revchain::steady_shapes(rig, {.conical_height = lambda});
+        const auto found = revchain::steady_shapes(rig, {.conical_height = lambda}, revchain::thorough);
         CAPTURE(i, size, lambda, b);
         CHECK(found.complete);
         CHECK(found.shapes.size() % 2 == 1);  // from far inwards to far outwards
@@ -71,7 +71,7 @@ TEST_CASE("chains on springs, carried round or not: all roots", "[finite][rig]")
                 static_cast<std::size_t>(size),
                 Flywheel{0.02 * chain.total_weight() * chain.total_length() * std::sqrt(lambda / gravity), 0});
         const Rig rig(chain, {.support = held, .flywheels = wheels});
-        const auto found = revchain::steady_shapes(rig, {.conical_height = lambda});
+        const auto found = revchain::steady_shapes(rig, {.conical_height = lambda}, revchain::thorough);
         CAPTURE(i, size, lambda, held.stiffness.high, held.radius, held.carriage_weight);
         CHECK(found.complete);
         check_shapes(rig, lambda, found, 1, measured);
@@ -111,8 +111,8 @@ TEST_CASE("rigs of every kind, in any posture: nothing missing that random start
             }
         const Rig rig(chain, with);
         const int sense = random() < 0.5 ? 1 : -1;
-        const auto found =
-            revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false, .direction = turning(sense)});
+        const auto found = revchain::steady_shapes(
+            rig, {.conical_height = lambda, .hanging_only = false, .direction = turning(sense)}, revchain::thorough);
         CAPTURE(i, size, lambda, found.cells, found.shapes.size());
         check_shapes(rig, lambda, found, sense, measured);
         check_by_random_starts(rig, lambda, found, sense, 100, random, met);
@@ -131,9 +131,10 @@ TEST_CASE("a rig with nothing is its chain, bit for bit; with zeros, to the last
         const double lambda = chain.total_length() * random.log_between(0.02, 0.5);
         for (const bool hanging : {true, false}) {
             if (!hanging && chain.size() > 3) continue;
-            const auto want = revchain::steady_shapes(chain, {.conical_height = lambda, .hanging_only = hanging});
-            const auto found =
-                revchain::steady_shapes(Rig(chain, {}), {.conical_height = lambda, .hanging_only = hanging});
+            const auto want =
+                revchain::steady_shapes(chain, {.conical_height = lambda, .hanging_only = hanging}, revchain::thorough);
+            const auto found = revchain::steady_shapes(
+                Rig(chain, {}), {.conical_height = lambda, .hanging_only = hanging}, revchain::thorough);
             REQUIRE(found.shapes.size() == want.shapes.size());
             CHECK(found.cells == want.cells);
             for (std::size_t k = 0; k < want.shapes.size(); ++k) {
@@ -144,7 +145,8 @@ TEST_CASE("a rig with nothing is its chain, bit for bit; with zeros, to the last
             const auto size = static_cast<std::size_t>(chain.size());
             const Rig zeros(chain,
                             {.flywheels = std::vector<Flywheel>(size), .displaced = std::vector<Displaced>(size)});
-            const auto same = revchain::steady_shapes(zeros, {.conical_height = lambda, .hanging_only = hanging});
+            const auto same =
+                revchain::steady_shapes(zeros, {.conical_height = lambda, .hanging_only = hanging}, revchain::thorough);
             REQUIRE(same.shapes.size() == want.shapes.size());
             CHECK(same.complete == want.complete);
             for (std::size_t k = 0; k < want.shapes.size(); ++k) {
@@ -164,12 +166,12 @@ TEST_CASE("a support hardly off the axis: each shape twice, and the chain all bu
         const auto chain = i % 2 == 0 ? Chain<double>::uniform_plummets(1 + i % 4, 1.0, 1.0)
                                       : Chain<double>::uniform_rods(1 + i % 4, 1.0, 1.0);
         const double lambda = random.log_between(0.02, 0.9);
-        const auto axis = revchain::steady_shapes(chain, {.conical_height = lambda});
+        const auto axis = revchain::steady_shapes(chain, {.conical_height = lambda}, revchain::thorough);
         REQUIRE(axis.complete);
         double before = 0;
         for (const double b : {1e-6, 1e-9}) {
-            const auto found =
-                revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}), {.conical_height = lambda});
+            const auto found = revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}),
+                                                       {.conical_height = lambda}, revchain::thorough);
             REQUIRE(found.complete);
             REQUIRE(found.shapes.size() == 2 * axis.shapes.size() + 1);
             double worst = 0;
@@ -191,8 +193,8 @@ TEST_CASE("a support hardly off the axis: each shape twice, and the chain all bu
             before = worst;
         }
         // on the axis itself, with the shape of the spring's place alone changed
-        const auto none =
-            revchain::steady_shapes(Rig(chain, {.support = carried_round(0)}), {.conical_height = lambda});
+        const auto none = revchain::steady_shapes(Rig(chain, {.support = carried_round(0)}), {.conical_height = lambda},
+                                                  revchain::thorough);
         CHECK(none.shapes.size() == axis.shapes.size());
     }
 }
@@ -211,22 +213,22 @@ TEST_CASE("floats: a cork under water stands, and whirls where the turning water
         // hanging: lambda (W - B)/cos d = W + added: cos d of either sign
         for (const double B : {0.5, 0.9, 1.1, 1.5}) {
             const Quad cosine = Quad(lambda) * (1 - Quad(B)) / (1 + Quad(0.5));
-            const auto found =
-                revchain::steady_shapes(in(B, 0.5, Fluid::still), {.conical_height = lambda, .hanging_only = false});
+            const auto found = revchain::steady_shapes(
+                in(B, 0.5, Fluid::still), {.conical_height = lambda, .hanging_only = false}, revchain::thorough);
             REQUIRE(found.complete);
             REQUIRE(found.shapes.size() == 1);
             CHECK(apart(found.shapes[0].inclination[0], acosq(cosine)) <= found.shapes[0].error_bound);
         }
         // turning: net weights in both
-        const auto found =
-            revchain::steady_shapes(in(1.5, 0, Fluid::turning), {.conical_height = lambda, .hanging_only = false});
+        const auto found = revchain::steady_shapes(
+            in(1.5, 0, Fluid::turning), {.conical_height = lambda, .hanging_only = false}, revchain::thorough);
         REQUIRE(found.complete);
         REQUIRE(found.shapes.size() == 1);
         CHECK(apart(found.shapes[0].inclination[0], acosq(Quad(lambda))) <= found.shapes[0].error_bound);
     }
-    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::still), {.conical_height = 0.5}),
+    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::still), {.conical_height = 0.5}, revchain::thorough),
                       ContainsSubstring("effective tension"));
-    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::turning), {.conical_height = 0.5}),
+    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::turning), {.conical_height = 0.5}, revchain::thorough),
                       ContainsSubstring("links[0]"));
 }
 
@@ -238,8 +240,9 @@ TEST_CASE("a rig's own posture: a broomstick on a hanging rod, and nothing else"
         const auto chain = random_chain(2, random);
         const Rig rig(chain, {.support = carried_round(0.05), .posture = {Posture::stands, Posture::hangs}});
         const double lambda = chain.total_length() * random.log_between(0.05, 1);
-        const auto own = revchain::steady_shapes(rig, {.conical_height = lambda}),
-                   any = revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false});
+        const auto own = revchain::steady_shapes(rig, {.conical_height = lambda}, revchain::thorough),
+                   any = revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false},
+                                                 revchain::thorough);
         check_shapes(rig, lambda, own, 1, measured);
         std::size_t count = 0;
         for (const SteadyShape& shape : any.shapes)
@@ -261,7 +264,7 @@ TEST_CASE("bells carried round, the lowest link in the axis: met from both sides
     const double lambda = 0.8;
     const double b = 0.8;  // sin d = 0.8 where cos d = 0.6
     const auto found = revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}),
-                                               {.conical_height = lambda, .hanging_only = false});
+                                               {.conical_height = lambda, .hanging_only = false}, revchain::thorough);
     CHECK(found.complete);
     Measured measured;
     const Rig rig(chain, {.support = carried_round(b)});
@@ -288,7 +291,8 @@ TEST_CASE("rods on end, carried round: every list proved, and no shape in it twi
                     const auto chain = Chain<double>::uniform_rods(size, each * static_cast<double>(size), 1.0);
                     const std::vector<Posture> stand(static_cast<std::size_t>(size), Posture::stands);
                     const Rig rig(chain, {.support = carried_round(b), .posture = stand});
-                    const auto found = revchain::steady_shapes(rig, {.angular_speed = 2 * std::numbers::pi * turns});
+                    const auto found = revchain::steady_shapes(rig, {.angular_speed = 2 * std::numbers::pi * turns},
+                                                               revchain::thorough);
                     CAPTURE(size, each, turns, b);
                     CHECK(found.complete);
                     REQUIRE(!found.shapes.empty());
@@ -306,7 +310,7 @@ TEST_CASE("long carousels: outwards at rest and at speed", "[finite][rig]") {
     for (const Index size : {100, 1000}) {
         const auto chain = Chain<double>::uniform_rods(size, 1.0, 1.0);
         const Rig rig(chain, {.support = carried_round(0.5)});
-        const auto found = revchain::steady_shapes(rig, {.conical_height = 2.0});
+        const auto found = revchain::steady_shapes(rig, {.conical_height = 2.0}, revchain::thorough);
         CHECK(found.complete);
         REQUIRE(found.shapes.size() == 1);
         CHECK(found.shapes[0].residual <= 1e-20);
@@ -321,23 +325,27 @@ TEST_CASE("what cannot be told is said", "[finite][rig]") {
     for (const double radius : {0.0, 0.1}) {
         auto held = horizontal_spring(4.0);
         held.radius = radius;
-        const auto found = revchain::steady_shapes(Rig(chain, {.support = held}), {.conical_height = 0.25});
+        const auto found =
+            revchain::steady_shapes(Rig(chain, {.support = held}), {.conical_height = 0.25}, revchain::thorough);
         CHECK_FALSE(found.complete);
         CHECK_FALSE(found.undecided.empty());
     }
-    const auto poor =
-        revchain::steady_shapes(Rig(chain, {.support = carried_round(0.1)}), {.conical_height = 0.1, .budget = 4});
+    const auto poor = revchain::steady_shapes(Rig(chain, {.support = carried_round(0.1)}),
+                                              {.conical_height = 0.1, .budget = 4}, revchain::thorough);
     CHECK_FALSE(poor.complete);
     // wheels against the rotation on a chain too long for boxes of all its tangents
     const Rig many(Chain<double>::uniform_rods(300, 1.0, 1.0), {.flywheels = std::vector<Flywheel>(300, {-1e-3})});
-    CHECK_FALSE(revchain::steady_shapes(many, {.conical_height = 0.1}).complete);
+    CHECK_FALSE(revchain::steady_shapes(many, {.conical_height = 0.1}, revchain::thorough).complete);
     const Rig rig(chain, {.flywheels = {{-1.0}, {0.0}}});
     for (const double bad : {0.0, -1.0, std::nan("")}) {
-        CHECK_THROWS_AS(revchain::steady_shapes(rig, {.conical_height = bad}), revchain::InvalidArgument);
-        CHECK_THROWS_AS(revchain::steady_shapes(rig, {.conical_height = 1.0, .gravity = bad}),
+        CHECK_THROWS_AS(revchain::steady_shapes(rig, {.conical_height = bad}, revchain::thorough),
+                        revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(rig, {.conical_height = 1.0, .gravity = bad}, revchain::thorough),
                         revchain::InvalidArgument);
     }
-    CHECK_THROWS_AS(revchain::steady_shapes(rig, {.angular_speed = 0.0}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::steady_shapes(rig, {.angular_speed = 1e-200}), revchain::InvalidArgument);
-    CHECK_FALSE(revchain::steady_shapes(rig, {.angular_speed = 1e200}).complete);
+    CHECK_THROWS_AS(revchain::steady_shapes(rig, {.angular_speed = 0.0}, revchain::thorough),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shapes(rig, {.angular_speed = 1e-200}, revchain::thorough),
+                    revchain::InvalidArgument);
+    CHECK_FALSE(revchain::steady_shapes(rig, {.angular_speed = 1e200}, revchain::thorough).complete);
 }

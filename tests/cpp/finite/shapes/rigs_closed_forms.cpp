@@ -24,7 +24,8 @@ TEST_CASE("one plummet on a support carried round: the closed form's one or thre
         const double b = l * random.log_between(1e-6, 3);
         const auto exact = revchain::carried_inclinations(l, lambda, b);
         const Chain<double> one({plummet<double>(random.log_between(0.1, 10), l)});
-        const auto found = revchain::steady_shapes(Rig(one, {.support = carried_round(b)}), {.conical_height = lambda});
+        const auto found = revchain::steady_shapes(Rig(one, {.support = carried_round(b)}), {.conical_height = lambda},
+                                                   revchain::thorough);
         REQUIRE(found.complete);
         REQUIRE(static_cast<int>(found.shapes.size()) == exact.count);
         threes += exact.count == 3;
@@ -49,8 +50,9 @@ TEST_CASE("a plummet under a spring: (lambda - W/E) sec d = l", "[finite][rig]")
                      E = W / l * random.log_between(0.2, 50);
         const double lambda = l * random.log_between(0.02, 3);
         const Quad c = Quad(W) / E, cosine = (Quad(lambda) - c) / l;
-        const auto found = revchain::steady_shapes(
-            Rig(Chain<double>({plummet<double>(W, l)}), {.support = horizontal_spring(E)}), {.conical_height = lambda});
+        const auto found =
+            revchain::steady_shapes(Rig(Chain<double>({plummet<double>(W, l)}), {.support = horizontal_spring(E)}),
+                                    {.conical_height = lambda}, revchain::thorough);
         REQUIRE(found.complete);
         const bool flies = cosine > 0 && cosine < 1;
         REQUIRE(found.shapes.size() == (flies ? 1U : 0U));
@@ -85,8 +87,9 @@ TEST_CASE("one gyrostat: (I cos d) n^2 - p n - W h = 0, a top hung up", "[finite
         const Rig rig(one, {.flywheels = {{H, C}}});
         const Quad cosine = (Quad(H) * n + Quad(W) * h) / ((I - Quad(C) / g) * n * n);
         for (const bool hanging : {true, false}) {
-            const auto found =
-                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)});
+            const auto found = revchain::steady_shapes(
+                rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)},
+                revchain::thorough);
             REQUIRE(found.complete);
             const bool there = fabsq(cosine) < 1 && (cosine > 0 || !hanging);
             REQUIRE(found.shapes.size() == (there ? 1U : 0U));
@@ -98,10 +101,13 @@ TEST_CASE("one gyrostat: (I cos d) n^2 - p n - W h = 0, a top hung up", "[finite
         }
         // the same at the speed, the sense its sign
         const double speed = static_cast<double>(n);
-        const auto again = revchain::steady_shapes(rig, {.angular_speed = speed, .hanging_only = false});
+        const auto again =
+            revchain::steady_shapes(rig, {.angular_speed = speed, .hanging_only = false}, revchain::thorough);
         if (fabsq(cosine) < 0.999)
             CHECK(again.shapes.size() ==
-                  revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = false, .direction = turning(sense)})
+                  revchain::steady_shapes(
+                      rig, {.conical_height = lambda, .hanging_only = false, .direction = turning(sense)},
+                      revchain::thorough)
                       .shapes.size());
     }
     CHECK(inclined > 50);
@@ -125,8 +131,9 @@ TEST_CASE("two gyrostats, hanging and standing: torques on both", "[finite][rig]
         const Rig rig(chain, {.flywheels = wheels});
         const int sense = i % 2 == 0 ? 1 : -1;
         for (const bool hanging : {true, false}) {
-            const auto found =
-                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)});
+            const auto found = revchain::steady_shapes(
+                rig, {.conical_height = lambda, .hanging_only = hanging, .direction = turning(sense)},
+                revchain::thorough);
             CAPTURE(i, hanging, found.cells);
             check_shapes(rig, lambda, found, sense, measured);
             if (!hanging) check_by_random_starts(rig, lambda, found, sense, 100, random, met);
@@ -148,7 +155,8 @@ TEST_CASE("a compound link on a spring, at any inclination", "[finite][rig]") {
         const double l = chain.total_length(), lambda = l * random.log_between(0.05, 2);
         const Rig rig(chain, {.support = horizontal_spring(chain.total_weight() / l * random.log_between(0.3, 100))});
         for (const bool hanging : {true, false}) {
-            const auto found = revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging});
+            const auto found =
+                revchain::steady_shapes(rig, {.conical_height = lambda, .hanging_only = hanging}, revchain::thorough);
             check_shapes(rig, lambda, found, 1, measured);
             if (!hanging) check_by_random_starts(rig, lambda, found, 1, 60, random, met);
         }

@@ -272,7 +272,7 @@ Chain<double> chain_of_kind(int kind, Index n, Random& random) {
 }
 
 SteadyShapes all_shapes(const Chain<double>& chain, double height) {
-    return revchain::steady_shapes(chain, {.conical_height = height, .hanging_only = false});
+    return revchain::steady_shapes(chain, {.conical_height = height, .hanging_only = false}, revchain::thorough);
 }
 
 std::size_t hanging(const SteadyShapes& found) {
@@ -312,7 +312,8 @@ TEST_CASE("all postures, one to four links: every shape proved, every degree", "
         const auto chain = chain_of_kind(kind, n, random);
         const double height = chain.total_length() * random.log_between(1e-3, 3.0);
         CAPTURE(i, n, kind, height);
-        const auto all = all_shapes(chain, height), hang = revchain::steady_shapes(chain, {.conical_height = height});
+        const auto all = all_shapes(chain, height),
+                   hang = revchain::steady_shapes(chain, {.conical_height = height}, revchain::thorough);
         check_list(chain, height, all);
         check_list(chain, height, hang, true);
         CHECK(hanging(all) == hang.shapes.size());
@@ -436,7 +437,8 @@ TEST_CASE("a lowest link that hangs, or stands, in the axis", "[finite]") {
     // Link 2 carries no load and leans at 60 degrees, as lambda sigma/cos d = -a X does; link 3 leans as much against it.
     const Chain<double> chain(
         {revchain::plummet(1.0, 1.0), {1.0, 1.0, 0.5, revchain::Wide<double>(1.0)}, revchain::plummet(1.0, 1.0)});
-    const auto hang = revchain::steady_shapes(chain, {.conical_height = 0.25}), all = all_shapes(chain, 0.25);
+    const auto hang = revchain::steady_shapes(chain, {.conical_height = 0.25}, revchain::thorough),
+               all = all_shapes(chain, 0.25);
     CHECK(hang.complete);
     CHECK(all.complete);
     for (const auto* found : {&hang, &all}) {
@@ -473,7 +475,7 @@ TEST_CASE("a free end across the axis is told by its offset", "[finite]") {
     const Chain<double> chain(
         {revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 3})});
     for (const double height : {2.9, 2.1, 1.9, 0.5}) {
-        const auto found = revchain::steady_shapes(chain, {.conical_height = height});
+        const auto found = revchain::steady_shapes(chain, {.conical_height = height}, revchain::thorough);
         REQUIRE(found.shapes.size() == 1);
         CHECK(found.shapes[0].offset[0] > 0);
     }
@@ -484,7 +486,8 @@ TEST_CASE("chains too long for the budget say so", "[finite]") {
     const auto chain = chain_of_kind(2, 30, random);
     for (const bool hanging_only : {false, true}) {
         const auto found = revchain::steady_shapes(
-            chain, {.conical_height = 0.01 * chain.total_length(), .budget = 2000, .hanging_only = hanging_only});
+            chain, {.conical_height = 0.01 * chain.total_length(), .budget = 2000, .hanging_only = hanging_only},
+            revchain::thorough);
         CHECK_FALSE(found.complete);
         CHECK_FALSE(found.undecided.empty());
     }
