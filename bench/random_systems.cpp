@@ -183,8 +183,9 @@ void check_shapes(Random& random, const Kind& kind, Tally& tally) {
     const double height = rig.chain().total_length() * random.log_between(0.03, 1.0);
     const bool forward = random() < 0.5;
     const auto direction = forward ? revchain::Rotation::forward : revchain::Rotation::backward;
-    const auto found = revchain::steady_shapes(
-        rig, {.conical_height = height, .budget = 300'000, .hanging_only = false, .direction = direction});
+    const revchain::RigShapesOptions options{
+        .conical_height = height, .budget = 300'000, .hanging_only = false, .direction = direction};
+    const auto found = revchain::steady_shapes(rig, options, revchain::thorough);
     const Quad speed = (forward ? 1 : -1) * sqrtq(Quad(9.80665) / Quad(height));
     const support::ShapeEquations<Quad> truth(rig, height, speed);
     const support::ShapeEquations<double> rough(rig, height, static_cast<double>(speed));
@@ -309,8 +310,8 @@ std::vector<std::complex<long double>> exponents_of(const support::QuadMotion& m
 void check_stability(Random& random, const Kind& kind, Tally& tally) {
     const Rig rig = random_rig(random, kind);
     const double height = rig.chain().total_length() * random.log_between(0.05, 0.7);
-    const auto found =
-        revchain::steady_shapes(rig, {.conical_height = height, .budget = 100'000, .hanging_only = false});
+    const revchain::RigShapesOptions options{.conical_height = height, .budget = 100'000, .hanging_only = false};
+    const auto found = revchain::steady_shapes(rig, options, revchain::thorough);
     if (found.shapes.empty()) return;
     const auto& shape = found.shapes[static_cast<std::size_t>(random() * static_cast<double>(found.shapes.size()))];
     if (shape.condition > 1e4) return;
@@ -320,7 +321,7 @@ void check_stability(Random& random, const Kind& kind, Tally& tally) {
     if (truth.size() > place.size()) place.push_back(shape.offset[rig.size()]);
     const auto exact = truth.solved_from(place, 12, 1e-25);
     if (!exact) return;
-    const auto got = revchain::stability(rig, shape);
+    const auto got = revchain::stability(rig, shape, {}, revchain::thorough);
     const auto want = exponents_of(support::QuadMotion(rig, *exact, speed));
     long double largest = 0;
     for (const auto& s : got.exponents) largest = std::max<long double>(largest, std::abs(s));

@@ -30,7 +30,7 @@ Timed timed(const Chain<double>& chain, const revchain::SteadyShapesOptions& opt
     double sink = 0;
     for (int i = 0; i < runs; ++i) {
         const double start = bench::cpu_seconds();
-        result.found = revchain::steady_shapes(chain, options);
+        result.found = revchain::steady_shapes(chain, options, revchain::thorough);
         times.push_back(1e3 * (bench::cpu_seconds() - start));
         sink += static_cast<double>(result.found.cells);
         if (times.back() > 1000) break;
@@ -55,7 +55,7 @@ void diagram(const std::string& name, const Chain<double>& chain, double least) 
     std::vector<double> times;
     for (int i = 0; i < 5; ++i) {
         const double start = bench::cpu_seconds();
-        found = revchain::branches(chain, {.min_conical_height = least});
+        found = revchain::branches(chain, {.min_conical_height = least}, revchain::thorough);
         times.push_back(1e3 * (bench::cpu_seconds() - start));
         if (times.back() > 1000) break;
     }

@@ -80,13 +80,12 @@ PUBLIC = {
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 FURTHER = {  # more files that define what a header declares
-    "branches.hpp": {"finite/branch/diagram.hpp"},
     "cord.hpp": {"analytic/cord_sensitivity.hpp"},
     "held.hpp": {"questions/held_check.hpp"},
     "finite/cord/continuous_chain.hpp": {"finite/cord/steady_shapes.hpp"},
     "finite/cord/branches.hpp": {"finite/cord/branch_shapes.hpp"},
 }
-MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
+MACROS = {"numeric/compiled.hpp"}  # declares nothing but macros
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
 PLAIN = {"chain.hpp", "modes.hpp", "methods.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
 RIGGING = {"rig.hpp", "system/edit.hpp"}

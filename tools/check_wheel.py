@@ -22,6 +22,7 @@ FILES = (
     "revchain/include/revchain/analytic.hpp",
     "revchain/share/cmake/revchain/revchain-config.cmake",
     "revchain/share/cmake/revchain/revchain-compiled-targets.cmake",
+    "revchain/share/cmake/revchain/revchain-compiled_analytic-targets.cmake",
 )
 LICENCES = {"MPL-2.0.txt", "GPL-3.0-or-later.txt"}
 

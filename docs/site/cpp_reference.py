@@ -104,7 +104,7 @@ def declarations(lines: list[str]) -> list[tuple[str, list[str], list[str]]]:
             place += 1
         else:
             end = end_of(lines, place)
-            code = lines[place:end]
+            code = [line for line in lines[place:end] if not re.fullmatch(r"REVCHAIN_DECLARE(_ANALYTIC)?", line)]
             head = "\n".join(code).partition("{")[0]
             member = re.search(r"\w(<T>)?::~?\w+\(", head.partition(" = ")[0])  # members are shown with their class
             known_before = re.search(r"(?m)^(class|struct) \w+;", "\n".join(code))
@@ -147,7 +147,7 @@ def symbol(code: list[str]) -> str:
     """The name that a declaration introduces; empty for an explicit instantiation."""
     if code[0].startswith("extern template"):
         return ""
-    whole = re.sub(r"\[\[nodiscard\]\] |REVCHAIN_DECLARE(_ANALYTIC)?\n", "", "\n".join(code))
+    whole = "\n".join(code).replace("[[nodiscard]] ", "")
     whole = re.sub(r"^template\s*<.*?>\s*(requires .*?\n)?(?=\w)", "", whole, count=1, flags=re.DOTALL)
     if kind := re.match(r"(?:struct|class|enum class|concept|using)\s+(\w+)", whole):
         return kind[1]

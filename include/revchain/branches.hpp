@@ -201,7 +201,7 @@ struct Branches {
 /// eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with
 /// AVX-512; with SSE2 up to twice as long).
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
-/// >= 1; and for links that may hang at several inclinations, unless `thorough` is given.
+/// >= 1; without `thorough` also for links that stand or may hang at several inclinations.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 REVCHAIN_DECLARE

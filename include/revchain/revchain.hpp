@@ -2,10 +2,10 @@
 #pragma once
 
 // Chains, rigs, closed forms and the questions about them that are asked most, with Eigen alone.
-// Each of these headers is for a program that asks its question; together they would triple the
-// time to compile this one: batch.hpp, branches.hpp, explain.hpp, held.hpp, methods.hpp,
-// rig_modes.hpp, stability.hpp, stability_windows.hpp, swing.hpp and tune.hpp. The headers that
-// need GSL are in revchain/analytic.hpp.
+// Left out, because together they would triple the time to compile this header: batch.hpp,
+// branches.hpp, explain.hpp, held.hpp, methods.hpp, rig_modes.hpp, stability.hpp,
+// stability_windows.hpp, swing.hpp and tune.hpp. Include the one whose question you ask. The
+// headers that need GSL are in revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                   // IWYU pragma: export
 #include "revchain/buffer.hpp"                 // IWYU pragma: export

@@ -78,18 +78,21 @@ struct Stability {
 /// Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each error,
 /// and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, up
 /// to 100 motions are computed with twice the digits if `thorough` is given, or in programs that
-/// link revchain::compiled: masses 1e16 apart mostly to 2e-13 of the
-/// largest (3e-11 at worst of 900 shapes), on arms and springs 5e-9, as the shape is given in
-/// double (tests/python/test_light_links.py).
+/// link revchain::compiled: masses 1e16 apart mostly to 2e-13 of the largest (3e-11 at worst of 900
+/// shapes), on arms and springs 5e-9, as the shape is given in double
+/// (tests/python/test_light_links.py).
 /// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
 /// positive energy, 100 times as much with twice the digits.
-/// Throws InvalidArgument if numbers or lengths of links differ; weights are not compared.
+/// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
+/// `thorough` also where rounding leaves in doubt whether every motion moves mass.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame, Thorough);
+REVCHAIN_DECLARE
+[[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape, Thorough);
 
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
@@ -103,6 +106,8 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame, Thorough);
+REVCHAIN_DECLARE
+[[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape, Thorough);
 
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {

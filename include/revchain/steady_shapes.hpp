@@ -97,8 +97,9 @@ struct SteadyShapes {
 /// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with
 /// first and second derivatives, until each part has exactly one zero or none. Newton's method and
 /// Krawczyk's test then treat all pins in double-double. Links that stand, or hang at several
-/// inclinations under one load (pendulum length l > a and lambda <= W h (l - a)/(W h + a S)), are
-/// followed along each inclination; Krawczyk's test then decides boxes of all tangents.
+/// inclinations under one load (lambda <= W h (l - a)/(W h + a S): pendulum length l > a, or a
+/// centroid above the upper pin), are followed along each inclination; Krawczyk's test then decides
+/// boxes of all tangents.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links
 /// stand); measured errors are at most 2 ulp of the inclination. Without `thorough` bounds are wider
 /// where links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's

@@ -5,17 +5,18 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-/// All means of the library for one question, where fewer compile in less than half the time.
+/// The last argument `thorough` asks a question with all that the library can do. Without it
+/// programs compile in less than half the time.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto found = revchain::steady_shapes(chain, {.angular_speed = 9.0, .hanging_only = false},
 ///                                                revchain::thorough);
 ///     found.shapes.size();                     // 3, one of them with both links hanging
 ///
-/// `steady_shapes` then also finds shapes with links that stand or hang at several inclinations,
-/// `branches` also proves that no branch is missing, and `stability` computes with twice the digits
-/// where a double does not decide. In programs that link `revchain::compiled` all questions are
-/// thorough.
+/// `steady_shapes` and `branches` then also take links that stand or may hang at several
+/// inclinations, `branches` proves that no branch is missing, and `stability` computes with twice
+/// the digits where a double does not decide. In programs that link `revchain::compiled` all
+/// questions are thorough. The headers of these questions include this one.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The type of `thorough`.

@@ -31,7 +31,7 @@ class Revchain(ConanFile):
 
     # A recipe of a release has conandata.yml and source() with get() instead, and its version there.
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "cmake/*", "include/*", "LICENSES/*"):
+        for pattern in ("CMakeLists.txt", "cmake/*", "include/*", "src/compiled/*", "LICENSES/*"):
             copy(self, pattern, self._root, self.export_sources_folder)
 
     def requirements(self):

@@ -7,7 +7,7 @@
 
 #include "revchain/branches.hpp"
 #include "revchain/finite/branch/diagram.hpp"
-#include "revchain/finite/shapes/all_shapes.hpp"
+#include "revchain/finite/shapes/shapes_by.hpp"
 #include "revchain/finite/stability/judged.hpp"
 #include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
@@ -35,7 +35,7 @@ struct Brief {};
 
 template <class System, class Options>
 SteadyShapes briefly(const System& system, const Options& options) {
-    return revchain::finite::all_shapes(system, options, Brief{});
+    return revchain::finite::shapes_by(system, options, Brief{});
 }
 
 bool same(const SteadyShape& x, const SteadyShape& y) {

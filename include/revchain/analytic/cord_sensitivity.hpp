@@ -3,6 +3,7 @@
 
 #include "revchain/analytic/cord.hpp"
 #include "revchain/cord.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {

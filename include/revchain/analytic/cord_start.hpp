@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::detail {

@@ -64,7 +64,7 @@ DrivenChain driven_chain(const Rig& rig) {
 
 /// `driven_lanes` for any number of drives, with sharper bounds where its own is not negligible.
 /// Calls `put(row, which, offset)` and then `take(row, found)` for each drive, on several threads.
-/// A chain that `can_turn` may have links that do; the others compile in half the time.
+/// `can_turn`: whether links may have spin, as in rigs; without, half as much is compiled.
 template <bool can_turn, class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
                      const Put& put, const Take& take, Progress* progress) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-/// A public function is declared in its public header and defined in a folder, which the public
-/// header includes at its end. With REVCHAIN_COMPILED, which the CMake target revchain::compiled
-/// sets, it does not include that: the library holds the definitions. Without, functions that are
-/// not templates would be compiled, with all that they call, in every program that includes their
-/// header. REVCHAIN_DECLARE and REVCHAIN_DEFINE therefore make templates of them, which are compiled
-/// where they are called; REVCHAIN_LAZY does so for the functions behind them. REVCHAIN_INLINE marks
-/// the definitions of members.
+/// Public functions are declared in public headers, which include their definitions at the end.
+/// With REVCHAIN_COMPILED (set by the CMake target revchain::compiled) that include is left out:
+/// the functions are ordinary ones, defined in the library. Without it they are templates, so that
+/// a program compiles only those that it calls: REVCHAIN_DECLARE stands before declarations,
+/// REVCHAIN_DEFINE before definitions. REVCHAIN_LAZY makes templates of the functions behind them
+/// in both cases. REVCHAIN_INLINE stands before definitions of members.
 #if defined(REVCHAIN_COMPILED)
 #define REVCHAIN_DECLARE
 #define REVCHAIN_DEFINE

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "revchain/buffer.hpp"
-#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/two_links.hpp"
 

@@ -12,7 +12,7 @@ def cmake_prefix() -> str:
     """Folder of the C++ library in this package, for ``CMAKE_PREFIX_PATH``.
 
     The package contains the C++ headers, the CMake configuration and the pkg-config files of the same version, and the
-    static library ``revchain::compiled`` for ``double`` (CMake: ``find_package(revchain COMPONENTS compiled)``).
+    static libraries ``revchain::compiled`` and ``revchain::compiled_analytic`` for ``double``.
 
     Returns
     -------

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <functional>
-
 #include "revchain/branches.hpp"
 #include "revchain/finite/branch/diagram.hpp"
 #include "revchain/finite/branch/shape_on_branch.hpp"
@@ -11,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-namespace finite {  // declared again: a file that includes diagram.hpp first defines them after this
+// If a program includes diagram.hpp first, this file is read before the definitions there.
+namespace finite {
 template <class Means>
 class ChainQuestions;
 template <class Means>

@@ -6,8 +6,7 @@
 #include "revchain/branches.hpp"
 #include "revchain/finite/branch/diagram_proof.hpp"
 #include "revchain/finite/branch/trace.hpp"
-#include "revchain/finite/shapes/all_shapes.hpp"
-#include "revchain/numeric/compiled.hpp"
+#include "revchain/finite/shapes/shapes_by.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -29,8 +28,9 @@ class ChainQuestions {
                                .gravity = options_.gravity});
     }
     SteadyShapes list(double height) const {
-        return all_shapes(chain_, {.conical_height = height, .budget = options_.budget}, Means{});
+        return shapes_by(chain_, {.conical_height = height, .budget = options_.budget}, Means{});
     }
+    const Links<Fine>& links_at(double) const { return system->chain; }
     /// Heights of the modes above one, the slowest first.
     std::vector<double> modes_above(double height) const {
         std::vector<double> found;
@@ -79,8 +79,9 @@ class RigQuestions {
                                        .budget = options_.budget,
                                        .direction = options_.direction,
                                        .gravity = options_.gravity};
-        return all_shapes(rig_, options, Means{});
+        return shapes_by(rig_, options, Means{});
     }
+    RiggedLinks links_at(double height) const { return system->rigged_at(Fine(height)); }
     std::vector<double> modes_above(double height) const {
         std::vector<double> found;
         for (const auto& mode : found_)
@@ -144,6 +145,11 @@ class Diagram {
 
     Branches run() {
         const double lowest = result_.conical_height;
+        if constexpr (!detail::is_thorough<Means>) {
+            const double scaled = lowest * unit_;
+            if (!hangs_at_one_inclination(ask_.links_at(scaled), Interval<double>(scaled)))
+                throw_not_thorough("branches", lowest);
+        }
         const bool from_rest = !ask_.system->links.is_symmetric();
         const auto settled = ask_.settled_above();
         std::vector<double> heights;
@@ -264,7 +270,7 @@ class Diagram {
         if constexpr (detail::is_thorough<Means>)
             prove_between(lowest, *settled * unit_ * (1 + 1e-9));
         else
-            result_.remark += "; with revchain::thorough as the last argument, this is decided";
+            result_.remark += "; revchain::thorough as the last argument asks for a proof";
     }
     /// Proves that no loop is missing between two heights, and writes what is proved.
     void prove_between(double lowest, double first) {

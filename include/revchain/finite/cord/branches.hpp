@@ -3,6 +3,7 @@
 
 #include "revchain/branches.hpp"
 #include "revchain/finite/cord/branch_line.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
 
@@ -191,5 +192,4 @@ void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, con
 
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/cord/branch_shapes.hpp"
-#include "revchain/numeric/compiled.hpp"
 #endif

@@ -289,7 +289,8 @@ class CordModeShape {
 /// length above 1e6 heights, `scanned` below 1, an exponent of the density above 20, and a cord
 /// that the series cannot follow (as an exponent of 16 without a tip, or a tip of 1e30 times its
 /// weight).
-CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
+REVCHAIN_DECLARE
+[[nodiscard]] CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 
 }  // namespace revchain
 

@@ -6,7 +6,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-REVCHAIN_INLINE CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
+REVCHAIN_DEFINE
+CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
     const double height = detail::height_given(place, options);
     finite::length_in_heights(place, cord.length(), height);

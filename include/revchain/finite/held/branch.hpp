@@ -9,8 +9,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Why a branch ends: back at the greatest speed; a link is slack or turns over; a chain with ends
 /// off the axis hangs as at rest; a cord hangs folded along the axis; after 3000 steps.
 enum class HeldBranchEnd { speed, slack, rest, folded, budget };
-REVCHAIN_LAZY
-std::string_view to_string(HeldBranchEnd end) {
+[[nodiscard]] inline std::string_view to_string(HeldBranchEnd end) noexcept {
     constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }

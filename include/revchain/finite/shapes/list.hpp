@@ -285,8 +285,8 @@ void add_several_valued(const AnyLinks& links, const Fine& height, double last, 
 template <int = 0>
 [[noreturn]] void throw_not_thorough(std::string_view where, double height) {
     detail::throw_invalid(where,
-                          "links may stand, or hang at several inclinations under one load; with revchain::thorough "
-                          "as the last argument, their shapes are found too; the conical height is",
+                          "each link must hang, at one inclination under its load, unless revchain::thorough is the "
+                          "last argument; at this conical height one may not",
                           height);
 }
 

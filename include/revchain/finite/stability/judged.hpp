@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <complex>
+#include <optional>
+
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 #include "revchain/finite/stability/disturbed.hpp"
@@ -205,7 +209,14 @@ Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     if constexpr (detail::is_thorough<Means>)
         if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
             if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
-    if (!found) detail::throw_invalid("stability", "every motion must move some mass; pins that move", d.mass.rows());
+    if (!found) {
+        constexpr std::string_view rule =
+            detail::is_thorough<Means> ? "every motion must move some mass; pins that move"
+                                       : "every motion must move some mass, and in double that is in doubt; "
+                                         "revchain::thorough as the last argument computes with twice the digits; pins "
+                                         "that move";
+        detail::throw_invalid("stability", rule, d.mass.rows());
+    }
     return found->stability;
 }
 template <class Shape, class Means>

@@ -7,7 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-namespace finite {  // declared again: a file that includes judged.hpp first defines them after this
+// If a program includes judged.hpp first, this file is read before the definitions there.
+namespace finite {
 template <class Shape, class Means>
 Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape, Means means);
 template <class Means>
@@ -28,10 +29,18 @@ REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame, Thorough) {
     return finite::judged(frame, chain, shape, thorough);
 }
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const SteadyShape& shape, Thorough) {
+    return finite::judged(StabilityFrame::free, chain, shape, thorough);
+}
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame, Thorough) {
     return finite::judged(frame, chain, shape, thorough);
+}
+REVCHAIN_DEFINE
+Stability stability(const Chain<double>& chain, const HeldShape& shape, Thorough) {
+    return finite::judged(StabilityFrame::free, chain, shape, thorough);
 }
 
 REVCHAIN_DEFINE

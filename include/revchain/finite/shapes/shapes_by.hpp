@@ -108,7 +108,7 @@ bool height_is_given(const Options& options) {
 }
 
 template <class Means>
-SteadyShapes all_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Means means) {
+SteadyShapes shapes_by(const Chain<double>& chain, const SteadyShapesOptions& options, Means means) {
     const detail::Threads threads("steady_shapes", options.threads);
     if (height_is_given(options)) return steady_shapes(chain, Wide<double>(*options.conical_height), options, means);
     const double angular_speed = *options.angular_speed, gravity = options.gravity;
@@ -126,7 +126,7 @@ SteadyShapes all_shapes(const Chain<double>& chain, const SteadyShapesOptions& o
 }
 
 template <class Means>
-SteadyShapes all_shapes(const Rig& rig, const RigShapesOptions& options, Means means) {
+SteadyShapes shapes_by(const Rig& rig, const RigShapesOptions& options, Means means) {
     const detail::Threads threads("steady_shapes", options.threads);
     if (height_is_given(options)) {
         const Wide<double> height(*options.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
