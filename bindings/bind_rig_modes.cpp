@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -39,9 +40,12 @@ struct FoundRigModes {
             for (Index j = 0; j < sense.size(); ++j)
                 if (kept[forward ? 0 : 1].holds(sense.first + j)) order.push_back({forward, j});
         }
-        std::stable_sort(order.begin(), order.end(), [this](const Place& x, const Place& y) {
-            return of(x).conical_height[x.j] > of(y).conical_height[y.j];
-        });
+        // equal heights may have speeds an ulp apart
+        const auto slowness = [this](const Place& x) {
+            return std::pair(of(x).conical_height[x.j], -of(x).angular_speed[x.j]);
+        };
+        std::stable_sort(order.begin(), order.end(),
+                         [&](const Place& x, const Place& y) { return slowness(x) > slowness(y); });
     }
     const WhirlModes& of(const Place& place) const { return place.forward ? modes.forward : modes.backward; }
     template <class Value, class Number>
