@@ -91,8 +91,6 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame, Thorough);
-REVCHAIN_DECLARE
-[[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape, Thorough);
 
 /// Returns the stability of a shape with both ends held. Firm ends are fixed; ends on springs move
 /// across the axis. N links have 4 N - 8 exponents if free, 2 N - 4 if driven, with or without
@@ -106,8 +104,12 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame, Thorough);
-REVCHAIN_DECLARE
-[[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape, Thorough);
+
+/// The same in the free frame.
+template <class Shape>
+[[nodiscard]] Stability stability(const Chain<double>& chain, const Shape& shape, Thorough) {
+    return stability(chain, shape, StabilityFrame::free, thorough);
+}
 
 /// The frame of the disturbance, and the direction and gravity with which the shape was found.
 struct RigStabilityOptions {

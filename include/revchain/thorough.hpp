@@ -27,14 +27,14 @@ struct Thorough {
 inline constexpr Thorough thorough{};
 
 namespace detail {
-/// What a question uses unless `thorough` is given.
+/// The means of a question that was not given `thorough`.
 #if defined(REVCHAIN_COMPILED)
-using Means = Thorough;
+using UsualMeans = Thorough;
 #else
-struct Means {};
+struct UsualMeans {};
 #endif
-template <class Chosen>
-inline constexpr bool is_thorough = std::is_same_v<Chosen, Thorough>;
+template <class Means>
+inline constexpr bool is_thorough = std::is_same_v<Means, Thorough>;
 }  // namespace detail
 
 }  // namespace revchain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// What questions answer without `thorough`: the same where they answer, and they say where they do not.
+// Without `thorough` questions have the same answers, or say that they need it.
 #include "revchain/thorough.hpp"
 
 #include <algorithm>
@@ -92,8 +92,8 @@ TEST_CASE("Almost level links without thorough: proved bounds, or left undecided
             CHECK(known);
         }
     }
-    INFO(undecided << " lists shorter, " << sharper << " bounds wider");
-    SUCCEED();
+    CHECK(undecided > 0);  // lists without a shape that thorough ones have
+    CHECK(sharper > 0);    // bounds that thorough ones have better
 }
 
 TEST_CASE("What needs thorough says so") {
@@ -139,13 +139,12 @@ TEST_CASE("Stability without thorough: the same verdict, or undecided") {
         const double height = chain.total_length() * random.log_between(0.02, 0.5);
         for (const SteadyShape& shape : revchain::steady_shapes(chain, {.conical_height = height}).shapes) {
             const Stability brief = revchain::finite::judged(StabilityFrame::free, chain, shape, Brief{});
-            const Stability whole = revchain::stability(chain, shape, StabilityFrame::free, thorough);
+            const Stability whole = revchain::stability(chain, shape, thorough);
             INFO("weights " << apart << " apart");
             CHECK((brief.verdict == whole.verdict || brief.verdict == Verdict::undecided));
             CHECK(std::abs(brief.growth_rate - whole.growth_rate) <= brief.margin + whole.margin);
             ++(brief.verdict == Verdict::undecided ? undecided : decided);
         }
     }
-    INFO(undecided << " of " << decided + undecided << " undecided");
     CHECK(decided > undecided);
 }

@@ -33,7 +33,7 @@ void fuzz::held(Random& random) {
         for (const revchain::HeldShape& shape : found.shapes) {
             fuzz::expect_number(shape.inclination.sum());
             fuzz::expect_number(shape.error_bound);
-            (void)revchain::stability(hung, shape, revchain::StabilityFrame::free, revchain::thorough);
+            (void)revchain::stability(hung, shape, revchain::thorough);
         }
     }
 }

@@ -22,8 +22,7 @@ void fuzz::shapes(Random& random) {
     for (const revchain::SteadyShape& shape : found.shapes) {
         expect_number(shape.inclination.sum());
         expect_number(shape.error_bound);
-        if (random.one_in(3))
-            (void)revchain::stability(hung, shape, revchain::StabilityFrame::free, revchain::thorough);
+        if (random.one_in(3)) (void)revchain::stability(hung, shape, revchain::thorough);
         if (random.one_in(3)) (void)revchain::force_diagram(hung, shape);
     }
 }

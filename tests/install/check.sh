@@ -54,7 +54,7 @@ if grep -qE 'revchain::for_[a-z0-9_]*::.*([Aa]berth|[Ii]nterpolat|[Cc]ondens|mod
 fi
 
 say 'steady shapes and branches without `thorough`'
-build shapes shapes -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+build shapes core -DSOURCES=shapes.cpp -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
 shapes/consumer >brief
 nm -C shapes/consumer >symbols
 if grep -qE 'revchain::for_[a-z0-9_]*::.*(PostureSearch|WholeBalance|DiagramProver)' symbols; then
@@ -69,7 +69,7 @@ if [[ ${1-} != --quick ]]; then
   quietly cmake --install library --prefix "$work/with_library"
   quietly cmake --install "$root/build/dev" --component compiled --prefix "$work/with_library"
   build compiled core -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled
-  build compiled_shapes shapes -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled
+  build compiled_shapes core -DSOURCES=shapes.cpp -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled
   compiled_shapes/consumer >thorough
   diff brief thorough || fail 'steady_shapes and branches give other numbers without `thorough`'
   build compiled_analytic analytic -DCMAKE_PREFIX_PATH="$work/with_library" -DLIBRARY=compiled_analytic

@@ -23,7 +23,9 @@ struct HeavyChainMode {
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
     double slope(double s) const { return analytic::heavy_chain::slope(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
-    Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
+    Vector<double> vertical_points() const {
+        return analytic::heavy_chain::vertical_points(mode, length);
+    }
 };
 
 /// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as much.
@@ -39,7 +41,9 @@ struct StringMode {
     }
     double shape(double s) const { return s < length ? std::sin(waves * s / length) : 0.0; }
     double slope(double s) const { return waves / length * std::cos(waves * s / length); }
-    Vector<double> nodes() const { return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1); }
+    Vector<double> nodes() const {
+        return Vector<double>::LinSpaced(mode + 1, 0, length).segment(1, mode - 1);
+    }
     Vector<double> vertical_points() const {
         return Vector<double>::LinSpaced(mode, 0.5, number - 0.5) * (length / number);
     }
@@ -78,8 +82,10 @@ REVCHAIN_LAZY
 CordMethod method_for(const StraightCord& straight) {
     const double ulp = epsilon<double>();
     const Cord& cord = straight.cord;
-    if (straight.held && straight.held->weightless) return {"half waves of a string", 2 * ulp, true};
-    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0) return {"zeros of J_0", 3 * ulp, true};
+    if (straight.held && straight.held->weightless)
+        return {"half waves of a string", 2 * ulp, true};
+    if (!straight.held && cord.is_uniform() && cord.tip_weight() == 0)
+        return {"zeros of J_0", 3 * ulp, true};
     if (cord.is_uniform()) return {"zeros of a cross product of Bessel functions", 2 * ulp, true};
     if (cord.exponent() && cord.tip_weight() == 0) return {"zeros of J_p", 3 * ulp, true};
     return {"power series", 4e-15, false};
@@ -90,7 +96,8 @@ template <class F>
 auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
     const Cord& cord = straight.cord;
     const double length = cord.length();
-    if (straight.held && straight.held->weightless) return f(StringMode{mode, length, straight.taut});
+    if (straight.held && straight.held->weightless)
+        return f(StringMode{mode, length, straight.taut});
     if (straight.held) return f(analytic::taut_cord::Mode(mode, length, straight.taut));
     if (!cord.is_uniform()) return f(analytic::tapered_chain::Mode(mode, length, *cord.exponent()));
     if (cord.tip_weight() == 0) return f(HeavyChainMode{mode, length});
@@ -125,7 +132,8 @@ Index modes_above(const StraightCord& straight, double height) {
     while (closed_height(straight, not_above) > height) {
         above = not_above, not_above *= 2;
         if (not_above > most)
-            throw_invalid("count_modes", "there are more than 1e15 modes above conical height", height);
+            throw_invalid("count_modes", "there are more than 1e15 modes above conical height",
+                          height);
     }
     const auto side = [&](Index mode) { return closed_height(straight, mode) > height ? -1 : 1; };
     return halved(above, not_above, side).first;
@@ -135,30 +143,36 @@ Index modes_above(const StraightCord& straight, double height) {
 REVCHAIN_LAZY
 CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
     if (options.count == all_modes)
-        throw_invalid("modes", "a cord has infinitely many modes; give count, or a window that ends");
+        throw_invalid("modes",
+                      "a cord has infinitely many modes; give count, or a window that ends");
     double lowest = 1;
     if (options.conical_height) lowest = options.conical_height->low;
-    if (options.angular_speed) lowest = window_of_heights(*options.angular_speed, options.gravity).low;
+    if (options.angular_speed)
+        lowest = window_of_heights(*options.angular_speed, options.gravity).low;
     if (!(lowest > 0))
         throw_invalid("modes",
                       "a cord has infinitely many modes; the window must end at a height "
                       "above 0, or at a finite speed; its lowest height is",
                       lowest);
     const auto above = [&](double height) { return modes_above(straight, height); };
-    const ModeRange range =
-        chosen(all_modes, options, above, [&](double speed) { return above(options.gravity / speed / speed); });
+    const ModeRange range = chosen(all_modes, options, above, [&](double speed) {
+        return above(options.gravity / speed / speed);
+    });
     const CordMethod method = method_for(straight);
     CordModes result{straight.cord, range.first, Vector<double>(range.count),
-                     Vector<double>::Constant(range.count, method.error_bound), std::string(method.name)};
+                     Vector<double>::Constant(range.count, method.error_bound),
+                     std::string(method.name)};
     result.held = straight.held;
     if (!method.is_closed && range.count > 0) {
         const finite::ContinuousChain chain(straight.cord);
-        result.conical_height = finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
+        result.conical_height =
+            finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
         // The first half wave of a mode is longer than its conical height: from there up the weight
         // must be right. Heights of smooth densities without error are within 2e-15.
         for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
             const double from = std::min(result.conical_height[j], chain.length);
-            const double density = 2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
+            const double density =
+                2 * chain.density->error(from) + chain.density->rounding_at_jumps(from);
             result.error_bound[j] = std::max(method.error_bound, 2e-15 + density);
         }
     }
@@ -166,7 +180,8 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
         result.conical_height[j] = closed_height(straight, range.first + j);
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all()) result.status = Status::tolerance_not_met;
+    if (options.rtol && !(result.error_bound.array() <= *options.rtol).all())
+        result.status = Status::tolerance_not_met;
     return result;
 }
 
@@ -191,31 +206,37 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options) {
 
 REVCHAIN_DEFINE_ANALYTIC
 Index count_modes(const Held<Cord>& held, const CountOptions<double>& options) {
-    return detail::modes_above({"count_modes", held, options.gravity}, detail::height_given("count_modes", options));
+    return detail::modes_above({"count_modes", held, options.gravity},
+                               detail::height_given("count_modes", options));
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) {
-        return analytic::detail::for_numbers(s.size(), [&](Index i) { return mode.shape(s[i - 1]); });
+        return analytic::detail::for_numbers(s.size(),
+                                             [&](Index i) { return mode.shape(s[i - 1]); });
     });
 }
 
 REVCHAIN_INLINE_ANALYTIC double CordModes::offset(Index j, double s) const {
-    return detail::with_mode("CordModes::offset", *this, j, [&](const auto& m) { return m.shape(s); });
+    return detail::with_mode("CordModes::offset", *this, j,
+                             [&](const auto& m) { return m.shape(s); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
-        return analytic::detail::for_numbers(s.size(), [&](Index i) { return mode.slope(s[i - 1]); });
+        return analytic::detail::for_numbers(s.size(),
+                                             [&](Index i) { return mode.slope(s[i - 1]); });
     });
 }
 
 REVCHAIN_INLINE_ANALYTIC double CordModes::slope(Index j, double s) const {
-    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& m) { return m.slope(s); });
+    return detail::with_mode("CordModes::slope", *this, j,
+                             [&](const auto& m) { return m.slope(s); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::nodes(Index j) const {
-    return detail::with_mode("CordModes::nodes", *this, j, [](const auto& mode) { return mode.nodes(); });
+    return detail::with_mode("CordModes::nodes", *this, j,
+                             [](const auto& mode) { return mode.nodes(); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::vertical_points(Index j) const {
@@ -224,11 +245,13 @@ REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::vertical_points(Index j) cons
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::angular_speed(double gravity) const {
-    return conical_height.unaryExpr([=](double height) { return conical_pendulum::angular_speed(height, gravity); });
+    return conical_height.unaryExpr(
+        [=](double height) { return conical_pendulum::angular_speed(height, gravity); });
 }
 
 REVCHAIN_INLINE_ANALYTIC Vector<double> CordModes::period(double gravity) const {
-    return conical_height.unaryExpr([=](double height) { return conical_pendulum::period(height, gravity); });
+    return conical_height.unaryExpr(
+        [=](double height) { return conical_pendulum::period(height, gravity); });
 }
 
 namespace detail {
@@ -236,7 +259,8 @@ namespace detail {
 /// The height at which a mode leaves the vertical.
 REVCHAIN_LAZY
 double critical_height(std::string_view place, const Cord& cord, Index mode) {
-    if (!(mode >= 1 && mode <= 100'000)) throw_invalid(place, "mode must be from 1 to 100000", mode);
+    if (!(mode >= 1 && mode <= 100'000))
+        throw_invalid(place, "mode must be from 1 to 100000", mode);
     return modes(cord, {.first = mode, .count = 1}).conical_height[0];
 }
 
@@ -249,10 +273,11 @@ CordBranch branch(const Cord& cord, const BranchOptions& options) {
     finite::length_in_heights("branch", cord.length(), height);
     const double critical = detail::critical_height("branch", cord, options.mode);
     if (!(height < critical))
-        detail::throw_invalid("branch",
-                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
-                                  detail::in_digits(critical) + ": the height to follow it to must be less",
-                              height);
+        detail::throw_invalid(
+            "branch",
+            "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                detail::in_digits(critical) + ": the height to follow it to must be less",
+            height);
     return finite::branch_of_mode(cord, critical, height, options);
 }
 
@@ -261,7 +286,8 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
     const double height = finite::lowest_height("branches", options);
     finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
-    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1)
+        detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     Index count = count_modes(cord, {.conical_height = height});
     Vector<double> critical;
     if (count > 0) critical = modes(cord, {.count = count}).conical_height;
@@ -270,7 +296,8 @@ CordBranches branches(const Cord& cord, const CordDiagramOptions& options) {
 }
 
 REVCHAIN_DEFINE_ANALYTIC
-CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options, std::size_t max_shapes) {
+CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
+                                    std::size_t max_shapes) {
     const double critical = detail::critical_height("steady_shape", cord, options.mode);
     return finite::search_branch(cord, critical, options, max_shapes);
 }
@@ -280,7 +307,8 @@ CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
     CordShapesOnBranch found = shapes_on_branch(cord, options, 1);
     if (found.shapes.empty())
         detail::throw_invalid("steady_shape",
-                              "the number is not met on the branch of mode " + std::to_string(options.mode) +
+                              "the number is not met on the branch of mode " +
+                                  std::to_string(options.mode) +
                                   ", which was followed to the conical height",
                               found.searched_to);
     return std::move(found.shapes.front());
@@ -300,11 +328,13 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     CordSwing result;
     result.arc_length = options.arc_length;
     const double length = cord.length();
-    if (result.arc_length.size() == 0) result.arc_length = Vector<double>::LinSpaced(101, 0, length);
+    if (result.arc_length.size() == 0)
+        result.arc_length = Vector<double>::LinSpaced(101, 0, length);
     const Vector<double>& arc = result.arc_length;
     for (Index i = 0; i < arc.size(); ++i)
         if (!(arc[i] >= 0 && arc[i] <= length && (i == 0 || arc[i] > arc[i - 1])))
-            throw_invalid(place, "arc lengths must ascend from the free end, 0, to the length", arc[i]);
+            throw_invalid(place, "arc lengths must ascend from the free end, 0, to the length",
+                          arc[i]);
     const std::array start{function_of("offset", options.offset, arc, length),
                            function_of("velocity", options.velocity, arc, length)};
     const bool listed = options.offset.index() == 1 || options.velocity.index() == 1;
@@ -314,7 +344,8 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     const Vector<double> at = nodes.arcs();
     const auto sum = [&](const auto& f) {
         double total = 0;
-        for (std::size_t i = 0; i < nodes.arc.size(); ++i) total += nodes.weight[i] * nodes.below[i] * f(i);
+        for (std::size_t i = 0; i < nodes.arc.size(); ++i)
+            total += nodes.weight[i] * nodes.below[i] * f(i);
         return total;
     };
     result.angular_frequency = found.angular_speed(options.gravity).head(count);
@@ -340,7 +371,8 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
         kept += result.energy[k];
     }
     const double height = sum([&](std::size_t i) { return std::pow(nodes.slope[0][i], 2); }) / 2;
-    const double motion = sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
+    const double motion =
+        sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
     result.energy_left_out = std::max(0.0, height - motion - kept);
     whole += before;
     result.error_estimate = tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();

@@ -16,18 +16,21 @@ namespace detail {
 /// difference, and Gauss's rule is used.
 REVCHAIN_LAZY
 double by_tension(const CordModes& modes, Index j, double lower) {
-    const double length = modes.cord.length(), upper = lower + length, height = modes.conical_height[j];
+    const double length = modes.cord.length(), upper = lower + length,
+                 height = modes.conical_height[j];
     double ratio = 0;  // of the two integrals
     if (lower < length) {
         const double a = modes.slope(j, 0), b = modes.slope(j, length);
-        ratio = (lower * a * a - upper * b * b) / ((upper * b - lower * a) * (upper * b + lower * a));
+        ratio =
+            (lower * a * a - upper * b * b) / ((upper * b - lower * a) * (upper * b + lower * a));
     } else {
         const auto rule = gauss_rule(16);
         const Index panels = modes.first + j + 4, nodes = static_cast<Index>(rule.size());
         const auto node = [&](Index i) { return rule[static_cast<std::size_t>(i % nodes)]; };
         Vector<double> arc(panels * nodes);
         for (Index i = 0; i < arc.size(); ++i)
-            arc[i] = length * (static_cast<double>(i / nodes) + node(i).first) / static_cast<double>(panels);
+            arc[i] = length * (static_cast<double>(i / nodes) + node(i).first) /
+                     static_cast<double>(panels);
         const Vector<double> slope = modes.slope(j, arc);
         double free = 0, pulled = 0;
         for (Index i = 0; i < arc.size(); ++i) {
@@ -46,15 +49,17 @@ CordSensitivity sensitivity(const CordModes& modes) {
     const Cord& cord = modes.cord;
     CordSensitivity result;
     result.first = modes.first, result.length = modes.conical_height / cord.length();
-    for (Vector<double>* v : {&result.weight, &result.tip_weight, &result.exponent, &result.tension})
+    for (Vector<double>* v :
+         {&result.weight, &result.tip_weight, &result.exponent, &result.tension})
         v->setZero(modes.size());
     if (modes.held) {
         const double tension = modes.held->tension->high;
         const double lower = detail::lower_length("sensitivity", {cord, *modes.held}, 1.0).high;
         for (Index j = 0; j < modes.size(); ++j)
-            result.tension[j] =
-                modes.held->weightless ? -modes.conical_height[j] / tension : detail::by_tension(modes, j, lower);
-        result.weight = -tension / cord.weight() * result.tension;  // heights depend on the ratio alone
+            result.tension[j] = modes.held->weightless ? -modes.conical_height[j] / tension
+                                                       : detail::by_tension(modes, j, lower);
+        result.weight =
+            -tension / cord.weight() * result.tension;  // heights depend on the ratio alone
         return result;
     }
     const auto nodes = detail::nodes_of(cord, {}, nullptr, modes.first + modes.size());
@@ -69,7 +74,8 @@ CordSensitivity sensitivity(const CordModes& modes) {
             const double form = -share * (2 * offset[i] + height * slope[i]);
             const double part = at[i] / cord.length();
             whole += share * slope[i] * nodes.below[k], tip += form;
-            if (cord.exponent()) exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
+            if (cord.exponent())
+                exponent += form * std::pow(part, *cord.exponent() + 1) * std::log(part);
         }
         result.tip_weight[j] = tip / whole, result.exponent[j] = exponent * cord.weight() / whole;
     }

@@ -35,7 +35,8 @@ class CordStartOnPanels {
         Values values{};
         for (std::size_t i = 0; i < nodes; ++i) values[i] = f(low + (high - low) * rule_[i].first);
         for (const double t : {0.0, 0.5, 1.0})
-            if (!(std::abs(value(values, t) - f(low + (high - low) * t)) <= tolerance)) return false;
+            if (!(std::abs(value(values, t) - f(low + (high - low) * t)) <= tolerance))
+                return false;
         return true;
     }
     /// Slopes by t, from 0 to 1 over the panel, at its nodes.
@@ -44,7 +45,8 @@ class CordStartOnPanels {
         for (std::size_t i = 0; i < nodes; ++i)
             for (std::size_t k = 0; k < nodes; ++k)
                 if (k != i)
-                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) / (rule_[i].first - rule_[k].first);
+                    result[i] += weight_[k] / weight_[i] * (values[k] - values[i]) /
+                                 (rule_[i].first - rule_[k].first);
         return result;
     }
 
@@ -67,7 +69,9 @@ struct CordStartNodes {
     std::vector<double> arc, weight, below;           // `below`: the weight below, with the tip
     std::array<std::vector<double>, 2> value, slope;  // of offset and velocity, the slope by s
 
-    Vector<double> arcs() const { return Eigen::Map<const Vector<double>>(arc.data(), static_cast<Index>(arc.size())); }
+    Vector<double> arcs() const {
+        return Eigen::Map<const Vector<double>>(arc.data(), static_cast<Index>(arc.size()));
+    }
 };
 
 using CordFunction = std::function<double(double)>;
@@ -75,7 +79,8 @@ using CordFunction = std::function<double(double)>;
 /// The function of a start, empty where there is none. Between values given at points it is
 /// straight.
 template <class Start>
-CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places, double length) {
+CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places,
+                         double length) {
     static constexpr std::string_view place = "swing";  // static: Clang 14 captures no constant
     CordFunction given;
     if (const auto* function = std::get_if<CordFunction>(&start)) {
@@ -88,7 +93,8 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
     } else if (const auto* values = std::get_if<Vector<double>>(&start)) {
         if (values->size() != places.size())
             throw_invalid(place,
-                          name + " must have a number for each of the " + std::to_string(places.size()) + " places",
+                          name + " must have a number for each of the " +
+                              std::to_string(places.size()) + " places",
                           values->size());
         for (const double y : *values)
             if (!std::isfinite(y)) throw_invalid(place, name + " must be finite", y);
@@ -99,7 +105,8 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
                           "length, not at",
                           places[0] != 0 ? places[0] : last);
         given = [v = *values, places](double s) {
-            const double* after = std::upper_bound(places.data() + 1, places.data() + places.size() - 1, s);
+            const double* after =
+                std::upper_bound(places.data() + 1, places.data() + places.size() - 1, s);
             const Index i = after - places.data();
             const double share = (s - places[i - 1]) / (places[i] - places[i - 1]);
             return v[i - 1] + share * (v[i] - v[i - 1]);
@@ -113,19 +120,22 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
 
 /// Panels fine enough for modes up to number `modes`, and for a start.
 REVCHAIN_LAZY
-CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start, const Vector<double>* places,
-                        Index modes) {
+CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
+                        const Vector<double>* places, Index modes) {
     const CordStartOnPanels panels;
     const double length = cord.length();
     std::vector<double> ends{0, 1};
     const Index even = 8 + modes / 2;
-    for (Index i = 1; i < even; ++i) ends.push_back(static_cast<double>(i) / static_cast<double>(even));
+    for (Index i = 1; i < even; ++i)
+        ends.push_back(static_cast<double>(i) / static_cast<double>(even));
     if (places != nullptr)
         for (const double s : *places) ends.push_back(std::sqrt(s / length));
     if (!cord.is_uniform()) {
-        for (int i = 1; i < 40; ++i) ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
+        for (int i = 1; i < 40; ++i)
+            ends.push_back(std::ldexp(1.0, -i) / static_cast<double>(even));
         const auto density = cord.line_density();
-        for (const auto& piece : density->pieces()) ends.push_back(std::sqrt((piece.middle + piece.half) / length));
+        for (const auto& piece : density->pieces())
+            ends.push_back(std::sqrt((piece.middle + piece.half) / length));
     }
     std::sort(ends.begin(), ends.end());
     std::vector<double> kept{0};
@@ -143,12 +153,15 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
         for (std::size_t i = 0; i < 2; ++i) {
             if (!start[i]) continue;
             const auto f = [&](double x) { return start[i](std::min(length * x * x, length)); };
-            if (panels.is_resolved(f, low, high, CordStartOnPanels::rounding * largest[i])) continue;
+            if (panels.is_resolved(f, low, high, CordStartOnPanels::rounding * largest[i]))
+                continue;
             const double middle = low + (high - low) / 2;
-            if (high - low > CordStartOnPanels::narrowest) return divide(low, middle), divide(middle, high);
+            if (high - low > CordStartOnPanels::narrowest)
+                return divide(low, middle), divide(middle, high);
             const std::string name = i == 0 ? "offset" : "velocity";
             if (!panels.is_resolved(f, low, high, CordStartOnPanels::jump * largest[i]))
-                throw_invalid("swing", name + " must be continuous; it is not at arc length", length * low * low);
+                throw_invalid("swing", name + " must be continuous; it is not at arc length",
+                              length * low * low);
         }
         const double wide = high - low;
         std::array<CordStartOnPanels::Values, 2> values{};
@@ -158,7 +171,8 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
             x.push_back(at), result.arc.push_back(s);
             result.weight.push_back(weight * wide * 2 * length * at);
             result.below.push_back(kind.weight_below(s) * cord.line_weight());
-            for (std::size_t i = 0; i < 2; ++i) values[i][x.size() - 1] = start[i] ? start[i](s) : 0.0;
+            for (std::size_t i = 0; i < 2; ++i)
+                values[i][x.size() - 1] = start[i] ? start[i](s) : 0.0;
         }
         for (std::size_t i = 0; i < 2; ++i) {
             const auto slopes = panels.slopes(values[i]);

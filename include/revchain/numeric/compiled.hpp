@@ -22,7 +22,8 @@
     template <int = 0> \
     inline
 
-/// The same for functions that need GSL, whose library is revchain::compiled_analytic.
+/// Functions that need GSL have macros of their own, as they are in another library,
+/// revchain::compiled_analytic.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_DECLARE_ANALYTIC
 #define REVCHAIN_DEFINE_ANALYTIC

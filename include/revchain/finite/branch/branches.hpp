@@ -153,11 +153,11 @@ SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions<detail::Means>>(chain, options, detail::Means{});
+    return finite::diagram_of<finite::ChainQuestions<detail::UsualMeans>>(chain, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions<detail::Means>>(rig, options, detail::Means{});
+    return finite::diagram_of<finite::RigQuestions<detail::UsualMeans>>(rig, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {

@@ -17,11 +17,11 @@ SteadyShapes shapes_by(const Rig& rig, const RigShapesOptions& options, Means me
 
 REVCHAIN_DEFINE
 SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
-    return finite::shapes_by(chain, options, detail::Means{});
+    return finite::shapes_by(chain, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
-    return finite::shapes_by(rig, options, detail::Means{});
+    return finite::shapes_by(rig, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Thorough) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -21,40 +22,11 @@ bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An orthonormal basis of the complement of the columns, by Householder's reflections, the longest
-/// column first. What is left of a column counts as 0 if it is at most `least` of the longest.
-/// Eigen's decompositions would take a third of the compile time of `stability`.
+/// An orthonormal basis of the complement of the columns.
 template <class S>
-Matrix<S> beside(Matrix<S> columns, double least = 0) {
-    using std::sqrt;
-    const Index size = columns.rows();
-    Matrix<S> basis = Matrix<S>::Identity(size, size);
-    double longest = 0;
-    Index done = 0;
-    for (; done < std::min(size, columns.cols()); ++done) {
-        const auto square_of = [&](Index j) { return S(columns.col(j).tail(size - done).squaredNorm()); };
-        Index next = done;
-        for (Index j = done + 1; j < columns.cols(); ++j)
-            if (square_of(j) > square_of(next)) next = j;
-        const S square = square_of(next);
-        const double norm = std::sqrt(as_double(square));
-        longest = std::max(longest, norm);
-        if (least > 0 && norm <= least * longest) break;
-        columns.col(next).swap(columns.col(done));
-        if (norm == 0) continue;
-        Vector<S> across = columns.col(done).tail(size - done);
-        across[0] += across[0] < S(0) ? -sqrt(square) : sqrt(square);
-        const S scale = S(2) / across.squaredNorm();
-        for (Index j = done + 1; j < columns.cols(); ++j) {
-            const S along = scale * across.dot(columns.col(j).tail(size - done));
-            columns.col(j).tail(size - done) -= along * across;
-        }
-        for (Index i = 0; i < size; ++i) {
-            const S along = scale * across.dot(basis.row(i).tail(size - done));
-            basis.row(i).tail(size - done) -= along * across.transpose();
-        }
-    }
-    return basis.rightCols(size - done);
+Matrix<S> beside(const Matrix<S>& columns) {
+    const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
+    return whole.rightCols(columns.rows() - columns.cols());
 }
 
 template <class S>
@@ -212,9 +184,10 @@ struct DisturbedIn {
         }
         if (shape.turns_freely) left(2 * joints - 1, n) = 1;
         if (shape.turns_freely && shape.held) left(1, n + 1) = 1;
-        const double rounding = 0x1p-52 * as_double(std::max(left.rows(), left.cols()));
-        const Matrix<double> rest = pencil::transposed_product(beside(left, rounding), given);
-        return pencil::transposed_product(rest, rest);
+        const Eigen::ColPivHouseholderQR<Matrix<double>> factor(left);
+        const Matrix<double> seen = factor.householderQ().transpose() * given;
+        const auto rest = seen.bottomRows(seen.rows() - factor.rank());
+        return rest.transpose() * rest;
     }
 };
 

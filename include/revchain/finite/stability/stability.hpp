@@ -17,35 +17,27 @@ Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOpt
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
-    return finite::judged(frame, chain, shape, detail::Means{});
+    return finite::judged(frame, chain, shape, detail::UsualMeans{});
 }
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    return finite::judged(frame, chain, shape, detail::Means{});
+    return finite::judged(frame, chain, shape, detail::UsualMeans{});
 }
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame, Thorough) {
     return finite::judged(frame, chain, shape, thorough);
 }
-REVCHAIN_DEFINE
-Stability stability(const Chain<double>& chain, const SteadyShape& shape, Thorough) {
-    return finite::judged(StabilityFrame::free, chain, shape, thorough);
-}
 
 REVCHAIN_DEFINE
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame, Thorough) {
     return finite::judged(frame, chain, shape, thorough);
 }
-REVCHAIN_DEFINE
-Stability stability(const Chain<double>& chain, const HeldShape& shape, Thorough) {
-    return finite::judged(StabilityFrame::free, chain, shape, thorough);
-}
 
 REVCHAIN_DEFINE
 Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options) {
-    return finite::judged(rig, shape, options, detail::Means{});
+    return finite::judged(rig, shape, options, detail::UsualMeans{});
 }
 
 REVCHAIN_DEFINE

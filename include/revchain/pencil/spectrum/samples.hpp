@@ -30,7 +30,7 @@ inline constexpr std::size_t sample_packs = 6;
 /// With `count` it also counts eigenvalues below the shift. Without, it stores in `history` the sign
 /// of the offset after every `history_step` links from the free end: 64 signs in a word, the first
 /// sign in the highest of the bits that are used. Cost per shift and link (AVX-512): 0.13 ns without
-/// cross masses, 0.23 with.
+/// cross masses, 0.23 ns with them.
 template <class V, bool has_cross, bool count>
 [[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts, Sample* samples,
                                           std::uint64_t* history) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// What steady_shapes and branches do without `thorough`: the same shapes, and they say what it would add.
+// Without `thorough`, steady_shapes and branches find the same shapes, and say what they leave out.
 #include <cstdio>
 #include <revchain/branches.hpp>
 #include <revchain/steady_shapes.hpp>
@@ -17,7 +17,8 @@ int main() {
         std::printf("%.14g %.14g\n", shape.inclination[0], shape.inclination[1]);
     const revchain::Branches diagram = revchain::branches(chain, {.max_angular_speed = 9.0});
     for (const revchain::Branch& branch : diagram.branches)
-        std::printf("branch of mode %d, %s\n", static_cast<int>(branch.mode), std::string(to_string(branch.end)).c_str());
+        std::printf("branch of mode %d, %s\n", static_cast<int>(branch.mode),
+                    std::string(to_string(branch.end)).c_str());
     bool refused = false;
     try {
         const auto any = revchain::steady_shapes(chain, {.angular_speed = 9.0, .hanging_only = false});
