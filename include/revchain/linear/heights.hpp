@@ -76,7 +76,7 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     return result;
 }
 
-/// The largest number of elements whose modes are found eight at a time: 640 bytes of scratch each.
+/// The largest number of elements whose modes are found eight at a time: 450 bytes of scratch each.
 inline constexpr Index most_in_lanes = 20000;
 /// The relative error before rounding up to which a rounded height is within 2 ulp.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();

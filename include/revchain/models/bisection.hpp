@@ -68,10 +68,9 @@ struct Bisection {
     static double full_cost(const ChainKind& kind, const Question& question) {
         const double count = detail::real(question.count), links = detail::real(kind.size);
         if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + links * (1.6e-7 + 2.9e-7 * count);
-        const double beyond_cache = kind.size > 3000 ? 1.35 : 1;
         const double brackets = kind.size >= pencil::least_for_groups * question.last() ? 0 : 7e-8;
         const double eight = kind.point_masses ? 1.15e-7 : 1.45e-7;
-        return 1.5e-6 + links * (brackets + eight * std::ceil(count / 8)) * beyond_cache;
+        return 1.5e-6 + links * (brackets + eight * std::ceil(count / 8));
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {

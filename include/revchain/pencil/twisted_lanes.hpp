@@ -3,8 +3,11 @@
 
 #include <array>
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "revchain/numeric/large_memory.hpp"
 #include "revchain/pencil/forces_in_lanes.hpp"
 #include "revchain/pencil/twisted.hpp"
 
@@ -25,17 +28,24 @@ struct RootsInLanes {
 template <std::floating_point T>
 struct ShapesInLanes {
     static constexpr T least_offset{1e-290};
-    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest is 1
+    std::span<T> offset;                         ///< (n + 1, shape_lanes); the largest is 1
     std::array<T, shape_lanes> residual;         ///< `relative_residual` as rounded
     std::array<bool, shape_lanes> found;         ///< the correction was small
     std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours need the ratios
     std::array<std::size_t, shape_lanes> twist;  ///< below this pin `down` is used, from it on `up`
-    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of neighbours
-    std::vector<T> below, above, rest, change;   ///< scratch
+    std::span<T> down, up;                       ///< (n, shape_lanes): ratios of neighbours
+    std::span<T> below, above, rest, change;     ///< scratch
 
+    /// Numbers are left as they are. One block: of several the system gives each back after use.
     void make_room(std::size_t links) {
-        offset.resize((links + 1) * shape_lanes);
-        for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
+        const std::size_t each = links * shape_lanes, all = 7 * each + shape_lanes;
+        if (all > size_) {
+            numbers_ = std::make_unique_for_overwrite<T[]>(all), size_ = all;
+            revchain::detail::will_be_filled(numbers_.get(), all * sizeof(T));
+        }
+        T* next = numbers_.get();
+        offset = {next, each + shape_lanes}, next += offset.size();
+        for (std::span<T>* part : {&down, &up, &below, &above, &rest, &change}) *part = {next, each}, next += each;
     }
     /// Stores the first `pins` numbers of the first `count` lanes as rows `stride` numbers apart.
     void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
@@ -81,9 +91,12 @@ struct ShapesInLanes {
             crossed.push_back({static_cast<Index>(m), share});
         }
     }
+
+    std::unique_ptr<T[]> numbers_;
+    std::size_t size_ = 0;
 };
 
-/// The largest number of links whose scratch is reused from call to call: 2.6 MB.
+/// The largest number of links whose scratch is reused from call to call: 1.8 MB.
 inline constexpr std::size_t most_kept_links = 4096;
 
 /// Calls f with scratch, reused on the same thread: allocating costs more than computing.
