@@ -48,6 +48,6 @@ for k, name in enumerate(("first", "second")):
     bins = np.linspace(-15, 15, 121)
     scatter.hist(deviation, bins, density=True, histtype="step", color=COLOURS[k], label=f"{name} mode")
     print(f"crane, {name} mode: period {periods.mean():.3f} s, deviation {periods.std():.3f} s")
-scatter.set(title="A crane known to some per cent", xlabel="period from its mean (%)", ylabel="share of 20,000 cranes (1/%)")
+scatter.set(title="A crane known to a few per cent", xlabel="period from its mean (%)", ylabel="share of 20,000 cranes (1/%)")
 legend_outside(scatter)
 save(figure, "studies")

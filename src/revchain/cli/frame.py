@@ -122,7 +122,7 @@ def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
 
 
 def fail(message: str, code: ExitCode) -> NoReturn:
-    """Print the message on stderr as plain text, and end."""
+    """Print the message on stderr as plain text, and exit."""
     print(f"revchain: {message}", file=sys.stderr)
     raise typer.Exit(code)
 
@@ -146,7 +146,7 @@ def run_app(arguments: list[str] | None) -> int:
 
 
 def show_version(wanted: bool) -> None:
-    """Print the version and end."""
+    """Print the version and exit."""
     if wanted:
         from .. import __version__
 
@@ -157,10 +157,10 @@ def show_version(wanted: bool) -> None:
 @app.callback()
 def common(
     version: Annotated[
-        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and exit.")
     ] = False,
     cmake_prefix: Annotated[
-        bool, typer.Option("--cmake-prefix", help="Print the folder of the C++ headers, for CMake, and end.")
+        bool, typer.Option("--cmake-prefix", help="Print the folder of the C++ headers, for CMake, and exit.")
     ] = False,
 ) -> None:
     """Whirl speeds and shapes of hanging chains, with error bounds."""

@@ -40,12 +40,12 @@ class Figure:
         return turned
 
     def heights(self, frame: int) -> Floats:
-        """In one frame."""
+        """Heights of the pins in one frame, in metres."""
         row: Floats = self.height[0 if len(self.height) == 1 else frame]
         return row
 
     def caption(self, frame: int) -> str:
-        """In one frame."""
+        """The text above the picture in one frame."""
         return self.captions[0 if len(self.captions) == 1 else frame]
 
 

@@ -97,7 +97,7 @@ class Sheet:
 
 
 def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
-    """Columns of speeds, given in rad/s, in both units."""
+    """Columns of the speeds, which are given in rad/s, in rad/s and in rpm."""
     return [
         Column("angular_speed", speed, "speed (rad/s)", digits),
         Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits),

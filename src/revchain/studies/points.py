@@ -53,7 +53,7 @@ class Block:
     labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
 
     def memory(self, points: int) -> NDArray[Any]:
-        """An uninitialized array for so many points."""
+        """An uninitialized array for the values at this number of points."""
         return np.empty((points, *self.each), self.kind)
 
     @property
