@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/finite/branch/corrector.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/arc_step.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -31,21 +31,17 @@ class BranchWalk {
 
     /// Takes one step; returns false if no step above 1e-9 of arc is accepted.
     bool advance() {
-        detail::look();
-        constexpr double least = 1e-9, max_rise = 0.75;
-        step_ = std::min({step_, longest_, max_rise / (largest_rise(here_.tangent) + 1e-300)});
-        for (; step_ > least; step_ /= 2) {
-            auto next = at(here_, step_);
-            if (!next) continue;
+        constexpr double max_rise = 0.75;
+        const double longest = std::min(longest_, max_rise / (largest_rise(here_.tangent) + 1e-300));
+        return detail::arc_step(step_, longest, 0.5, [&](double step) -> std::optional<double> {
+            auto next = at(here_, step);
+            if (!next) return {};
             const double cosine = inner(next->tangent, here_.tangent);
-            if (!(cosine > 0.9) || !on_the_way(*next)) continue;
-            if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves) continue;
-            before_ = std::move(here_);
-            here_ = std::move(*next);
-            step_ *= (cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8);
-            return true;
-        }
-        return false;
+            if (!(cosine > 0.9) || !on_the_way(*next)) return {};
+            if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves) return {};
+            before_ = std::move(here_), here_ = std::move(*next);
+            return cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8;
+        });
     }
 
     /// The point at distance `reach` of arc from another, in the plane across its direction.

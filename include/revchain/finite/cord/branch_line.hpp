@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/numeric/arc_step.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
@@ -157,17 +158,15 @@ class BranchLineWalk {
 
     const BranchLine::Point& at() const { return at_; }
     bool advance() {
-        for (double step = std::min(step_, longest_); step > 1e-9; step /= 2) {
+        return detail::arc_step(step_, longest_, 0.5, [&](double step) -> std::optional<double> {
             const BranchPlace guess = at_.at + step * at_.direction;
             const auto next = line_.next_to(guess, at_.direction, step);
-            if (!next) continue;
+            if (!next) return {};
             const double turned = std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
-            if (turned > 0.2 || size(next->at - guess) > step / 3) continue;
-            step_ = turned < 0.05 ? 2 * step : step;
+            if (turned > 0.2 || size(next->at - guess) > step / 3) return {};
             at_ = *next;
-            return true;
-        }
-        return false;
+            return turned < 0.05 ? 2 : 1;
+        });
     }
 
    private:

@@ -125,7 +125,6 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
     const BranchLine& line = *branch.line;
     BranchLineWalk walk(line, start, longest);
     while (branch.size() < most) {
-        detail::look();
         const BranchLine::Point last = walk.at();
         if (!walk.advance())
             return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "revchain/finite/held/sweep.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/arc_step.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
@@ -219,29 +219,28 @@ class HeldCurve {
 
     template <Third third, class Visit>
     void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
-        double step = std::min(0.05, max_step);
+        double step = 0.05;
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
-        for (int count = 0; count < max_steps && step > 1e-9; ++count) {
-            detail::look();
+        for (int count = 0; count < max_steps; ++count) {
             const auto [over_y, over_z] = gradients<third>(end, scale);
             Triple tangent = cross(over_y.normalized(), over_z.normalized()).normalized();
             if (!(tangent.norm() > 0.5)) return;
             if (tangent.dot(last) < 0) tangent = -tangent;
             HeldState next;
             HeldEnd<double> there;
-            int rounds = 0;
-            for (; step > 1e-9; step *= 0.4)
-                if (correct<third>(state, scale, tangent, step, next, there, rounds)) break;
-            if (!(step > 1e-9)) return;
+            const auto attempt = [&](double reach) -> std::optional<double> {
+                int rounds = 0;
+                if (!correct<third>(state, scale, tangent, reach, next, there, rounds)) return {};
+                return rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
+            };
+            if (!detail::arc_step(step, max_step, 0.4, attempt)) return;
             (*shooter_)(next.forces, true);
             if (!visit(next)) return;
             const Triple before = scale;
             state = next, end = there, scale = scales<third>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);
-            step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
-            step = std::min(step, max_step);
         }
     }
 

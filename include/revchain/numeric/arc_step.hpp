@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "revchain/numeric/progress.hpp"
+
+namespace revchain::inline REVCHAIN_BUILD::detail {
+
+/// One step of a walk along a curve by its arc, from `step`, at most `longest`. `attempt(step)`
+/// predicts along the direction, corrects across it and takes the point; it returns the factor for
+/// the next step, or nothing where the corrector fails or the point may lie on another curve. Then
+/// the share `less` of the step is tried. Returns false if no step above 1e-9 succeeds.
+template <class Attempt>
+bool arc_step(double& step, double longest, double less, const Attempt& attempt) {
+    look();
+    for (step = std::min(step, longest); step > 1e-9; step *= less)
+        if (const std::optional<double> factor = attempt(step)) {
+            step *= *factor;
+            return true;
+        }
+    return false;
+}
+
+}  // namespace revchain::detail
