@@ -26,7 +26,9 @@ struct BatchColumn {
     Index chain_stride = 0;
     Index link_stride = 0;
 
-    const T& operator()(Index chain, Index m) const { return data[chain * chain_stride + m * link_stride]; }
+    const T& operator()(Index chain, Index m) const {
+        return data[chain * chain_stride + m * link_stride];
+    }
 };
 
 /// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give

@@ -151,9 +151,10 @@ struct DiagramOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
-    long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
+    int lists = 16;           ///< heights, evenly spaced in the logarithm, with a proved list
+    long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
+    long proof_budget =
+        1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
@@ -205,7 +206,8 @@ struct Branches {
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 REVCHAIN_DECLARE
-[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough);
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options,
+                                Thorough);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
 /// if its support is off the axis, and isolated ones. Method and proof are those of chains.

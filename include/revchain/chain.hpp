@@ -82,7 +82,9 @@ class Chain {
     std::optional<double> taper() const noexcept { return taper_; }
 
     Index size() const noexcept { return size_; }
-    Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
+    Link<T> link(Index m) const {
+        return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]};
+    }
     const Column<T>& weight() const noexcept { return weight_; }
     const Column<T>& length() const noexcept { return length_; }
     const Column<T>& centroid() const noexcept { return centroid_; }

@@ -50,7 +50,9 @@ void check_window(std::string_view name, const T& low, const T& high) {
     const std::string window = std::string(name) + " window: ";
     if (!is_bounded(low) || low < T(0))
         throw_invalid("modes", window + "its low end must be finite and not negative", low);
-    if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
+    if (!(high > low))
+        throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low),
+                      high);
 }
 
 /// The modes, of `all`, in a window of heights; `above(height)` counts those with larger ones.

@@ -114,7 +114,9 @@ template <Real T>
     using P = detail::Product<T>;
     const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
     // A n^2 - B n - C = 0, where B and C are over chord^2
-    const P A = P::of(string.weight).over(string.gravity).times(T(1) - chord * chord * detail::share_across(string));
+    const P A = P::of(string.weight)
+                    .over(string.gravity)
+                    .times(T(1) - chord * chord * detail::share_across(string));
     const P B = P::of(abs(string.momentum)).over(string.length).over(string.length).times(chord);
     const P C = P::of(string.tension).over(string.length);
     const P q = B.plus(B.times(B).plus(A.times(C).times(T(4))).root()).over(T(2));

@@ -153,7 +153,8 @@ struct HeldModesOptions {
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
     std::optional<double> rtol{};  ///< bounds above it are `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
+    double gravity =
+        conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
     bool certify = false;
     Index threads = 1;  ///< 0: all processors
     Progress* progress = nullptr;

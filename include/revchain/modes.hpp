@@ -80,7 +80,9 @@ struct Modes {
     /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
     /// magnitude is 1 and the free end positive. Computed when first called, as the next two;
     /// thread-safe.
-    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    const Table<T>& shapes(Progress* progress = nullptr) const {
+        return lazy_shapes_.offsets(size(), progress);
+    }
     /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
     const Vector<T>& residual() const { return details().residual; }
     /// k lists: distances from the free end at which the mode crosses the axis
@@ -102,9 +104,7 @@ struct Modes {
 
    private:
     friend detail::ShapesBehind;
-    const detail::ModeShapes<T>& details() const {
-        return lazy_shapes_.details(size(), nullptr);
-    }
+    const detail::ModeShapes<T>& details() const { return lazy_shapes_.details(size(), nullptr); }
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);

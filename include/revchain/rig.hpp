@@ -116,7 +116,9 @@ struct Rigging {
 /// and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
 class Rig {
    public:
-    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
+    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
+        check();
+    }
 
     const Chain<double>& chain() const noexcept { return chain_; }
     const Support& support() const noexcept { return with_.support; }

@@ -48,7 +48,9 @@ struct WhirlModes {
     Certificate<double> certificate{};  ///< of the heights, counted in this direction; if asked for
 
     Index size() const noexcept { return conical_height.size(); }
-    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    const Table<double>& shapes(Progress* progress = nullptr) const {
+        return lazy_shapes_.offsets(size(), progress);
+    }
     const Vector<double>& residual() const { return details().residual; }
     const std::vector<Vector<double>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
@@ -97,7 +99,7 @@ struct RigModes {
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< those, if `RigModesOptions::other` or `discs`
     std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
-    bool complete = false;  ///< whether the three numbers available are proved
+    bool complete = false;         ///< whether the three numbers available are proved
     RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };

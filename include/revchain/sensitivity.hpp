@@ -41,7 +41,9 @@ struct Sensitivity {
     Index first = 1;
     std::array<Derivatives<T>, datum_names.size()> by_datum;
 
-    const Derivatives<T>& of(Datum datum) const { return by_datum[static_cast<std::size_t>(datum)]; }
+    const Derivatives<T>& of(Datum datum) const {
+        return by_datum[static_cast<std::size_t>(datum)];
+    }
     const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< length over weight
     const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below
     const Derivatives<T>& centroid() const { return of(Datum::centroid); }

@@ -58,9 +58,9 @@ struct ForceDiagram {
 /// Weights on a thread between two supports, at rest in a vertical plane.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;   ///< (n + 2) x of supports and weights
-    Vector<T> height;  ///< (n + 2) z
-    Vector<T> rise;    ///< (n + 1) vertical component of each side's tension
+    Vector<T> place;         ///< (n + 2) x of supports and weights
+    Vector<T> height;        ///< (n + 2) z
+    Vector<T> rise;          ///< (n + 1) vertical component of each side's tension
     Vector<T> tension;       ///< (n + 1) of each side, the length of its ray
     T horizontal_tension{};  ///< of every side
 };

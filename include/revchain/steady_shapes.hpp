@@ -74,7 +74,8 @@ struct RigShapesOptions {
     long budget = 3'000'000;
     bool hanging_only = true;  ///< only shapes with each link in the rig's posture
     Rotation direction = Rotation::forward;
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
+    double gravity =
+        conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
     Index threads = 1;
 };
 

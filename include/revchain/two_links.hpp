@@ -70,8 +70,10 @@ template <Real T>
         square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
     }
     if (square < T(0))
-        detail::throw_invalid(
-            place, "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
+        detail::throw_invalid(place,
+                              "x must be at least half length sqrt(-ratio) on either side, else "
+                              "both heights are complex",
+                              x);
     const T larger = T(1) + sqrt(square);
     return {half_length * larger,
             (half_length - x) / whole / larger * ((half_length + x) / half_length)};

@@ -23,7 +23,8 @@ namespace detail {
 
 /// Sets the bounds of a chain's pencil; |W h| + a S is at most `cancelled` times W h + a S.
 template <Real S, class E>
-void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled, const E& shortest) {
+void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled,
+                      const E& shortest) {
     // S_m is a partial weight and up to a segment; other entries take at most six operations.
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
@@ -39,11 +40,16 @@ struct LinkEntries {
     S stiffness, lower, upper, cross, turning;
 };
 template <class S, class W>
-[[gnu::always_inline]] inline LinkEntries<S> link_entries(const W& weight, const S& a, const S& h, const S& r,
-                                                          const S& below) {
+[[gnu::always_inline]] inline LinkEntries<S> link_entries(const W& weight, const S& a, const S& h,
+                                                          const S& r, const S& below) {
     const S p = h / a, q = (a - h) / a, moment = p * weight, carried = moment + below;
-    return {moment, carried, carried / a, (p * p + r) * weight, (q * q + r) * weight,
-            (p * q - r) * weight, r * weight};
+    return {moment,
+            carried,
+            carried / a,
+            (p * p + r) * weight,
+            (q * q + r) * weight,
+            (p * q - r) * weight,
+            r * weight};
 }
 
 /// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a
@@ -58,7 +64,8 @@ template <class Where>
     struct Scale {
         double first, second;
         explicit Scale(int exponent)
-            : first(std::ldexp(1.0, -exponent / 2)), second(std::ldexp(1.0, -exponent + exponent / 2)) {}
+            : first(std::ldexp(1.0, -exponent / 2)),
+              second(std::ldexp(1.0, -exponent + exponent / 2)) {}
         double operator()(double x) const { return x * first * second; }
     };
     const Scale weighed(result.units.weight_exponent), measured(result.units.length_exponent);
@@ -99,8 +106,8 @@ template <class Where>
         } else {
             const Words r(all(ratio), all(ratio_low));
             const auto e = link_entries(W, a, Words(all(centroid)), r, S);
-            entries[0] = e.stiffness, entries[1] = e.lower, entries[2] = e.upper, entries[3] = e.cross,
-            entries[4] = e.turning;
+            entries[0] = e.stiffness, entries[1] = e.lower, entries[2] = e.upper,
+            entries[3] = e.cross, entries[4] = e.turning;
         }
         Numbers high[5], low[5];
         for (std::size_t e = 0; e < 5; ++e) {
@@ -109,7 +116,8 @@ template <class Where>
         }
         for (std::size_t i = 0; i < there; ++i) {
             const auto at = [&](std::size_t e) { return Wide<double>(high[e][i], low[e][i]); };
-            elements[static_cast<std::size_t>(first) + i] = {at(0), at(1), at(2), at(3), at(4), weight[i]};
+            elements[static_cast<std::size_t>(first) + i] = {at(0), at(1), at(2),
+                                                             at(3), at(4), weight[i]};
         }
     }
     set_entry_errors(result.pencil, size, 1.0, shortest);
@@ -134,7 +142,8 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     result.units = chain.units();
     if constexpr (std::same_as<T, double>)
         if (one_unit && chain.centroids_below()) {
-            simd([&](auto where) REVCHAIN_INLINED { detail::assemble_in_packs(where, chain, result); });
+            simd([&](auto where)
+                     REVCHAIN_INLINED { detail::assemble_in_packs(where, chain, result); });
             return result;
         }
     result.pencil.elements.reserve(static_cast<std::size_t>(chain.size()));
@@ -158,7 +167,8 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         const S hung = ldexp(below, -unit);
         const S a(ldexp(link.length, to_length)), h(ldexp(link.centroid, to_length));
         const auto e = detail::link_entries(S(weight), a, h, link.gyration_ratio, hung);
-        result.pencil.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, e.turning, weight});
+        result.pencil.elements.push_back(
+            {e.stiffness, e.lower, e.upper, e.cross, e.turning, weight});
         shortest = std::min(shortest, static_cast<E>(a));
         const E sizes = abs(static_cast<E>(e.moment)) + static_cast<E>(hung);
         cancelled = std::max(cancelled, sizes / static_cast<E>(e.carried));

@@ -92,7 +92,8 @@ bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
         return column;
     };
     using std::ldexp;
-    const T largest = ldexp(T(1), std::numeric_limits<T>::max_exponent * 2 / 5), smallest = T(1) / largest;
+    const T largest = ldexp(T(1), std::numeric_limits<T>::max_exponent * 2 / 5),
+            smallest = T(1) / largest;
     const auto positive = [=](const T& x) { return (x >= smallest) & (x <= largest); };
     const Index chains = last - first;
     if (!all(part(batch.weight), chains, batch.size, positive)) return false;
@@ -138,13 +139,15 @@ BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count
     }
     // If chains differ in their number of modes, the caller has to say how many to compute.
     const bool alike = static_cast<Index>(plan.alone.size()) == batch.chains &&
-                       std::all_of(plan.alone.begin(), plan.alone.end(),
-                                   [&](Index c) { return chain_of(batch, c).mode_count() == fewest; });
+                       std::all_of(plan.alone.begin(), plan.alone.end(), [&](Index c) {
+                           return chain_of(batch, c).mode_count() == fewest;
+                       });
     if (!count && alike) plan.count = fewest;
     if (plan.count > fewest)
         throw_invalid("conical_heights",
                       name_of_chain(batch, which) + " has only " + std::to_string(fewest) +
-                          " modes; count must not exceed them", plan.count);
+                          " modes; count must not exceed them",
+                      plan.count);
     return plan;
 }
 

@@ -13,11 +13,15 @@ inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 
 /// Links that are summed plainly; longer runs are merged from such leaves. With a sixteenth of the
 /// run, rounding moves less than 1/4 unit from pin to pin; with 32 the merges are cheap.
-constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
+constexpr Index leaf_links(Index length) {
+    return std::min(length, std::clamp<Index>(length / 16, 4, 64));
+}
 
 /// Terms of a leaf. Leaves of up to 4 links have all 4; in longer runs leaves are so short that 3
 /// nearly always suffice (`condensed_chain` checks what they leave out).
-constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
+constexpr std::size_t leaf_terms(Index length) {
+    return length < 64 ? leaf_degree : leaf_degree - 1;
+}
 
 /// Roundings (half units) in a1 and the other coefficients of a leaf: docs/theory/blocks.md.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
@@ -36,7 +40,8 @@ struct LaneRuns {
 
     /// Joins a leaf to the top of each run.
     template <std::size_t Degree>
-    [[gnu::always_inline]] void add_leaf(const pencil::Transfer<V, Degree>& leaf, const CompensatedSum<V>& mass,
+    [[gnu::always_inline]] void add_leaf(const pencil::Transfer<V, Degree>& leaf,
+                                         const CompensatedSum<V>& mass,
                                          const CompensatedSum<V>& its_flexibility, bool is_first) {
         const V phase = mass.high * its_flexibility.high;
         leaf_phase = max(leaf_phase, phase);
@@ -57,14 +62,17 @@ struct ColumnReader {
     const From* data;
     Index stride;
 
-    explicit ColumnReader(const Column<From>& column) : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
+    explicit ColumnReader(const Column<From>& column)
+        : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
     bool is_scalar() const { return stride == 0; }
     /// One number for each lane, from links that are `apart` links from each other.
     template <class V>
     [[gnu::always_inline]] V lanes(Index link, Index apart) const {
         using T = Lane<V>;
         const From* first = data + link * stride;
-        const auto at = [&](Index lane) REVCHAIN_INLINED { return static_cast<T>(first[lane * apart * stride]); };
+        const auto at = [&](Index lane) REVCHAIN_INLINED {
+            return static_cast<T>(first[lane * apart * stride]);
+        };
         return V(at(0), at(1), at(2), at(3));
     }
 };
@@ -95,7 +103,8 @@ struct LinkColumns {
 /// by one would cost 1.4 times as much, always degree 4 1.3 times (ten modes of 1,000,000 rods).
 /// Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
 template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
-LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
+                     const CompensatedSum<V>& below) {
     return simd([&](auto) REVCHAIN_INLINED {
         LaneRuns<V> runs;
         CompensatedSum<V> hung = below;
@@ -105,11 +114,13 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             a = links.length.template lanes<V>(m, length) * per_unit;
             per_length = T(1) / a;
             if constexpr (Equal)
-                p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
+                p = links.centroid.template lanes<V>(m, length) /
+                    links.length.template lanes<V>(m, length);
             else
                 p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
             coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
-            runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
+            runs.worst =
+                max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
             coefficient = max(coefficient, V{});
         };
         if constexpr (Equal) {
@@ -162,13 +173,14 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
 
 /// The weights below four neighbouring runs of `length` links; `below`: that below the first.
 template <class T, class V = Pack<T>>
-CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first, Index length,
-                                Wide<T>& below) {
+CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first,
+                                Index length, Wide<T>& below) {
     using S = Wide<T>;
     CompensatedSum<V> sum, result;
     const bool in_segments = first % segment_size == 0 && length % segment_size == 0;
     if (!in_segments)
-        for (Index m = first; m < first + length; ++m) sum.add(links.weight.template lanes<V>(m, length));
+        for (Index m = first; m < first + length; ++m)
+            sum.add(links.weight.template lanes<V>(m, length));
     for (Index lane = 0; lane < runs_at_once; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         result.high.set(i, static_cast<T>(below));

@@ -36,7 +36,8 @@ pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& bui
         pencil::append_mass(run.transfer, at_lower);
         pencil::append_spring(run.transfer, f, x * f);
         pencil::append_mass(run.transfer, at_upper);
-        const bool exact = builder.is_short(run) && builder.template is_complete<pencil::Block<T>::degree>(run);
+        const bool exact =
+            builder.is_short(run) && builder.template is_complete<pencil::Block<T>::degree>(run);
         run.alone = x > T(0) && !exact;
     } else {
         run.alone = true;
@@ -81,7 +82,8 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
 
 /// Condenses four runs: links may be equal, and short runs need leaves of full degree.
 template <class T, class V>
-LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length,
+                      const CompensatedSum<V>& below) {
     const auto of = [&]<bool equal>() {
         return leaf_terms(length) == 4 ? condense<equal, 4, T, V>(links, first, length, below)
                                        : condense<equal, 3, T, V>(links, first, length, below);
@@ -119,7 +121,7 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
     };
     Index length = 1;
     for (Index m = 0; m < chain.size();) {
-        look();
+        check_interrupt();
         const Index left = chain.size() - m;
         if (left < runs_at_once) {
             add_singles(m, chain.size());
@@ -175,7 +177,8 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
             below = above;
         }
         m += runs_at_once * length;
-        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0) length *= 2;
+        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0)
+            length *= 2;
     }
     return {builder.finish(), unit_length};
 }

@@ -22,7 +22,8 @@ T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
     const Index rods_at_most = std::min<Index>(64, chain.size() / 8);
     const bool slow = 4 * number <= rods_at_most;
-    const Index pieces = slow ? rods_at_most : std::clamp<Index>(chain.size() / segment_size, 32, 512);
+    const Index pieces =
+        slow ? rods_at_most : std::clamp<Index>(chain.size() / segment_size, 32, 512);
     const T unit_length = LinkColumns<T>(chain).unit_length;
     const T length = chain.total_length() / unit_length / static_cast<T>(pieces);
     pencil::ElementPencil<T> rods;
@@ -40,7 +41,8 @@ T estimated_height(const Chain<T>& chain, Index number) {
         below = above;
     }
     if (slow) {
-        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
+        const auto bracket =
+            pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
         return pencil::between(bracket.lower, bracket.upper);
     }
     const T per_phase = phase / (T(number) - T(0.25));
@@ -51,8 +53,8 @@ T estimated_height(const Chain<T>& chain, Index number) {
 /// counts to lie within `margin` of what is returned; nothing where a proof fails.
 template <class T>
 std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pencil, Index first,
-                                           const std::vector<pencil::Bracket<T>>& brackets, std::size_t from,
-                                           const T& margin) {
+                                           const std::vector<pencil::Bracket<T>>& brackets,
+                                           std::size_t from, const T& margin) {
     using V = Pack<T>;
     using P = DoubleWord<V>;
     V start, number;
@@ -88,14 +90,16 @@ struct CondensedHeights {
 /// Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound includes what
 /// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: condensing and 20 us a mode.
 template <std::floating_point T>
-std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
+std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain,
+                                                           const ModeRange& range,
                                                            const HeightsOptions<T>& options) {
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
     const ChainUnits units = chain.units();
     // Products of double words must stay in range.
-    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2 || !chain.has_one_weight_unit())
+    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2 ||
+        !chain.has_one_weight_unit())
         return std::nullopt;
 
     const Index first = range.first - 1, last = first + range.count;
@@ -124,7 +128,8 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
             auto found = refined(pencil, first, rough, done, margin);
             if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
                 const Index number = first + static_cast<Index>(done);
-                found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)), 0, margin);
+                found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)),
+                                0, margin);
             }
             if (!found) proved = false;
             for (std::size_t lane = 0; found && lane < count; ++lane) {

@@ -24,7 +24,8 @@ struct FoundRoot {
 /// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
 class CountedRoots {
    public:
-    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
+    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign,
+                 int side)
         : pencil_(std::move(pencil)), pace_(pace), base_(base), sign_(sign), side_(side) {}
 
     /// Counts in double, for `bisect`.
@@ -34,7 +35,8 @@ class CountedRoots {
         double side;
 
         template <std::size_t N>
-        friend std::array<Index, N> count_above(const Counter& counter, std::array<double, N> shifts) {
+        friend std::array<Index, N> count_above(const Counter& counter,
+                                                std::array<double, N> shifts) {
             for (double& shift : shifts) shift *= counter.side;
             auto above = pencil::count_above(counter.rounded, shifts);
             for (Index& count : above) count = counter.base + counter.sign * count;
@@ -60,9 +62,10 @@ class CountedRoots {
     }
 
     /// Brackets of the roots from number `first` on, by counts in double; see `bisect`.
-    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
-                                                  const std::function<void(Index)>& finished) const {
-        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
+    std::vector<pencil::Bracket<double>> brackets(
+        Index first, Index count, double start, const std::function<void(Index)>& finished) const {
+        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_,
+                              static_cast<double>(side_)};
         return pencil::bisect(counter, first, count, 2 * epsilon<double>(), start, finished);
     }
 
@@ -70,7 +73,9 @@ class CountedRoots {
     FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
-        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) { return counted(shifts); };
+        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) {
+            return counted(shifts);
+        };
         const RigWord guess(pencil::between(bracket.lower, bracket.upper));
         RigWord x = guess;
         for (int round = 0; round < 3; ++round) {
@@ -104,7 +109,8 @@ class CountedRoots {
 
     /// The x of the rounded result: of a speed where there is momentum, else of a height.
     RigWord given_out(const RigWord& x) const {
-        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
+        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x))
+                                 : RigWord(static_cast<double>(x));
     }
 
     pencil::SignedPencil<RigWord> pencil_;
@@ -121,17 +127,19 @@ RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -
 /// counts as equal to it; x is limited to `least_root` and its reciprocal. Throws InvalidArgument
 /// where the number is not proved; `place` and `value` are for the message.
 template <class Count>
-Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value, const Count& count) {
+Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value,
+                   const Count& count) {
     const RigWord least = least_root(quadratic);
     RigWord at = std::min(std::max(x, least), RigWord(1.0) / least);
     for (const double tie : {0.0, operation_error<RigWord>() * 0x1p20}) {
         at = at + at * RigWord(tie);
         if (const auto found = count(at); found.proved) return found.above;
     }
-    throw_invalid(place,
-                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
-                  "a little beside it",
-                  value);
+    throw_invalid(
+        place,
+        "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
+        "a little beside it",
+        value);
 }
 
 /// The roots of one sense of rotation, counted without finding them.
@@ -141,7 +149,8 @@ struct CountedSense {
 
     /// `count`: the proved number of roots, or nothing where it has to be counted.
     CountedSense(CountedRoots counted, std::optional<Index> count)
-        : roots(std::move(counted)), available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
+        : roots(std::move(counted)),
+          available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
 
     Index above(const RigWord& x, std::string_view place, double value) const {
         const bool quadratic = roots.pencil().quadratic;
@@ -166,16 +175,17 @@ CountedSense counted_heights(const RigPencil& rig) {
 
 /// The roots from number `first` on; `bracketed` and `finished` receive the number done.
 REVCHAIN_LAZY
-std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
-                                     const std::function<void(Index)>& bracketed,
+std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count,
+                                     double guess, const std::function<void(Index)>& bracketed,
                                      const std::function<void(Index)>& finished) {
     const auto brackets = roots.brackets(first, count, guess, bracketed);
     std::vector<FoundRoot> found(brackets.size());
     std::atomic<Index> done = 0;
     parallel_for(count, 1, [&](Index begin, Index end) {
         for (Index j = begin; j < end; ++j) {
-            look();
-            found[static_cast<std::size_t>(j)] = roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
+            check_interrupt();
+            found[static_cast<std::size_t>(j)] =
+                roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
             if (finished) finished(++done);
         }
     });

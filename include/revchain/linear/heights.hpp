@@ -54,13 +54,15 @@ void restore_order(Heights<T>& heights) {
 /// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
 /// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
 REVCHAIN_LAZY
-std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
+std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range,
+                                             double goal,
                                              const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const double length = std::ldexp(chain.total_length(), -chain.units().length_exponent);
-    const auto brackets = pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal, length, finished);
+    const auto brackets =
+        pencil::bisect(*pencil, range.first - 1, range.count, 0.5 * goal, length, finished);
     Heights<double> result(brackets.size());
     std::atomic<bool> proved = true;
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -84,16 +86,19 @@ inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::ep
 /// Heights to 2 ulp, eight at a time; those that this does not prove, one by one. Nothing where one
 /// unit of weight does not serve, or where counts leave numbers in doubt.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range, Index available,
-                                                double guess, const std::function<void(Index)>& finished) {
+std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
+                                                const ModeRange& range, Index available,
+                                                double guess,
+                                                const std::function<void(Index)>& finished) {
     const auto& wide = pencils.wide();
     if (!wide.units.empty() || wide.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto count = [&](double height) {
         return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0];
     };
-    const auto roots = pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count, available,
-                                            guess, worst_unrounded, finished);
+    const auto roots =
+        pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count,
+                             available, guess, worst_unrounded, finished);
     if (!roots) return std::nullopt;
     Heights<double> heights;
     heights.reserve(roots->size());
@@ -103,9 +108,10 @@ std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, 
             continue;
         }
         const Index j = range.first - 1 + static_cast<Index>(heights.size());
-        const auto bracket = pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
-        heights.push_back(
-            pencil::certified_eigenvalue(wide, pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
+        const auto bracket =
+            pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
+        heights.push_back(pencil::certified_eigenvalue(
+            wide, pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
     }
     restore_order<double>(heights);
     return heights;
@@ -113,12 +119,14 @@ std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, 
 
 /// Stage 1 of `modes` for every valid chain, to `options.rtol`; `range` is not empty.
 template <Real T>
-Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled, const ModeRange& range,
-                                const HeightsOptions<T>& options) {
+Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled,
+                                const ModeRange& range, const HeightsOptions<T>& options) {
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);
-    const auto half_way = [&](Index done) { advance(options.progress, 0.5 * static_cast<double>(done) / count); };
+    const auto half_way = [&](Index done) {
+        advance(options.progress, 0.5 * static_cast<double>(done) / count);
+    };
     if constexpr (std::is_same_v<T, double>)
         if (loose)
             if (auto found = loose_heights(chain, range, goal, half_way)) return std::move(*found);
@@ -127,16 +135,20 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     if constexpr (std::is_same_v<T, double>)
         if (auto found = heights_in_lanes(pencils, range, chain.mode_count(), length, half_way))
             return std::move(*found);
-    const auto brackets = pencil::bisect(pencils.rounded(), range.first - 1, range.count,
-                                         loose ? goal / T(4) : T(2) * epsilon<T>(), length, half_way);
+    const auto brackets =
+        pencil::bisect(pencils.rounded(), range.first - 1, range.count,
+                       loose ? goal / T(4) : T(2) * epsilon<T>(), length, half_way);
     Heights<T> result(brackets.size());
     parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Index j = range.first - 1 + static_cast<Index>(i);
             const T start = pencil::between(brackets[i].lower, brackets[i].upper);
-            const bool near = loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2));
-            result[i] = near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
-                             : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(), j, start);
+            const bool near =
+                loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2));
+            result[i] =
+                near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
+                     : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(),
+                                                                j, start);
             advance(options.progress, 0.5 + 0.5 * static_cast<double>(i + 1) / count);
         }
     });

@@ -27,8 +27,11 @@ class LazyModeShapes {
     LazyModeShapes() = default;
     /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has
     /// index `first` in the result. Without `details` it may leave residuals and nodes out.
-    using Find = std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
-    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) { state_->find = std::move(find); }
+    using Find =
+        std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
+    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) {
+        state_->find = std::move(find);
+    }
     explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
         state_->find = [](Index, Index, bool, Progress*) { return ModeShapes<T>(); };
         state_->known = std::move(known);
@@ -38,10 +41,13 @@ class LazyModeShapes {
     const Table<T>& offsets(Index count, Progress* progress) const {
         return known(count, false, progress).offset;
     }
-    const ModeShapes<T>& details(Index count, Progress* progress) const { return known(count, true, progress); }
+    const ModeShapes<T>& details(Index count, Progress* progress) const {
+        return known(count, true, progress);
+    }
     Vector<T> one(Index count, Index j) const {
         if (j < 0 || j >= count)
-            throw_invalid("Modes::shape", "the index must be from 0 to " + std::to_string(count - 1), j);
+            throw_invalid("Modes::shape",
+                          "the index must be from 0 to " + std::to_string(count - 1), j);
         const std::scoped_lock lock(state().mutex);
         if (state_->has_offsets) return state_->known.offset.row(j).transpose();
         return state_->find(j, 1, false, nullptr).offset.row(0).transpose();
@@ -73,7 +79,8 @@ class LazyModeShapes {
             // Offsets that are known may be in use.
             // Offsets that are there already may be read by another thread.
             if (!state.has_offsets) state.known.offset = std::move(found.offset);
-            state.known.residual = std::move(found.residual), state.known.nodes = std::move(found.nodes);
+            state.known.residual = std::move(found.residual),
+            state.known.nodes = std::move(found.nodes);
             state.has_offsets = true;
         }
         return state.known;

@@ -30,7 +30,8 @@ Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T
         const S away = height * S(guess);
         const auto count = pencils.template certified_count<2>({height - away, height + away});
         const bool proved = count[0].proved && count[1].proved;
-        if (proved && count[0].above == number && count[1].above == number - 1) return guess * M(0.999);
+        if (proved && count[0].above == number && count[1].above == number - 1)
+            return guess * M(0.999);
     }
     return M(0);
 }
@@ -74,7 +75,8 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
     using std::sqrt;
     using S = Wide<T>;
     using M = Narrow<S>;
-    WideMode<T> mode{S(static_cast<M>(near)), {}, S(M(0)), std::numeric_limits<M>::infinity(), M(1)};
+    WideMode<T> mode{
+        S(static_cast<M>(near)), {}, S(M(0)), std::numeric_limits<M>::infinity(), M(1)};
     const auto rough = pencil::eigenvector(pencils.rounded(), near).offset;
     mode.height = pencil::rayleigh_quotient<S>(pencils.wide(), rough);
     M apart(0);
@@ -93,7 +95,8 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
         if (!(mode.tangent > M(0x1p-70)) || round == 2) return mode;
         S inertia(M(0));
         for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m)
-            inertia = inertia + pencil::mass_form(pencils.wide().elements[m], mode.offset[m], mode.offset[m + 1]);
+            inertia = inertia + pencil::mass_form(pencils.wide().elements[m], mode.offset[m],
+                                                  mode.offset[m + 1]);
         mode.height = inertia / mode.stiffness;
     }
     return mode;

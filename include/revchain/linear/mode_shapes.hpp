@@ -19,7 +19,8 @@ std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
     std::vector<Wide<T>> places;
     places.reserve(static_cast<std::size_t>(chain.size()));
     Wide<T> below(T(0));
-    for (Index m = 0; m < chain.size(); ++m) places.push_back(below), below = below + Wide<T>(chain.length()[m]);
+    for (Index m = 0; m < chain.size(); ++m)
+        places.push_back(below), below = below + Wide<T>(chain.length()[m]);
     return places;
 }
 
@@ -40,7 +41,8 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     const Index more = details ? count : 0;
     ModeShapes<T> shapes{Table<T>(count, chain.size() + 1), Vector<T>(more),
                          std::vector<Vector<T>>(static_cast<std::size_t>(more))};
-    will_be_filled(shapes.offset.data(), static_cast<std::size_t>(shapes.offset.size()) * sizeof(T));
+    will_be_filled(shapes.offset.data(),
+                   static_cast<std::size_t>(shapes.offset.size()) * sizeof(T));
     return shapes;
 }
 
@@ -66,11 +68,13 @@ void shapes_by_lanes(ModeShapes<T>& shapes,
     const FloatingPointStateGuard quiet;
     const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
     const auto stride = static_cast<std::size_t>(shapes.offset.cols());
-    const auto count = static_cast<std::size_t>(shapes.offset.rows()), pins = stride - static_cast<std::size_t>(idle);
+    const auto count = static_cast<std::size_t>(shapes.offset.rows()),
+               pins = stride - static_cast<std::size_t>(idle);
     const auto find = [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
         pencil::RootsInLanes<T> roots;
         for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-            root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i], roots.rounded[i]);
+            root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i],
+                 roots.rounded[i]);
         pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
         found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
         for (std::size_t i = 0; i < there; ++i) {
@@ -122,12 +126,15 @@ class ShapeFinder {
     }
 
    private:
-    void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
+    void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils,
+               const Height<T>& at) const {
         const T& height = at.eigenvalue;
         if (loose_)
-            set_shape(shapes, j, chain_, pencils.rounded(), height, pencil::eigenvector(pencils.rounded(), height));
+            set_shape(shapes, j, chain_, pencils.rounded(), height,
+                      pencil::eigenvector(pencils.rounded(), height));
         else
-            set_shape(shapes, j, chain_, pencils.wide(), height, fine_shape<T>(pencils.wide(), at.unrounded));
+            set_shape(shapes, j, chain_, pencils.wide(), height,
+                      fine_shape<T>(pencils.wide(), at.unrounded));
     }
 
     void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
@@ -144,7 +151,9 @@ class ShapeFinder {
             const auto crossed = found.crossings(lane, &shapes.offset(j, 0));
             shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, places, crossed);
         };
-        const auto one = [&](Index j) { alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]); };
+        const auto one = [&](Index j) {
+            alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
+        };
         shapes_by_lanes(shapes, pencils.wide(), 0, root, one, take, progress);
     }
 

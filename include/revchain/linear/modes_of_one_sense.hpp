@@ -16,8 +16,10 @@ class ModesOfOneSense {
           forward_(direction == Rotation::forward || !roots_.has_momentum()) {
         if (!roots_.spectrum()) return;
         for (const pencil::EnclosedRoot& root : roots_.spectrum()->roots)
-            if (root.is_real && (root.value.real() > 0) == forward_ && std::abs(root.value) > 0x1p-200)
-                isolated_.push_back({forward_ ? root.x.real : -root.x.real, root.radius / std::abs(root.value)});
+            if (root.is_real && (root.value.real() > 0) == forward_ &&
+                std::abs(root.value) > 0x1p-200)
+                isolated_.push_back(
+                    {forward_ ? root.x.real : -root.x.real, root.radius / std::abs(root.value)});
     }
 
     Index count() const {
@@ -43,7 +45,8 @@ class ModesOfOneSense {
         if (roots_.spectrum()) {
             roots.assign(isolated_.begin() + (first - 1), isolated_.begin() + (first - 1 + many));
         } else if (many > 0) {
-            const double length = std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
+            const double length =
+                std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
             const double guess = quadratic ? std::sqrt(length) : length;
             roots = refined_roots(sense().roots, first - 1, many, guess, {}, {});
         }

@@ -9,7 +9,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
 template <Real T>
-pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide, const Wide<T>& height) {
+pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide,
+                                  const Wide<T>& height) {
     const auto vector = pencil::eigenvector(wide, height);
     pencil::Eigenvector<T> rounded{vector.offset.template cast<T>(), {}};
     for (const auto& crossing : vector.crossings)
@@ -29,9 +30,11 @@ template <Real T>
 OneMode<T> one_mode(const Chain<T>& chain, Index mode, bool with_shape = true) {
     using std::ldexp;
     LazyCounter<T> assembled(chain);
-    const auto height = heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
+    const auto height =
+        heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
     OneMode<T> result{ldexp(height.eigenvalue, chain.units().length_exponent), {}};
-    if (with_shape) result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
+    if (with_shape)
+        result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
     return result;
 }
 

@@ -26,7 +26,8 @@ class Pencils {
 
     /// Proved counts above heights: in T if that suffices, else in `Wide<T>` (8 times the cost).
     template <std::size_t L>
-    std::array<pencil::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
+    std::array<pencil::CertifiedCount, L> certified_count(
+        const std::array<Wide<T>, L>& heights) const {
         std::array<T, L> narrow;
         bool exact = true;
         for (std::size_t i = 0; i < L; ++i) {

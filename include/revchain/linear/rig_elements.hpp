@@ -17,11 +17,11 @@ using RigElement = pencil::SignedElement<Wide<double>>;
 REVCHAIN_LAZY
 RigElement rig_element(const detail::RigLink& link, bool stands) {
     constexpr double part = detail::RigLink::error_part;
-    RigElement e =
-        RigElement::of(link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross);
+    RigElement e = RigElement::of(link.tension / link.length, link.spin / link.length, link.lower,
+                                  link.upper, link.cross);
     if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
-    e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,
-               part * link.size.upper, part * link.size.cross};
+    e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high),
+               part * link.size.lower, part * link.size.upper, part * link.size.cross};
     return e;
 }
 
@@ -45,10 +45,12 @@ namespace detail {
 
 /// An element of a chain, whose numbers have small relative errors, with errors of its own.
 REVCHAIN_LAZY
-RigElement with_errors(const pencil::Element<Wide<double>>& e, double part, double stiffness_underflow = 0) {
-    return RigElement::of(e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
-                          {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
-                           part * (std::abs(e.cross.high) + 2 * e.turning.high)});
+RigElement with_errors(const pencil::Element<Wide<double>>& e, double part,
+                       double stiffness_underflow = 0) {
+    return RigElement::of(
+        e.stiffness, Wide<double>(0.0), e.lower, e.upper, e.cross,
+        {part * e.stiffness.high + stiffness_underflow, 0, part * e.lower.high, part * e.upper.high,
+         part * (std::abs(e.cross.high) + 2 * e.turning.high)});
 }
 
 /// Whether it has no weight, spin or inertia: at the lower end no equation determines such links.
@@ -56,8 +58,8 @@ REVCHAIN_LAZY
 bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
     const auto& off = e.error;
-    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
-           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
+    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none &&
+           e.cross == none && off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
 }
 
 /// A support at the lower end of a chain, and the tension there that pulls the chain straight.
@@ -71,7 +73,8 @@ struct LowerEnd {
     /// InvalidArgument where the tension is beyond the range of the weights.
     RigElement pulled(RigElement e, double length, const ChainUnits& units) const {
         using S = Wide<double>;
-        const S pull = ldexp(tension, -units.weight_exponent) / S(std::ldexp(length, -units.length_exponent));
+        const S pull =
+            ldexp(tension, -units.weight_exponent) / S(std::ldexp(length, -units.length_exponent));
         if (!(pull.high > 0x1p-800 && pull.high < 0x1p800))
             detail::throw_invalid("Held", "tension is too far from the weight", tension.high);
         if (weightless) e.stiffness = S(0.0), e.error.stiffness = 0;

@@ -54,7 +54,8 @@ HeldPins held_by(const Rig& rig, Index m) {
     if (rig.flywheel(m).axial_moment.high > 0) return HeldPins::both;
     if (turning && rig.fills_its_link(m) && link.weight == moved) return HeldPins::nothing;
     if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return HeldPins::both;
-    if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
+    if ((link.weight > 0 && link.gyration_ratio > none) ||
+        (moved > 0 && fluid.gyration_ratio > none))
         return HeldPins::both;
     if (!(link.weight > 0) && !(moved > 0)) return HeldPins::nothing;
     const double h = link.weight > 0 ? link.centroid : fluid.centroid;
@@ -64,13 +65,17 @@ HeldPins held_by(const Rig& rig, Index m) {
 /// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
 /// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
 REVCHAIN_LAZY
-MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held,
-                           bool free) {
+MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
+                           const std::vector<HeldPins>& held, bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
-    const auto sum = [&](const I& x, const I& y) { return is_zero(x) ? y : is_zero(y) ? x : x + y; };
-    const auto product = [&](const I& x, const I& y) { return is_zero(x) || is_zero(y) ? I() : x * y; };
+    const auto sum = [&](const I& x, const I& y) {
+        return is_zero(x) ? y : is_zero(y) ? x : x + y;
+    };
+    const auto product = [&](const I& x, const I& y) {
+        return is_zero(x) || is_zero(y) ? I() : x * y;
+    };
     MasslessForm form;
     const auto eliminate = [&](const I& pivot) {
         ++form.size;
@@ -93,7 +98,8 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, con
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
         const auto& off = e.error;
-        const I c = pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
+        const I c =
+            pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
         if (held[m] == HeldPins::one) {  // lower pin = -cross/lower times the upper pin
             const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
             below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
@@ -118,8 +124,10 @@ bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
     using pencil::vanishes;
-    if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper)) return high(e.lower) >= off.lower;
-    if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower)) return high(e.upper) >= off.upper;
+    if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper))
+        return high(e.lower) >= off.lower;
+    if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower))
+        return high(e.upper) >= off.upper;
     const double A = high(e.lower), B = high(e.upper), X = std::abs(high(e.cross));
     const double off_squares = A * off.upper + B * off.lower + 2 * X * off.cross;
     const double error = off_squares * 1.001 + 1e-29 * (A * B + X * X);
@@ -134,9 +142,10 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
     std::vector<RigElement> elements;
     elements.reserve(static_cast<std::size_t>(rig.size()));
     const Rigging& with = rig.rigging();
-    const bool plain = with.posture.empty() && with.displaced.empty() &&
-                       std::all_of(with.flywheels.begin(), with.flywheels.end(),
-                                   [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
+    const bool plain =
+        with.posture.empty() && with.displaced.empty() &&
+        std::all_of(with.flywheels.begin(), with.flywheels.end(),
+                    [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
     if (!plain || !rig.chain().has_one_weight_unit()) {
         const std::vector<detail::RigLink> links = detail::rig_links(rig);
         for (Index m = 0; m < rig.size(); ++m)
@@ -190,7 +199,8 @@ RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard
     if (lower_end)
         if (auto spring = support_element(lower_end->support, result.units)) {
             std::swap(spring->lower, spring->upper);
-            add(*spring, lower_end->support.carriage_weight > 0 ? HeldPins::upper : HeldPins::nothing, true);
+            add(*spring,
+                lower_end->support.carriage_weight > 0 ? HeldPins::upper : HeldPins::nothing, true);
         }
     for (Index m = 0; m < rig.size(); ++m) {
         RigElement e = links[static_cast<std::size_t>(m)];

@@ -46,7 +46,8 @@ class RigRoots {
    public:
     /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements
     /// whose roots have to be isolated. `advance(share)` as in `complex_spectrum`.
-    RigRoots(std::string_view place, const Rig& rig, double gravity, const std::function<void(double)>& advance)
+    RigRoots(std::string_view place, const Rig& rig, double gravity,
+             const std::function<void(double)>& advance)
         : rig_(rig_pencil(rig, gravity)), gravity_(gravity) {
         const bool quadratic = rig_.pencil.quadratic;
         if (rig_.pencil.size() == 0) return;
@@ -58,7 +59,8 @@ class RigRoots {
         }
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
-                          "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a "
+                          "a rig whose speeds may be complex (standing links with momentum, driven "
+                          "wheels, floats in a "
                           "fluid that turns with them) is solved for at most " +
                               std::to_string(most_isolated) + " links and supports that yield",
                           rig_.pencil.size());

@@ -26,7 +26,8 @@ class RigShape {
         Vector<double> rounded(sense_.size() + 1);
         for (Index i = 0; i <= sense_.size(); ++i)
             rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
-        if (shapes.residual.size() > 0) shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
+        if (shapes.residual.size() > 0)
+            shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
         const Index pins = shapes.offset.cols() - idle_;
         shapes.offset.row(j).tail(pins) = rounded.head(pins).transpose();
         complete(shapes, j);
@@ -74,7 +75,8 @@ class RigShapeFinder {
           roots_(std::move(roots)) {}
 
     /// The shapes of `count` modes from index `first` on; residuals and nodes if asked.
-    ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
+    ModeShapes<double> operator()(Index first, Index count, bool details,
+                                  Progress* progress) const {
         const Threads used("modes", threads_);
         ModeShapes<double> shapes = room_for_shapes(shape_.chain(), count, details);
         if (elements_)
@@ -91,7 +93,8 @@ class RigShapeFinder {
     const RigWord& root(Index j) const { return roots_[static_cast<std::size_t>(j)]; }
 
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
-        shapes_by_lanes(shapes, *elements_, shape_.idle(),
+        shapes_by_lanes(
+            shapes, *elements_, shape_.idle(),
             [&](Index j, RigWord& exact, RigWord& rounded) { exact = rounded = root(from + j); },
             [&](Index j) { shape_.find(shapes, j, root(from + j)); },
             [&](Index j, const auto&, std::size_t) { shape_.complete(shapes, j); }, progress);

@@ -20,7 +20,8 @@ ModeRange range_of(const Question& question) { return {question.first, question.
 
 /// The heights that a method found, as an answer. Where it found none, no other method does the work.
 REVCHAIN_LAZY
-Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
+Answer answered(const Chain<double>& chain,
+                const std::optional<revchain::detail::Heights<double>>& found) {
     if (!found) return Answer::none();
     const Index count = static_cast<Index>(found->size());
     const int exponent = chain.units().length_exponent;
@@ -45,7 +46,8 @@ REVCHAIN_LAZY
 double loose_cost(double links, double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
-    return 3e-7 + 2e-7 * real(count) + (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));
+    return 3e-7 + 2e-7 * real(count) +
+           (links + 6) * (6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits));
 }
 }  // namespace detail
 
@@ -67,7 +69,8 @@ struct Bisection {
     }
     static double full_cost(const ChainKind& kind, const Question& question) {
         const double count = detail::real(question.count), links = detail::real(kind.size);
-        if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + links * (1.6e-7 + 2.9e-7 * count);
+        if (kind.size > most_in_lanes)
+            return 4e-7 + 4e-7 * count + links * (1.6e-7 + 2.9e-7 * count);
         const double brackets = kind.size >= pencil::least_for_groups * question.last() ? 0 : 7e-8;
         const double eight = kind.point_masses ? 1.15e-7 : 1.45e-7;
         return 1.5e-6 + links * (brackets + eight * std::ceil(count / 8));
@@ -77,15 +80,16 @@ struct Bisection {
         revchain::detail::LazyCounter<double> assembled(chain);
         auto options = detail::options_for(question);
         if (!counts_pay(kind, question)) options.rtol.reset();
-        return detail::answered(
-            chain, revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question), options));
+        return detail::answered(chain, revchain::detail::heights_by_bisection(
+                                           chain, assembled, detail::range_of(question), options));
     }
 
    private:
     static constexpr Index most_in_lanes = revchain::detail::most_in_lanes;
     /// Whether counts in double prove the tolerance, of nearly all chains, and cost less than full accuracy does.
     static bool counts_pay(const ChainKind& kind, const Question& question) {
-        return question.rtol > 4096 * std::numeric_limits<double>::epsilon() * detail::real(kind.size) &&
+        return question.rtol >
+                   4096 * std::numeric_limits<double>::epsilon() * detail::real(kind.size) &&
                loose_cost(kind, question) < full_cost(kind, question);
     }
 };

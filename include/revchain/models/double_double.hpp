@@ -30,8 +30,8 @@ struct DoubleDoubleBisection {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto wide = revchain::detail::converted<DoubleDouble>(chain);
         revchain::detail::LazyCounter<DoubleDouble> assembled(wide);
-        const auto found = revchain::detail::heights_by_bisection(wide, assembled, {question.first, question.count},
-                                                                  {.progress = question.progress});
+        const auto found = revchain::detail::heights_by_bisection(
+            wide, assembled, {question.first, question.count}, {.progress = question.progress});
         const int exponent = chain.units().length_exponent;
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         answer.conical_height_low.resize(question.count);

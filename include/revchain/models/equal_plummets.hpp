@@ -21,7 +21,8 @@ struct EqualPlummets {
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (!kind.plummets) return Fit::no("not equal plummets");
-        if (!(2 * zero_of_j0(question.last()) < nu(kind))) return Fit::no("too fast a mode of too few links");
+        if (!(2 * zero_of_j0(question.last()) < nu(kind)))
+            return Fit::no("too fast a mode of too few links");
         return {};
     }
     double error_bound(const ChainKind& kind, const Question& question) const {
@@ -30,11 +31,14 @@ struct EqualPlummets {
     double cost(const ChainKind&, const Question& question) const {
         return 1.1e-7 + 2e-8 * detail::real(question.count);
     }
-    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+    Answer solve(const Chain<double>& chain, const ChainKind& kind,
+                 const Question& question) const {
         return answer_of_each(question, [&](Index k) {
             const Terms t = terms(kind, k);
             const double half = zero_of_j0(k) / 2;
-            return Enclosed{chain.length()[0] * (detail::real(kind.size) + 0.5) / (half * half) / t.sum, bound(t)};
+            return BoundedHeight{
+                chain.length()[0] * (detail::real(kind.size) + 0.5) / (half * half) / t.sum,
+                bound(t)};
         });
     }
 
@@ -43,13 +47,16 @@ struct EqualPlummets {
         double sum, last;
     };
     static double nu(const ChainKind& kind) { return 4 * detail::real(kind.size) + 2; }
-    static double bound(const Terms& terms) { return 2 * std::abs(terms.last) + 4 * epsilon<double>(); }
+    static double bound(const Terms& terms) {
+        return 2 * std::abs(terms.last) + 4 * epsilon<double>();
+    }
     static Terms terms(const ChainKind& kind, Index k) {
         const double j = zero_of_j0(k), p = j * j, e = 1 / (nu(kind) * nu(kind));
         const double first = e * (p - 2) / 3, second = e * e * ((11 * p - 57) * p + 94) / 45;
         const double third = e * e * e * (((657 * p - 6516) * p + 28102) * p - 48308) / 2835;
         const double fourth =
-            e * e * e * e * ((((10644 * p - 172740) * p + 1456807) * p - 6605817) * p + 12059918) / 42525;
+            e * e * e * e * ((((10644 * p - 172740) * p + 1456807) * p - 6605817) * p + 12059918) /
+            42525;
         return {1 + (first + (second + third)), fourth};
     }
 };

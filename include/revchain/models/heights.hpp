@@ -10,17 +10,20 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 /// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
 /// that are not small and for tolerances below what a double holds. The last always answers.
-inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain,
-                            Aberth, Interpolated, Condensed, DoubleDoubleBisection, FiniteAmplitude, Bisection>
+inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, ContinuousChain,
+                            TaperedChain, CoarseChain, Aberth, Interpolated, Condensed,
+                            DoubleDoubleBisection, FiniteAmplitude, Bisection>
     height_models{};
 
 /// `select` and `solve` among all of them.
 REVCHAIN_LAZY
-auto select(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
+auto select(const Chain<double>& chain, const Question& question,
+            std::optional<double> time_budget = std::nullopt) {
     return select(height_models, chain, question, time_budget);
 }
 REVCHAIN_LAZY
-Solution solve(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
+Solution solve(const Chain<double>& chain, const Question& question,
+               std::optional<double> time_budget = std::nullopt) {
     return solve(height_models, chain, question, time_budget);
 }
 

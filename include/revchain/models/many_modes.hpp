@@ -18,14 +18,15 @@ struct Aberth {
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 100) return Fit::no("more than 100 links");
-        if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
+        if (!kind.short_pendulums)
+            return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         // Limits measured with one heavy tip and with weights graded from the tip up, where numbers leave the range of
         // double. For chains of few links, trying costs less time than predicting that.
         if (kind.equal || kind.size < ChainKind::least_sampled) return {};
         const double n = detail::real(kind.size);
-        const bool far_apart =
-            kind.point_masses ? kind.range > 19.5 || n * kind.range > 790 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
+        const bool far_apart = kind.point_masses ? kind.range > 19.5 || n * kind.range > 790
+                                                 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
         if (far_apart) return Fit::no("links that weigh too little beside what hangs below them");
         return {};
     }
@@ -33,13 +34,16 @@ struct Aberth {
         return question.rtol >= loose ? loose : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        const double n = detail::real(kind.size), lanes = 8 * std::ceil(detail::real(question.count) / 8);
-        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n + (question.rtol >= loose ? 0 : 5e-7 + 2e-8 * n + 4.8e-9 * n * lanes);
+        const double n = detail::real(kind.size),
+                     lanes = 8 * std::ceil(detail::real(question.count) / 8);
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n +
+               (question.rtol >= loose ? 0 : 5e-7 + 2e-8 * n + 4.8e-9 * n * lanes);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
-        return detail::answered(chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question),
-                                                                           detail::options_for(question)));
+        return detail::answered(
+            chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question),
+                                                       detail::options_for(question)));
     }
 };
 
@@ -67,9 +71,9 @@ struct Interpolated {
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
-        return detail::answered(
-            chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,
-                                                              detail::options_for(question)));
+        return detail::answered(chain, revchain::detail::heights_by_interpolation(
+                                           assembled, detail::range_of(question), kind.mode_count,
+                                           detail::options_for(question)));
     }
 };
 

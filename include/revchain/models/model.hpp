@@ -34,7 +34,8 @@ struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
     Index count = 1;
     double rtol = 0;
-    double inclination = 0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
+    double inclination =
+        0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
     Progress* progress = nullptr;
     bool proved = false;  ///< whether only models whose bounds are proved by counts may answer
 
@@ -45,14 +46,16 @@ struct Question {
 struct Answer {
     Vector<double> conical_height;
     Vector<double> error_bound;
-    bool found = true;                    ///< false where the model turned out to have no answer
-    Vector<double> conical_height_low{};  ///< exact heights minus `conical_height`; empty where they are not known
+    bool found = true;  ///< false where the model turned out to have no answer
+    Vector<double>
+        conical_height_low{};  ///< exact heights minus `conical_height`; empty where they are not known
     /// The heights before they were rounded, in units of 2^length_exponent of the chain: for shapes; may be empty.
     std::vector<Wide<double>> unrounded{};
 
     static Answer none() { return {{}, {}, false}; }
     double worst_bound() const {
-        return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
+        return error_bound.size() > 0 && found ? error_bound.maxCoeff()
+                                               : std::numeric_limits<double>::infinity();
     }
 };
 
@@ -70,12 +73,16 @@ struct ChainKind {
     bool centroids_below = true;   ///< none lies above its pin
     bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
     bool point_masses = true;      ///< all are plummets
-    double long_pendulums = 0;     ///< share of links whose pendulum is longer than they, or whose centroid is above
-    bool negative_pins = false;    ///< two neighbours carry so much weight beyond their pin that less than 0 is on it
+    double long_pendulums =
+        0;  ///< share of links whose pendulum is longer than they, or whose centroid is above
+    bool negative_pins =
+        false;  ///< two neighbours carry so much weight beyond their pin that less than 0 is on it
     // The rest is 0 for equal links, and for fewer unlike links than `least_sampled`.
     static constexpr Index least_sampled = 24;
-    double growth = 0;  ///< log2 of the weight of the upper half of at least 256 links over that of the lower half
-    Index light = 0;    ///< number of links at the top that weigh less than about 2e-14 of the weight below them
+    double growth =
+        0;  ///< log2 of the weight of the upper half of at least 256 links over that of the lower half
+    Index light =
+        0;  ///< number of links at the top that weigh less than about 2e-14 of the weight below them
     /// Phase of a wave of conical height 1 in each of up to 32 stretches of the chain, lowest first: the integral of
     /// sqrt(dW ds / S), S the weight below.
     std::array<double, 32> phase{};
@@ -84,13 +91,15 @@ struct ChainKind {
     double tip_share = 0;      ///< weight of the lowest link over that of the chain
     double greatest_pull = 0;  ///< largest S / W of a link, from means over stretches
     double range = 0;          ///< mean of log2(greatest_pull W / S)
-    double tilt = 0;           ///< conical height of the chain as one rigid link: less than its largest height
+    double tilt =
+        0;  ///< conical height of the chain as one rigid link: less than its largest height
 
    private:
     template <class V>
     static bool is_one(const Column<V>& column) {
         const V* const numbers = column.data();
-        return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
+        return std::all_of(numbers, numbers + column.stored(),
+                           [&](const V& x) { return x == numbers[0]; });
     }
 
     /// Reads one link of equal ones, all of up to 100 unlike links, and a sample spread over a longer chain.
@@ -100,14 +109,16 @@ struct ChainKind {
         Index longer = 0;
         for (Index i = 0; i < looked_at; ++i) {
             const Index m = i * size / looked_at;
-            const double p = chain.centroid()[m] / chain.length()[m], r = chain.gyration_ratio()[m].high;
+            const double p = chain.centroid()[m] / chain.length()[m],
+                         r = chain.gyration_ratio()[m].high;
             points = points && p == 1 && r == 0;
             shorter = shorter && r > 0 && p * (1 - p) > r;
             centroids_below = centroids_below && p >= 0;
             longer += p >= 0 && p * (1 - p) >= r ? 0 : 1;
             if (p <= 1 || m + 1 == size) continue;
             const double above = chain.centroid()[m + 1] / chain.length()[m + 1];
-            negative_pins = negative_pins || chain.weight()[m] * (1 - p) + chain.weight()[m + 1] * above <= 0;
+            negative_pins =
+                negative_pins || chain.weight()[m] * (1 - p) + chain.weight()[m + 1] * above <= 0;
         }
         short_pendulums = points || shorter, point_masses = points;
         long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
@@ -117,25 +128,30 @@ struct ChainKind {
     void look_at_stretches(const Chain<double>& chain) {
         const revchain::detail::FloatingPointStateGuard quiet;  // ratios may be infinite
         const bool few = size < segment_size;
-        const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
+        const Index pieces = few ? size : (size - 1) / segment_size + 1,
+                    most = static_cast<Index>(phase.size());
         const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
         const double tip = chain.weight()[0], total = chain.total_weight();
         links_per_stretch = static_cast<double>(step), tip_share = tip / total;
         double below = 0, at = 0, inertia = 0, stiffness = 0, exponents = 0;
         for (Index first = 0; first < size; first += step, ++stretches) {
             const Index end = std::min(first + step, size);
-            double above = 0, run = length * static_cast<double>(end - first) / static_cast<double>(size);
+            double above = 0,
+                   run = length * static_cast<double>(end - first) / static_cast<double>(size);
             if (few) {
                 above = below, run = 0;
-                for (Index m = first; m < end; ++m) above += chain.weight()[m], run += chain.length()[m];
+                for (Index m = first; m < end; ++m)
+                    above += chain.weight()[m], run += chain.length()[m];
             } else {
                 above = static_cast<double>(chain.weight_below(end));
             }
             // The lowest link counts as a weight at the tip.
-            const double least = std::max(below, tip), weight = above - least, links = static_cast<double>(end - first);
+            const double least = std::max(below, tip), weight = above - least,
+                         links = static_cast<double>(end - first);
             phase[static_cast<std::size_t>(stretches)] =
                 2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
-            const double outside = 1 - (at + run / 2) / length, pull = links * above / (above - below);
+            const double outside = 1 - (at + run / 2) / length,
+                         pull = links * above / (above - below);
             inertia += (above - below) * outside * outside, stiffness += (above + below) / 2 * run;
             greatest_pull = std::max(greatest_pull, pull);
             exponents += std::log2(pull);
@@ -162,7 +178,10 @@ struct ChainKind {
 
    public:
     explicit ChainKind(const Chain<double>& chain)
-        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
+        : size(chain.size()),
+          mode_count(chain.mode_count()),
+          length(chain.total_length()),
+          taper(chain.taper()) {
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
         look_at_links(chain);
@@ -189,7 +208,7 @@ inline constexpr double full_accuracy = 2.001 * std::numeric_limits<double>::eps
 }  // namespace detail
 
 /// A height and what bounds its relative error.
-struct Enclosed {
+struct BoundedHeight {
     double height, error_bound;
 };
 
@@ -198,7 +217,7 @@ template <class F>
 Answer answer_of_each(const Question& question, const F& enclosed) {
     Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
     for (Index i = 0; i < question.count; ++i) {
-        const Enclosed one = enclosed(question.first + i);
+        const BoundedHeight one = enclosed(question.first + i);
         answer.conical_height[i] = one.height, answer.error_bound[i] = one.error_bound;
     }
     return answer;
@@ -208,7 +227,8 @@ Answer answer_of_each(const Question& question, const F& enclosed) {
 /// bounds the relative errors of all heights asked for, and `cost` predicts the time in seconds. `solve` returns the
 /// answer with the bounds reached.
 template <class M>
-concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind,
+                         const Question& question) {
     { M::name } -> std::convertible_to<std::string_view>;
     { model.applies(kind, question) } -> std::same_as<Fit>;
     { model.error_bound(kind, question) } -> std::same_as<double>;
@@ -238,7 +258,8 @@ REVCHAIN_LAZY
 double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
     if (!(question.inclination > 0)) return 0;
     const Index last = question.last();
-    if (!(kind.plummets || kind.rods) || (last > 1 && (3 * last > kind.size || last * last > kind.size)))
+    if (!(kind.plummets || kind.rods) ||
+        (last > 1 && (3 * last > kind.size || last * last > kind.size)))
         return std::numeric_limits<double>::infinity();
     const double sine = std::sin(question.inclination / 2);
     return 2 * sine * sine / std::cos(question.inclination) * (1 + 1e-15);

@@ -50,42 +50,50 @@ void check(const ChainKind& kind, const Question& question) {
     if (question.first < 1) throw_invalid("select", "first must be at least 1", question.first);
     if (question.count < 1) throw_invalid("select", "count must be at least 1", question.count);
     if (question.last() > kind.mode_count)
-        throw_invalid(
-            "select",
-            "the last mode asked for must be at most number " + std::to_string(kind.mode_count) + ", the last there is",
-            question.last());
-    if (!(question.rtol >= 0)) throw_invalid("select", "rtol must not be negative or NaN", question.rtol);
+        throw_invalid("select",
+                      "the last mode asked for must be at most number " +
+                          std::to_string(kind.mode_count) + ", the last there is",
+                      question.last());
+    if (!(question.rtol >= 0))
+        throw_invalid("select", "rtol must not be negative or NaN", question.rtol);
     if (!(question.inclination >= 0 && question.inclination < std::numbers::pi / 2))
-        throw_invalid("select", "inclination must be at least 0 and less than a right angle", question.inclination);
+        throw_invalid("select", "inclination must be at least 0 and less than a right angle",
+                      question.inclination);
 }
 
 /// The tolerance to be kept: the one asked for, or full accuracy.
 REVCHAIN_LAZY
-double kept_tolerance(const Question& question) { return question.rtol > 0 ? question.rtol : full_accuracy; }
+double kept_tolerance(const Question& question) {
+    return question.rtol > 0 ? question.rtol : full_accuracy;
+}
 
 template <Model M>
 Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {
-    if (question.proved && !is_proved<M>()) return {model.name, Fit::no("its bound is not proved by counts")};
+    if (question.proved && !is_proved<M>())
+        return {model.name, Fit::no("its bound is not proved by counts")};
     Estimate estimate{model.name, model.applies(kind, question)};
     const double off = is_linear<M>() ? error_of_small_inclinations(kind, question) : 0;
     if (estimate.fit.applies && !(off < 1))
         estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
     if (!estimate.fit.applies) return estimate;
-    estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
+    estimate.error_bound = model.error_bound(kind, question),
+    estimate.cost = model.cost(kind, question);
     estimate.error_bound += off * (1 + estimate.error_bound);
     return estimate;
 }
 
 template <Model... Models>
-std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,
-                                                  const Question& question) {
-    return std::apply([&](const Models&... each) { return std::array{estimate(each, kind, question)...}; }, models);
+std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models,
+                                                  const ChainKind& kind, const Question& question) {
+    return std::apply(
+        [&](const Models&... each) { return std::array{estimate(each, kind, question)...}; },
+        models);
 }
 
 /// The cheapest model, of those not `out`, that keeps the tolerance, else the most accurate, the cheaper of equals.
 template <std::size_t N>
-std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const std::array<bool, N>& out, double rtol,
-                                double budget) {
+std::optional<std::size_t> best(const std::array<Estimate, N>& estimates,
+                                const std::array<bool, N>& out, double rtol, double budget) {
     std::optional<std::size_t> chosen;
     const auto better = [&](const Estimate& x, const Estimate& y) {
         const bool x_meets = x.error_bound <= rtol, y_meets = y.error_bound <= rtol;
@@ -103,7 +111,8 @@ std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const 
 /// The answer of one model, its bounds widened by what the model itself does not know: digits lost to numbers below the
 /// normal ones, and inclinations.
 template <Model M>
-Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind,
+                 const Question& question) {
     Answer answer = model.solve(chain, kind, question);
     constexpr double least = std::numeric_limits<double>::denorm_min();
     for (Index j = 0; j < answer.conical_height.size(); ++j)
@@ -119,8 +128,8 @@ Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& ki
 }
 
 template <Model... Models>
-Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain, const ChainKind& kind,
-             const Question& question) {
+Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain,
+             const ChainKind& kind, const Question& question) {
     Answer answer;
     std::size_t i = 0;
     const auto ask = [&](const auto& model) {
@@ -137,24 +146,28 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 /// link is read. Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a budget
 /// that is not positive.
 template <Model... Models>
-Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind, const Question& question,
+Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind,
+                                 const Question& question,
                                  std::optional<double> time_budget = std::nullopt) {
     detail::check(kind, question);
     if (time_budget) revchain::detail::require_positive("select", "time budget", *time_budget);
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double budget = time_budget.value_or(infinity);
-    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::kept_tolerance(question), budget);
+    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {},
+                                                  detail::kept_tolerance(question), budget);
     if (!chosen)  // no model is within the budget: the cheapest one
         chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
-    choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
-                             choice.estimates[*chosen].cost <= budget;
+    choice.meets_tolerance =
+        chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
+        choice.estimates[*chosen].cost <= budget;
     return choice;
 }
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
-                                 const Question& question, std::optional<double> time_budget = std::nullopt) {
+                                 const Question& question,
+                                 std::optional<double> time_budget = std::nullopt) {
     return select(models, ChainKind(chain), question, time_budget);
 }
 
@@ -163,8 +176,8 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
 /// keeps the tolerance; the bounds are then the best available. There are no heights where no model applies, as for
 /// unlike links without inertia at an inclination, and where none of the list has an answer.
 template <Model... Models>
-Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
-               std::optional<double> time_budget = std::nullopt) {
+Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
+               const Question& question, std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
     const auto choice = select(models, kind, question, time_budget);
     const double rtol = detail::kept_tolerance(question);
@@ -176,12 +189,15 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
         const std::string_view name = choice.estimates[*model].name;
         Answer answer = detail::asked(models, *model, chain, kind, question);
         const double bound = answer.worst_bound();
-        if (bound <= rtol && choice.estimates[*model].cost <= budget) return {std::move(answer), name, Status::success};
+        if (bound <= rtol && choice.estimates[*model].cost <= budget)
+            return {std::move(answer), name, Status::success};
         if (answer.found && (best.model.empty() || bound < best.answer.worst_bound()))
             best = {std::move(answer), name, Status::tolerance_not_met};
         out[*model] = true;
         model = detail::best(choice.estimates, out, rtol, budget);
-        if (model && !best.model.empty() && !(choice.estimates[*model].error_bound < best.answer.worst_bound())) break;
+        if (model && !best.model.empty() &&
+            !(choice.estimates[*model].error_bound < best.answer.worst_bound()))
+            break;
     }
     return best;
 }
@@ -190,8 +206,8 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
 /// finds no answer. The status is then `tolerance_not_met`, as it is where the bound exceeds the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
-Solution solve_by(const std::tuple<Models...>& models, std::string_view model, const Chain<double>& chain,
-                  const Question& question) {
+Solution solve_by(const std::tuple<Models...>& models, std::string_view model,
+                  const Chain<double>& chain, const Question& question) {
     const ChainKind kind(chain);
     detail::check(kind, question);
     const auto estimates = detail::estimates(models, kind, question);
@@ -200,7 +216,8 @@ Solution solve_by(const std::tuple<Models...>& models, std::string_view model, c
         Solution found{Answer::none(), estimates[i].name, Status::tolerance_not_met};
         if (!estimates[i].fit.applies) return found;
         found.answer = detail::asked(models, i, chain, kind, question);
-        if (found.answer.worst_bound() <= detail::kept_tolerance(question)) found.status = Status::success;
+        if (found.answer.worst_bound() <= detail::kept_tolerance(question))
+            found.status = Status::success;
         return found;
     }
     throw_invalid("solve_by", "there is no model " + std::string(model));

@@ -37,7 +37,8 @@ double second_order(double exponent, double zero) {
 REVCHAIN_LAZY
 double next_order(double exponent, Index mode, double share) {
     const double u = std::min(share, 1.0), q = exponent + 1;
-    const double end = exponent == 0 ? -std::log(u) : -std::expm1(exponent * std::log(u)) / exponent;
+    const double end =
+        exponent == 0 ? -std::log(u) : -std::expm1(exponent * std::log(u)) / exponent;
     const double thick = mode > 10 && exponent > 0 ? 0.13 * exponent / (exponent + 4) : 0;
     const double steep = mode == 1 ? 0.3 + 0.17 * end : 0.25 + 0.06 * end + thick;
     const double light = exponent >= 0 ? 1 : mode == 1 ? q * (2.25 - 1.25 * q) : q;
@@ -48,7 +49,7 @@ double next_order(double exponent, Index mode, double share) {
 /// The middle of the interval that holds the height, and half its width relative to the middle. `cord` is the height of
 /// the cord to within `rounding`, `lost` is c/N^2 to 1e-9, `next` a bound of d.
 REVCHAIN_LAZY
-Enclosed enclosed(double cord, double lost, double next, double rounding) {
+BoundedHeight enclosed(double cord, double lost, double next, double rounding) {
     const double most = lost * (1 + 1e-9), least = lost * (1 - 1e-9) * (1 - next);
     const double middle = (most + least) / 2, half = (most - least) / 2;
     return {cord / (1 + middle), half / (1 + middle - half) + rounding};

@@ -19,7 +19,8 @@ struct TaperedChain {
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (!kind.taper) return Fit::no("not cut from a cord of power-law density");
         if (*kind.taper == 0) return Fit::no("equal rods, a continuous chain");
-        if (!(*kind.taper >= -0.98 && *kind.taper <= 100)) return Fit::no("an exponent below -0.98 or above 100");
+        if (!(*kind.taper >= -0.98 && *kind.taper <= 100))
+            return Fit::no("an exponent below -0.98 or above 100");
         if (2 * question.last() > kind.size) return Fit::no("more than half of the modes");
         return {};
     }
@@ -33,7 +34,8 @@ struct TaperedChain {
         const double p = *kind.taper, first = detail::real(question.first);
         // Modes before number `series` need Bessel functions by recurrence.
         const double series = std::max(30.0, 8 * p) / std::numbers::pi + 0.25 - p / 2;
-        const double count = detail::real(question.count), near = std::clamp(series - first + 1, 0.0, count);
+        const double count = detail::real(question.count),
+                     near = std::clamp(series - first + 1, 0.0, count);
         const auto steps = [&](double k) {
             const double turns = std::numbers::pi * k;
             return 12 + turns + 10 * std::cbrt(std::max(0.0, p) + turns);
@@ -58,13 +60,16 @@ struct TaperedChain {
     }
     /// Rounding errors of the zero, of this function, and of the links: three in each stiffness and mass. Where almost
     /// all weight is in the lowest link, its radius of gyration is the small difference of two lengths.
-    static double rounding(double p) { return epsilon<double>() * (6 + (p < 0 ? 1 / std::sqrt(p + 1) : 1)); }
+    static double rounding(double p) {
+        return epsilon<double>() * (6 + (p < 0 ? 1 / std::sqrt(p + 1) : 1));
+    }
 
     /// The error bound before the zero is known, from above and without Bessel functions.
     static double foreseen(const ChainKind& kind, double p, Index k) {
         const double n = detail::real(kind.size), j = zero_at_most(p, k);
         const double lost = second_order_at_most(p, k, j) / (n * n);
-        return detail::enclosed(1, lost, detail::next_order(p, k, share(kind, p, j)), rounding(p)).error_bound *
+        return detail::enclosed(1, lost, detail::next_order(p, k, share(kind, p, j)), rounding(p))
+                   .error_bound *
                (1 + 1e-12);
     }
     /// |a_k|, the k-th zero of Ai, to within 2e-3 from above: DLMF 9.9.18, one correction.
@@ -94,10 +99,12 @@ struct TaperedChain {
         if (p < 0 && k == 1) return first;
         double inverse = std::numbers::pi / 2 * j;
         if (p > 0.5) {
-            const double ratio = p / (p + (airy_zero(k) - 0.01) * std::cbrt(p / 2));  // j from below, Qu and Wong
+            const double ratio =
+                p / (p + (airy_zero(k) - 0.01) * std::cbrt(p / 2));  // j from below, Qu and Wong
             inverse /= std::sqrt((1 - ratio) * (1 + ratio));
         } else if (p < -0.5) {
-            const double ratio = p / (std::numbers::pi * (detail::real(k) - 0.75));  // j_{-1,k} > ..., k > 1
+            const double ratio =
+                p / (std::numbers::pi * (detail::real(k) - 0.75));  // j_{-1,k} > ..., k > 1
             inverse /= std::sqrt((1 - ratio) * (1 + ratio));
         }
         const double part = (p > 0 ? std::acos(p / j) / std::numbers::pi : 0.5) / (p + 2);

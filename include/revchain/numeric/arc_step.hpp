@@ -14,7 +14,7 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// the share `less` of the step is tried. Returns false if no step above 1e-9 succeeds.
 template <class Attempt>
 bool arc_step(double& step, double longest, double less, const Attempt& attempt) {
-    look();
+    check_interrupt();
     for (step = std::min(step, longest); step > 1e-9; step *= less)
         if (const std::optional<double> factor = attempt(step)) {
             step *= *factor;

@@ -23,7 +23,8 @@ class PhaseSeries {
         std::array<double, terms + 1> rate{1};
         for (std::size_t m = 1; m <= terms; ++m) {
             const double odd = 2 * static_cast<double>(m) - 1;
-            density_[m] = density_[m - 1] * odd / (odd + 1) * ((2 * order - odd) * (2 * order + odd)) / 4;
+            density_[m] =
+                density_[m - 1] * odd / (odd + 1) * ((2 * order - odd) * (2 * order + odd)) / 4;
             for (std::size_t i = 1; i <= m; ++i) rate[m] -= density_[i] * rate[m - i];
             lag_[m] = rate[m] / odd;
         }

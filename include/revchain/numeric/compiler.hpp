@@ -22,7 +22,8 @@
 #endif
 
 // Defined if the instruction set is chosen at run time: the flags do not name the largest one.
-#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
+    !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) &&           \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 #define REVCHAIN_SEVERAL_TARGETS
 #endif
@@ -58,15 +59,17 @@
 #else
 #define REVCHAIN_BUILD_KIND
 #endif
-#if defined(REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
+#if defined( \
+    REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
 #define REVCHAIN_BUILD_LIBRARY _compiled
 #else
 #define REVCHAIN_BUILD_LIBRARY
 #endif
 #define REVCHAIN_JOINED(set, fma, kind, library) for_##set##fma##kind##library
 #define REVCHAIN_JOIN(set, fma, kind, library) REVCHAIN_JOINED(set, fma, kind, library)
-#define REVCHAIN_BUILD \
-    REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND, REVCHAIN_BUILD_LIBRARY)
+#define REVCHAIN_BUILD                                                         \
+    REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND, \
+                  REVCHAIN_BUILD_LIBRARY)
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 

@@ -59,9 +59,10 @@ template <class F>
 enum class Processor { basic, avx2, avx512 };
 inline Processor processor() {
     static const Processor found = [] {
-        if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return Processor::basic;
-        const bool large = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                           __builtin_cpu_supports("avx512vl");
+        if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+            return Processor::basic;
+        const bool large = __builtin_cpu_supports("avx512f") &&
+                           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
         return large ? Processor::avx512 : Processor::avx2;
     }();
     return found;

@@ -19,7 +19,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// 15 and 17 of Joldes, Muller, Popescu (2017), doi:10.1145/3121432.
 template <Word T>
 struct DoubleWord {
-    static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
+    static_assert(std::numeric_limits<Lane<T>>::is_iec559,
+                  "double words need correctly rounded sums");
     T high{};
     T low{};
 
@@ -35,7 +36,8 @@ struct DoubleWord {
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
     friend constexpr auto operator<=>(const DoubleWord& x,
-                                      const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
+                                      const DoubleWord& y) =
+        default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
 
@@ -92,7 +94,8 @@ template <Word T>
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x,
+                                                         const DoubleWord<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y.high);
     const DoubleWord<T> t = two_sum(x.low, y.low);
     const DoubleWord<T> v = fast_two_sum(s.high, s.low + t.high);
@@ -100,35 +103,41 @@ template <Word T>
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x,
+                                                         const std::type_identity_t<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y);
     return fast_two_sum(s.high, x.low + s.low);
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x,
+                                                         const DoubleWord<T>& y) {
     return x + (-y);
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x,
+                                                         const std::type_identity_t<T>& y) {
     return x + (-y);
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x,
+                                                      const DoubleWord<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y.high);
     return fast_two_sum(p.high, p.low + (x.low * y.low + x.high * y.low + x.low * y.high));
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x,
+                                                      const std::type_identity_t<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y);
     return fast_two_sum(p.high, p.low + x.low * y);
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x,
+                                                      const DoubleWord<T>& y) {
     const T q = x.high / y.high;
     const DoubleWord<T> r = y * q;
     return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
@@ -237,8 +246,12 @@ struct std::numeric_limits<revchain::DoubleWord<T>> : std::numeric_limits<T> {
     static constexpr revchain::DoubleWord<T> min() { return std::numeric_limits<T>::min(); }
     static constexpr revchain::DoubleWord<T> max() { return std::numeric_limits<T>::max(); }
     static constexpr revchain::DoubleWord<T> lowest() { return std::numeric_limits<T>::lowest(); }
-    static constexpr revchain::DoubleWord<T> infinity() { return std::numeric_limits<T>::infinity(); }
-    static constexpr revchain::DoubleWord<T> quiet_NaN() { return std::numeric_limits<T>::quiet_NaN(); }
+    static constexpr revchain::DoubleWord<T> infinity() {
+        return std::numeric_limits<T>::infinity();
+    }
+    static constexpr revchain::DoubleWord<T> quiet_NaN() {
+        return std::numeric_limits<T>::quiet_NaN();
+    }
     /// 64 u^2: four times the bound of the least accurate operation, division.
     static constexpr revchain::DoubleWord<T> epsilon() {
         return std::numeric_limits<T>::epsilon() * std::numeric_limits<T>::epsilon() * T(16);

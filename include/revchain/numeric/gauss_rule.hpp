@@ -18,7 +18,8 @@ inline std::vector<std::pair<double, double>> gauss_rule(int n) {
         double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
         for (int round = 0; round < 100; ++round) {
             double last = 0, value = 1;
-            for (int k = 0; k < n; ++k) last = std::exchange(value, ((2 * k + 1) * x * value - k * last) / (k + 1));
+            for (int k = 0; k < n; ++k)
+                last = std::exchange(value, ((2 * k + 1) * x * value - k * last) / (k + 1));
             slope = n * (x * value - last) / (x * x - 1);
             const double step = value / slope;
             x -= step;

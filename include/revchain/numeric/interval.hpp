@@ -38,7 +38,9 @@ requires(Real<T> || IsPack<T>) struct Interval {
     [[gnu::always_inline]] T width() const { return high - low; }
     [[gnu::always_inline]] T middle() const { return low + (high - low) / T(2); }
 
-    [[gnu::always_inline]] friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
+    [[gnu::always_inline]] friend Interval operator-(const Interval& x) {
+        return {-x.high, -x.low};
+    }
 };
 
 namespace detail {
@@ -123,7 +125,8 @@ template <Real T>
 Interval<T> sqrt(const Interval<T>& radicand) {
     using std::sqrt;
     const Interval<T> x = detail::without_faint_ends(radicand);
-    return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))), detail::up(T(sqrt(x.high)))};
+    return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))),
+            detail::up(T(sqrt(x.high)))};
 }
 
 /// The intersection of two intervals that hold the same number.

@@ -36,7 +36,9 @@ class Threads {
 
    private:
     /// Reads a file: not for every question.
-    static Index processors() { return std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency())); }
+    static Index processors() {
+        return std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency()));
+    }
 
     static inline thread_local Index used_ = 1;
     Index before_;
@@ -51,7 +53,8 @@ struct RangeFunction {
 
 /// `parallel_for` on several threads.
 inline void on_threads(Index threads, Index count, Index chunk, const RangeFunction& f) {
-    const Index chunks = (count + chunk - 1) / chunk, range = std::max<Index>(1, chunks / (8 * threads)) * chunk;
+    const Index chunks = (count + chunk - 1) / chunk,
+                range = std::max<Index>(1, chunks / (8 * threads)) * chunk;
     std::atomic<Index> next = 0;
     std::atomic<bool> stop = false;
     std::exception_ptr thrown;
@@ -95,7 +98,7 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
         while (running > 0) {
             ended.wait_for(lock, std::chrono::milliseconds(50));
             lock.unlock();
-            look();
+            check_interrupt();
             lock.lock();
         }
     });
@@ -106,16 +109,18 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
 /// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads.
 /// Ranges begin at multiples of `chunk`; with one thread or chunk there is one range, and no thread
 /// is started. Results do not depend on the number of threads if f treats each chunk by itself. The
-/// first exception reaches the caller after all threads have ended; they stop at their next `look`.
-/// The caller calls `look` every 50 ms, if f does. Cost: 50 microseconds for each thread started.
+/// first exception reaches the caller after all threads have ended; they stop at their next `check_interrupt`.
+/// The caller calls `check_interrupt` every 50 ms, if f does. Cost: 50 microseconds for each thread started.
 template <std::integral I, class F>
 void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
-    const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
+    const I chunks = (count + chunk - 1) / chunk,
+            threads = std::min(static_cast<I>(Threads::used()), chunks);
     if (threads > 1)
-        on_threads(static_cast<Index>(threads), static_cast<Index>(count), static_cast<Index>(chunk),
-                   {&f, [](const void* function, Index begin, Index end) {
-                        (*static_cast<const F*>(function))(static_cast<I>(begin), static_cast<I>(end));
-                    }});
+        on_threads(
+            static_cast<Index>(threads), static_cast<Index>(count), static_cast<Index>(chunk),
+            {&f, [](const void* function, Index begin, Index end) {
+                 (*static_cast<const F*>(function))(static_cast<I>(begin), static_cast<I>(end));
+             }});
     else if (count > 0)
         f(I(0), count);
 }

@@ -24,7 +24,8 @@ struct Product {
         if (x.fraction == T(0)) return *this;
         if (fraction == T(0)) return x;
         const int common = std::max(exponent, x.exponent);
-        return {ldexp(fraction, exponent - common) + ldexp(x.fraction, x.exponent - common), common};
+        return {ldexp(fraction, exponent - common) + ldexp(x.fraction, x.exponent - common),
+                common};
     }
     Product plus(const T& x) const { return plus(of(x)); }
     Product root() const {

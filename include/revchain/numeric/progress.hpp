@@ -29,14 +29,14 @@ inline std::atomic<void (*)()> interrupt = nullptr;
 /// True once the result of this thread is no longer needed; null where that cannot happen.
 inline thread_local const std::atomic<bool>* abandoned = nullptr;
 /// Calls `interrupt`. Throws Cancelled on a thread that has been abandoned.
-inline void look() {
+inline void check_interrupt() {
     if (abandoned != nullptr && *abandoned) throw Cancelled("revchain: cancelled");
     if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();
 }
 
-/// Calls `look` and reports the fraction to `progress`, if given. Throws Cancelled if cancelled.
+/// Calls `check_interrupt` and reports the fraction to `progress`, if given. Throws Cancelled if cancelled.
 inline void advance(Progress* progress, double fraction) {
-    look();
+    check_interrupt();
     if (progress == nullptr) return;
     if (progress->cancelled()) throw Cancelled("revchain: cancelled");
     progress->report(fraction);

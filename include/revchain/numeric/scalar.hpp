@@ -3,10 +3,12 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
+#error \
+    "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
 #endif
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2)
-#error "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
+#error \
+    "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
 #endif
 
 #include <Eigen/Core>
@@ -43,8 +45,9 @@ concept HasRealFunctions = requires(T x, int* exponent) {
 /// A binary floating-point scalar: float, double, long double, or any type with the same operators,
 /// `std::numeric_limits`, and `abs`, `sqrt`, `ldexp`, `frexp`, `isfinite` found next to the type.
 template <class T>
-concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
-               std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
+concept Real =
+    std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
+    std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
     { x + y } -> std::convertible_to<T>;
     { x - y } -> std::convertible_to<T>;
     { x* y } -> std::convertible_to<T>;

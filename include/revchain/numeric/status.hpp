@@ -48,25 +48,29 @@ template <class T>
     if constexpr (std::is_floating_point_v<T>)
         for (int digits = 6; digits < Limits::max_digits10; ++digits) {
             T back{};
-            if (std::istringstream(written(digits)) >> back && back == value) return written(digits);
+            if (std::istringstream(written(digits)) >> back && back == value)
+                return written(digits);
         }
     return written(Limits::is_specialized ? Limits::max_digits10 : 17);
 }
 
 // Functions that throw are marked cold: a compiler optimizes them for size, which takes less time.
 template <class T>
-[[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function, std::string_view sentence,
+[[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function,
+                                                          std::string_view sentence,
                                                           const T& value) {
-    throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence) + ", got " +
-                          in_digits(value));
+    throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence) +
+                          ", got " + in_digits(value));
 }
 
-[[noreturn, gnu::cold, gnu::noinline]] inline void throw_invalid(std::string_view function, std::string_view sentence) {
+[[noreturn, gnu::cold, gnu::noinline]] inline void throw_invalid(std::string_view function,
+                                                                 std::string_view sentence) {
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence));
 }
 
 template <class T>
-[[noreturn]] void throw_rule(std::string_view function, std::string_view name, std::string_view rule, const T& value) {
+[[noreturn]] void throw_rule(std::string_view function, std::string_view name,
+                             std::string_view rule, const T& value) {
     throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
 }
 
@@ -86,11 +90,13 @@ void require_finite(std::string_view function, const Pairs&... pairs) {
 }
 template <class... Pairs>
 void require_positive(std::string_view function, const Pairs&... pairs) {
-    require([]<class T>(const T& x) { return x > T(0); }, "positive and finite", function, pairs...);
+    require([]<class T>(const T& x) { return x > T(0); }, "positive and finite", function,
+            pairs...);
 }
 template <class... Pairs>
 void require_not_negative(std::string_view function, const Pairs&... pairs) {
-    require([]<class T>(const T& x) { return !(x < T(0)); }, "finite and not negative", function, pairs...);
+    require([]<class T>(const T& x) { return !(x < T(0)); }, "finite and not negative", function,
+            pairs...);
 }
 
 }  // namespace detail

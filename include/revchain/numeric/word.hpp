@@ -34,7 +34,8 @@ template <std::floating_point T>
     constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
     if constexpr (sizeof(T) <= 8) {
         using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-        return std::bit_cast<T>((std::bit_cast<Bits>(x) + (Bits(1) << (cut - 1))) & (~Bits(0) << cut));
+        return std::bit_cast<T>((std::bit_cast<Bits>(x) + (Bits(1) << (cut - 1))) &
+                                (~Bits(0) << cut));
     } else {  // Veltkamp. Processors with a long double of their own do not fuse its operations.
         const T c = static_cast<T>((1ULL << cut) + 1) * x;
         return c - (c - x);

@@ -13,7 +13,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// More halvings than a bracket of numbers in T can need.
 template <Real T>
-inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent -
+                                          std::numeric_limits<T>::min_exponent);
 
 /// The last step of Newton's method: the zero is `from - step`, in two words to more digits than T.
 template <Real T>
@@ -59,7 +60,7 @@ template <class F>
 Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
     Vector<double> zeros(places.size());
     for (Index i = 0; i < places.size(); ++i) {
-        look();
+        check_interrupt();
         const double sign = i % 2 == 0 ? 1 : -1;
         const double next = i + 1 < places.size() ? places[i + 1] : end;
         zeros[i] = zero_between(places[i], next, [&](double x) {
@@ -87,8 +88,10 @@ SignChange<T> sign_change_near(T guess, const F& value) {
     const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
     SignChange<T> found{at(guess), {}};
     found.high = found.low;
-    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i) found = {found.high, at(found.high.x * T(2))};
-    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i) found = {at(found.low.x / T(2)), found.low};
+    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i)
+        found = {found.high, at(found.high.x * T(2))};
+    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i)
+        found = {at(found.low.x / T(2)), found.low};
     return found;
 }
 

@@ -52,7 +52,8 @@ class ZerosOfJ {
         const double a = order_ + 1, x = std::cbrt(32 * a * a * a * (order_ + 2) * (order_ + 3));
         double z = std::sqrt(x);
         for (int round = 0; round < 30; ++round) {
-            const double step = 2 * z * bessel_ratio<double>(order_, z), next = std::sqrt(z * z + step);
+            const double step = 2 * z * bessel_ratio<double>(order_, z),
+                         next = std::sqrt(z * z + step);
             if (!(next > z * (1 + 1e-13))) return next;
             z = next;
         }

@@ -40,7 +40,8 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     Segment<T> all{guess, guess, first, last};
     std::array<T, lanes> shifts;
     for (bool found = false; !found;) {  // upwards, by factors of 4
-        for (std::size_t i = 0; i < lanes; ++i) shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
+        for (std::size_t i = 0; i < lanes; ++i)
+            shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
         const auto above = count_above(pencil, shifts);
         for (std::size_t i = 0; i < lanes && !found; ++i)
             if (above[i] <= first) {
@@ -50,7 +51,9 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
                 all.lower = shifts[i];
             }
         // overflow, or a guess that was not positive
-        if (!(all.upper > T(0) && all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10))) return all;
+        if (!(all.upper > T(0) &&
+              all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10)))
+            return all;
     }
     all.lower = std::min(all.lower, all.upper / T(4));
     T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below
@@ -81,7 +84,8 @@ void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
 
 /// Cuts `segment` at the shifts; calls `keep(piece)` for pieces that hold eigenvalues.
 template <Real T, class Keep>
-void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count, Keep keep) {
+void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count,
+           Keep keep) {
     T lower = segment.lower;
     Index last = segment.last;
     for (std::size_t c = 0; c <= count; ++c) {
@@ -125,15 +129,17 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         }
     };
     while (!work.empty()) {
-        revchain::detail::look();
+        revchain::detail::check_interrupt();
         const std::size_t taken = std::min(lanes, work.size());
         now.assign(work.end() - static_cast<std::ptrdiff_t>(taken), work.end());
         work.resize(work.size() - taken);
         // Few segments are each cut into 4 or 8 at once, to fill all lanes.
         const std::size_t cuts = taken == 1 ? 7 : taken == 2 ? 3 : 1;
-        for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
+        for (std::size_t i = 0; i < taken; ++i)
+            detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
         const auto above = count_above(pencil, shifts);
-        for (std::size_t i = 0; i < taken; ++i) detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
+        for (std::size_t i = 0; i < taken; ++i)
+            detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
         if (finished) finished(done);
     }
     return brackets;

@@ -32,15 +32,19 @@ bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& 
 /// Whether eigenvalue number `j` of the exact pencil is proved to lie within a relative `margin` of
 /// `eigenvalue`. Cost: one pass of two shifts in S.
 template <Real S, Real T>
-bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, const Narrow<S>& margin) {
-    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
+bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue,
+                 const Narrow<S>& margin) {
+    const auto count = [&](const std::array<S, 2>& shifts) {
+        return certified_count(pencil, shifts);
+    };
     return root_within(count, j, S(static_cast<Narrow<S>>(eigenvalue)), margin);
 }
 
 /// The error bound for `lies_within`, relative to the exact eigenvalue, with all roundings.
 template <Real S, Real T>
 T bound_of_margin(const T& margin) {
-    return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) + T(4) * static_cast<T>(operation_error<S>());
+    return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) +
+           T(4) * static_cast<T>(operation_error<S>());
 }
 
 template <Real S>
@@ -58,7 +62,8 @@ struct ProvedInterval {
 /// A proved interval of eigenvalue number `j`, `finest` wide (relative) or as narrow as S allows;
 /// nothing if none is proved. `count(two shifts)`: certified counts. Cost: about 60 calls.
 template <Real S, class Count>
-std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess, const Narrow<S>& finest) {
+std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess,
+                                                 const Narrow<S>& finest) {
     using M = Narrow<S>;
     S lower = guess, upper = guess;
     bool has_lower = false, has_upper = false;
@@ -66,10 +71,13 @@ std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, co
         if (margin > M(1e6)) return std::nullopt;
         const S stretch = S(M(1)) + S(margin);
         const std::array<CertifiedCount, 2> ends = count({guess / stretch, guess * stretch});
-        if (!has_lower && ends[0].proved && ends[0].above > j) lower = guess / stretch, has_lower = true;
-        if (!has_upper && ends[1].proved && ends[1].above <= j) upper = guess * stretch, has_upper = true;
+        if (!has_lower && ends[0].proved && ends[0].above > j)
+            lower = guess / stretch, has_lower = true;
+        if (!has_upper && ends[1].proved && ends[1].above <= j)
+            upper = guess * stretch, has_upper = true;
     }
-    for (bool moved = true; moved && static_cast<M>(upper - lower) > finest * static_cast<M>(lower);) {
+    for (bool moved = true;
+         moved && static_cast<M>(upper - lower) > finest * static_cast<M>(lower);) {
         const S third = (upper - lower) / S(M(3));
         const std::array<S, 2> shifts{lower + third, upper - third};
         const std::array<CertifiedCount, 2> inner = count(shifts);
@@ -88,7 +96,9 @@ std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, co
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;
-    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count(pencil, shifts); };
+    const auto count = [&](const std::array<S, 2>& shifts) {
+        return certified_count(pencil, shifts);
+    };
     const M finest = static_cast<M>(epsilon<T>()) / M(4);
     Certified<T> result{guess};
     if (const auto found = proved_interval(count, j, S(static_cast<M>(guess)), finest)) {
@@ -103,8 +113,8 @@ Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& 
 /// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` nearer to it than to any
 /// other: the Rayleigh quotient in S of the vector in T, proved by two counts, else counts alone.
 template <Real S, Real T>
-Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded, Index j,
-                                  const T& start) {
+Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded,
+                                  Index j, const T& start) {
     // Mostly one round, at most two: the quotient's error is the square of the vector's. If S is T,
     // rounding limits the proof: the margin then grows by factors of 2.
     T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // at most 2 ulp with roundings

@@ -72,7 +72,8 @@ Eigensystem<T> solve_general(const Matrix<T>& A, const Matrix<T>& B) {
     const Eigen::GeneralizedEigenSolver<Matrix<T>> solver(A, B);
     Vector<T> values(A.rows());
     for (Index j = 0; j < A.rows(); ++j)
-        values[j] = solver.betas()[j] == T(0) ? T(0) : solver.alphas()[j].real() / solver.betas()[j];
+        values[j] =
+            solver.betas()[j] == T(0) ? T(0) : solver.alphas()[j].real() / solver.betas()[j];
     return detail::sorted<T>(values, solver.eigenvectors().real());
 }
 

@@ -44,12 +44,15 @@ struct Element {
     S turning{};                                   ///< c, the inertia against turning; or c W
     std::conditional_t<OwnErrors, S, M> weight{};  ///< W
     [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s
-    [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>> error{};
+    [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>>
+        error{};
 
     /// An element given by its stiffness, spin and masses.
-    static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
+    static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper,
+                      const S& cross,
                       const ElementError<M>& error = {}) requires(Spins&& OwnErrors) {
-        const S weight = (lower + cross) + (cross + upper), determinant = lower * upper - cross * cross;
+        const S weight = (lower + cross) + (cross + upper),
+                determinant = lower * upper - cross * cross;
         return {stiffness, lower, upper, cross, determinant, weight, spin, error};
     }
 
@@ -85,7 +88,8 @@ struct Element {
     /// The sum of the sizes of the terms of `resisted_over`; L and `inverse` are sizes.
     template <class X>
     [[gnu::always_inline]] X resisted_size(const X& L, const X& inverse) const {
-        const X resists(mass_size(static_cast<M>(turning))), heavy(mass_size(static_cast<M>(weight)));
+        const X resists(mass_size(static_cast<M>(turning))),
+            heavy(mass_size(static_cast<M>(weight)));
         return OwnErrors ? (L * heavy + resists) * inverse : (L + resists) * (heavy * inverse);
     }
 };
@@ -96,22 +100,22 @@ using SignedElement = Element<S, true, true>;
 /// Dynamic stiffness carried across an element, equation (1) of docs/theory/counts.md, from `near`
 /// at one pin to the other, where the element's mass is `far`; `inverse` is 1 over the pivot.
 template <class E, class S>
-[[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near, const S& far,
-                                          const S& inverse) {
+[[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near,
+                                          const S& far, const S& inverse) {
     return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
 /// One operation less after the division; for pencils in one unit, whose products stay in range.
 template <class E, class X>
-[[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near, const X& far,
-                                                      const X& pivot) {
+[[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near,
+                                                      const X& far, const X& pivot) {
     return ((stiffness - far) * near - e.resisted(stiffness)) / pivot;
 }
 
 /// Equation (2), from the coupling L + X of the pins: accurate where it and the pivot are small.
 template <class S>
-[[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling,
-                                                      const S& inverse) {
+[[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far,
+                                                      const S& coupling, const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
@@ -166,7 +170,9 @@ struct ElementPencil {
         return ldexp(limits::min() * limits::epsilon(), limits::max_exponent / 4 + 2);
     }
     /// The exponent of the factor from the unit of element m - 1 to that of element m.
-    int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
+    int step_down(std::size_t m) const {
+        return units.empty() || m == 0 ? 0 : units[m - 1] - units[m];
+    }
     /// The pencil with every spin reversed: its roots x have the other sign.
     ElementPencil reversed() const {
         ElementPencil other = *this;
@@ -187,9 +193,9 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
     } else {
         ElementPencil<T, Spins, OwnErrors> pencil;
         const auto narrow = [](const Element<S, Spins, OwnErrors>& e) {
-            Element<T, Spins, OwnErrors> result{static_cast<T>(e.stiffness), static_cast<T>(e.lower),
-                                                static_cast<T>(e.upper),     static_cast<T>(e.cross),
-                                                static_cast<T>(e.turning),   static_cast<T>(e.weight)};
+            Element<T, Spins, OwnErrors> result{
+                static_cast<T>(e.stiffness), static_cast<T>(e.lower),   static_cast<T>(e.upper),
+                static_cast<T>(e.cross),     static_cast<T>(e.turning), static_cast<T>(e.weight)};
             if constexpr (Spins) result.spin = static_cast<T>(e.spin);
             return result;
         };
@@ -199,7 +205,8 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
-        if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
+        if constexpr (std::numeric_limits<T>::min_exponent ==
+                      std::numeric_limits<Narrow<S>>::min_exponent)
             pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);
         return pencil;
     }
@@ -228,8 +235,8 @@ std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& 
     };
     for (const SignedElement<S>& e : pencil.elements) {
         const S turning = e.weight > zero ? e.turning / e.weight : zero;
-        result.elements.push_back(
-            {e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero, static_cast<M>(e.weight)});
+        result.elements.push_back({e.stiffness, e.lower, e.upper, e.cross,
+                                   turning > zero ? turning : zero, static_cast<M>(e.weight)});
         if constexpr (Spins) {
             result.elements.back().spin = e.spin;
             add(e.error.spin, static_cast<M>(abs(e.spin)));

@@ -50,7 +50,8 @@ struct Terms {
 /// An element rounded to T, as loops in lanes take it.
 template <bool Spins, class T>
 [[gnu::always_inline]] inline Element<T, Spins> high_part(const Element<DoubleWord<T>, Spins>& e) {
-    Element<T, Spins> high{e.stiffness.high, e.lower.high, e.upper.high, e.cross.high, e.turning.high, e.weight};
+    Element<T, Spins> high{e.stiffness.high, e.lower.high,   e.upper.high,
+                           e.cross.high,     e.turning.high, e.weight};
     if constexpr (Spins) high.spin = e.spin.high;
     return high;
 }
@@ -58,9 +59,12 @@ template <bool Spins, class T>
 /// Residual forces L(x) y - M y at the pins but the held one, from the free end up. `take(m, force,
 /// size, offset, stretch)` receives, for pin m: the force, if `sized` the sum of the sizes of its
 /// terms, the pin's offset, and that offset minus the next one's.
-template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset, class Take>
-[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                               const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
+template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset,
+          class Take>
+[[gnu::always_inline]] inline void forces_left(Terms,
+                                               const ElementPencil<DoubleWord<T>, Spins>& pencil,
+                                               const Factors<Pair<V>>& at, const Offset& offset,
+                                               const Take& take) {
     const std::size_t n = pencil.elements.size();
     const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
         return times<fused>(x, revchain::detail::in_all_lanes<V>(y));
@@ -82,9 +86,11 @@ template <bool fused, bool sized, class V, class Terms, bool Spins, class T, cla
         Pair<V> near = times<fused>(e.lower, -lower), far{};
         V near_size = abs(near.high), far_size{};
         if constexpr (!Terms::lumped) {
-            const Pair<V> by_upper = times<fused>(e.cross, -upper), by_lower = times<fused>(e.cross, -lower);
+            const Pair<V> by_upper = times<fused>(e.cross, -upper),
+                          by_lower = times<fused>(e.cross, -lower);
             far = times<fused>(e.upper, -upper);
-            if constexpr (sized) near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
+            if constexpr (sized)
+                near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
             near = near + by_upper;
             far = far + by_lower;
         }

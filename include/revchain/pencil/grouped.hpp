@@ -35,7 +35,9 @@ class Group {
     Index size() const { return size_; }
 
     /// At least the largest eigenvalue of the group between held ends: the trace of K^-1 M there.
-    T spread() const { return size_ < 2 ? T(0) : bound_ - second_ / flexibility_ + rounding(size_) * bound_; }
+    T spread() const {
+        return size_ < 2 ? T(0) : bound_ - second_ / flexibility_ + rounding(size_) * bound_;
+    }
     /// Whether it is at most `spread`, nothing exceeds 8 lambda k (about the largest square of a
     /// mode's phase), and every centroid is within twice the length of its link.
     bool is_within(const T& spread, const T& least) const {
@@ -48,7 +50,12 @@ class Group {
     Element<T> element() const {
         const T mean = first_ / flexibility_, square = second_ / (flexibility_ * flexibility_);
         const T beside = weight_ > T(0) ? square - mean * (mean / weight_) : T(0);
-        return {T(1) / flexibility_, weight_ - T(2) * mean + square, square, mean - square, beside, weight_};
+        return {T(1) / flexibility_,
+                weight_ - T(2) * mean + square,
+                square,
+                mean - square,
+                beside,
+                weight_};
     }
 
    private:
@@ -95,7 +102,9 @@ GroupedPencil<T> grouped(const ElementPencil<T>& pencil, const T& least, const T
     }
     close();
     result.pencil.entry_error = pencil.entry_error;
-    if (longest > 1) result.pencil.entry_error = T(128) * (pencil.entry_error + detail::Group<T>::rounding(longest));
+    if (longest > 1)
+        result.pencil.entry_error =
+            T(128) * (pencil.entry_error + detail::Group<T>::rounding(longest));
     result.pencil.stiffness_underflow = pencil.stiffness_underflow;
     result.spread *= T(1) + result.pencil.entry_error;
     return result;

@@ -34,7 +34,7 @@ void for_lanes(std::size_t count, std::size_t links, const F& f) {
     revchain::detail::parallel_for(count, shape_lanes, [&](std::size_t begin, std::size_t end) {
         with_shapes_in_lanes<T>(links, [&](ShapesInLanes<T>& scratch) {
             for (std::size_t first = begin; first < end; first += shape_lanes) {
-                revchain::detail::look();
+                revchain::detail::check_interrupt();
                 f(first, std::min(shape_lanes, end - first), scratch);
             }
         });
@@ -48,8 +48,8 @@ void for_lanes(std::size_t count, std::size_t links, const F& f) {
 /// over the room to the next interval (Kato, Temple). Where intervals meet, counts `certified(x)`
 /// on either side number the others; false where they cannot. `worst`: the relative error wanted.
 template <std::floating_point T, class Certified>
-bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first, const T& below, const T& above,
-           const T& worst, const Certified& certified) {
+bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index first,
+           const T& below, const T& above, const T& worst, const Certified& certified) {
     const T infinity = std::numeric_limits<T>::infinity();
     const std::size_t count = roots.size();
     // the end on one side of the interval that holds root j, with the low word and rounding
@@ -92,18 +92,21 @@ bool prove(std::vector<ProvedRoot<T>>& roots, const std::vector<T>& reach, Index
 /// `reach` from residuals. Preconditions: those of `quotients_in_lanes`.
 template <std::floating_point T, bool Spins, class Certified>
 ProvedRoots<T> proved_roots(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
-                            const std::vector<T>& starts, Index first, const T& below, const T& above,
-                            const T& worst, const Certified& certified) {
+                            const std::vector<T>& starts, Index first, const T& below,
+                            const T& above, const T& worst, const Certified& certified) {
     const std::size_t count = starts.size();
     std::vector<ProvedRoot<T>> roots(count);
     std::vector<T> reach(count);
-    for_lanes<T>(count, pencil.elements.size(), [&](std::size_t from, std::size_t there, ShapesInLanes<T>& scratch) {
-        QuotientsInLanes<T> found;
-        for (std::size_t i = 0; i < shape_lanes; ++i) found.start[i] = starts[from + std::min(i, there - 1)];
-        quotients_in_lanes(pencil, lumped, scratch, found);
-        for (std::size_t i = 0; i < there; ++i)
-            roots[from + i] = {found.root[i], found.blur[i]}, reach[from + i] = found.reach[i];
-    });
+    for_lanes<T>(
+        count, pencil.elements.size(),
+        [&](std::size_t from, std::size_t there, ShapesInLanes<T>& scratch) {
+            QuotientsInLanes<T> found;
+            for (std::size_t i = 0; i < shape_lanes; ++i)
+                found.start[i] = starts[from + std::min(i, there - 1)];
+            quotients_in_lanes(pencil, lumped, scratch, found);
+            for (std::size_t i = 0; i < there; ++i)
+                roots[from + i] = {found.root[i], found.blur[i]}, reach[from + i] = found.reach[i];
+        });
     if (!prove(roots, reach, first, below, above, worst, certified)) return std::nullopt;
     return roots;
 }
@@ -118,7 +121,8 @@ namespace detail {
 /// if there would be too many or too few groups. Their size follows from the height of the last
 /// mode, estimated by the phase integral (WKB: a few per cent for like links). All is proved later.
 template <std::floating_point T>
-std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index first, Index count) {
+std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index first,
+                                           Index count) {
     using std::sqrt;
     const Index last = first + count;
     if (pencil.size() < least_for_groups * last) return {};
@@ -141,16 +145,18 @@ std::vector<Bracket<T>> brackets_of_groups(const ElementPencil<T>& pencil, Index
 /// Proved roots number `first` ... `first + count - 1` (from 0, descending) of `available`;
 /// `counter` has a `count_above` for `bisect`, `guess` as there, the rest as in `proved_roots`.
 template <std::floating_point T, bool Spins, class Counter, class Certified>
-ProvedRoots<T> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil, const Counter& counter,
-                            const Certified& certified, Index first, Index count, Index available,
-                            const T& guess, const T& worst, const std::function<void(Index)>& finished) {
+ProvedRoots<T> proved_range(const ElementPencil<DoubleWord<T>, Spins>& pencil,
+                            const Counter& counter, const Certified& certified, Index first,
+                            Index count, Index available, const T& guess, const T& worst,
+                            const std::function<void(Index)>& finished) {
     const bool lumped = is_lumped(pencil);
     std::vector<Bracket<T>> brackets;
     if constexpr (std::is_same_v<Counter, ElementPencil<T>>)
         brackets = detail::brackets_of_groups(counter, first, count);
     if (brackets.empty()) {
         // With the next root on either side, so that the outermost brackets hold one root.
-        const Index before = std::min<Index>(first, 1), after = std::min<Index>(available - first - count, 1);
+        const Index before = std::min<Index>(first, 1),
+                    after = std::min<Index>(available - first - count, 1);
         brackets = bisect(counter, first - before, before + count + after, T(1), guess, finished);
         brackets.erase(brackets.begin(), brackets.begin() + before);
         brackets.resize(static_cast<std::size_t>(count));

@@ -69,7 +69,8 @@ struct PlainCarry {
     [[gnu::always_inline]] static void begin(const auto& ground, const Shift& at, State& state) {
         state.below = ground.stiffness_at(at) - V(ground.upper);
     }
-    [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at, State& state) const {
+    [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at,
+                                           State& state) const {
         const V stiffness = e.stiffness_at(at);
         const V pivot = not_zero(V(state.below + (stiffness - V(e.lower))), e.size(stiffness));
         state.add(pivot);
@@ -92,7 +93,8 @@ struct PlainCarry {
 /// pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp for
 /// each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
-std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
+std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil,
+                                 const std::array<T, L>& shifts) {
     using Pencil = ElementPencil<T, Spins, OwnErrors>;
     std::array<Index, L> above;
     const auto counted = [&](const auto& state) {
@@ -100,18 +102,21 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
         return above;
     };
     if (!pencil.units.empty())
-        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
+        return counted(
+            detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
         return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, for any compiler
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using V = Pack<T, width, L / width>;
             const detail::PlainCarry<Pencil, V, false> carry{pencil};
-            const auto state = detail::carried_up(carry, pencil, std::array{V::load(shifts.data())});
+            const auto state =
+                detail::carried_up(carry, pencil, std::array{V::load(shifts.data())});
             for (std::size_t i = 0; i < L; ++i) above[i] = static_cast<Index>(state[0].negative[i]);
             return above;
         });
     } else {
-        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
+        return counted(
+            detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
     }
 }
 
@@ -161,7 +166,8 @@ class BoundedCarry<ElementPencil<S>> {
     };
 
     explicit BoundedCarry(const ElementPencil<S>& pencil)
-        : local_(M(2) * pencil.entry_error + M(6) * unit()), stiffness_underflow_(pencil.stiffness_underflow) {}
+        : local_(M(2) * pencil.entry_error + M(6) * unit()),
+          stiffness_underflow_(pencil.stiffness_underflow) {}
 
     Shift at(const S& x) const {
         using std::abs;
@@ -173,7 +179,8 @@ class BoundedCarry<ElementPencil<S>> {
         return {static_cast<M>(e.lower), static_cast<M>(e.upper), turning,
                 abs(static_cast<M>(e.cross)) + M(2) * turning};
     }
-    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift, State& at) const {
+    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
+                                           State& at) const {
         using std::abs;
         const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
         const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
@@ -194,13 +201,16 @@ class BoundedCarry<ElementPencil<S>> {
         const M inverse = M(1) / least;
         const M push = gain * inverse;
         // Quotients first: the products of small weights would underflow.
-        const M by_weight = local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
-        const M by_coupling = local_ * (k + of.upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
+        const M by_weight =
+            local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
+        const M by_coupling =
+            local_ * (k + of.upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
         const S one_over = S(M(1)) / not_zero(pivot, stiffness);
         const S by_weight_value = propagate(e, stiffness, at.below, e.upper, one_over);
         const M quotient = abs(static_cast<M>(by_weight_value));
         const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
-        at.below = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
+        at.below = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over)
+                           : by_weight_value;
         const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
         const M rest = shift.underflow * (M(1) + (size + e.weight) * inverse) +
                        tiny() * (k + of.upper + of.turning + gain + (k + of.turning) * inverse);
@@ -242,29 +252,38 @@ class BoundedCarry<SignedPencil<S>> {
     }
     static Sizes sizes(const SignedElement<S>& e) {
         const M lower = size_of(e.lower), upper = size_of(e.upper), cross = size_of(e.cross);
-        return {size_of(e.stiffness),         size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
+        return {size_of(e.stiffness),
+                size_of(e.spin),
+                lower,
+                upper,
+                cross,
+                lower + upper + M(2) * cross,
                 lower * upper + cross * cross};
     }
     static void begin(const SignedElement<S>& ground, const Shift& shift, State& at) {
         const M a = shift.stiffness_size, b = shift.spin_size;
-        const M size = a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
+        const M size =
+            a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
         const ElementError<M>& off = ground.error;
         at.below = ground.stiffness_at(shift.x) - ground.upper;
-        at.error = (M(1) + M(64) * epsilon<M>()) *
-                   (a * off.stiffness + b * off.spin + off.upper + M(5) * operation_error<S>() * size + underflow());
+        at.error =
+            (M(1) + M(64) * epsilon<M>()) * (a * off.stiffness + b * off.spin + off.upper +
+                                             M(5) * operation_error<S>() * size + underflow());
     }
-    [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
-                                           State& at) const {
+    [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of,
+                                           const Shift& shift, State& at) const {
         using std::abs;
         const M u = operation_error<S>();
         const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
         const M tiny = State::tiny();
         const ElementError<M>& off = e.error;
         const S L = e.stiffness_at(shift.x);
-        const M a = shift.stiffness_size, b = shift.spin_size, L_size = a * of.stiffness + b * of.spin;
+        const M a = shift.stiffness_size, b = shift.spin_size,
+                L_size = a * of.stiffness + b * of.spin;
         const M L_error = (a * off.stiffness + b * off.spin) + M(4) * u * L_size + underflow();
         const S p = at.below + (L - e.lower);
-        const M D_size = size_of(at.below), p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
+        const M D_size = size_of(at.below),
+                p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
         const M p_rounding = M(3) * u * (D_size + L_size + of.lower);
         const M least = p_size - inflate * (at.error + L_error + off.lower + p_rounding);
         // Written so that a NaN anywhere withdraws the proof.
@@ -277,10 +296,14 @@ class BoundedCarry<SignedPencil<S>> {
             const M C_size = size_of(L + e.cross) + L_error + off.cross;
             const M q = C_size / least;
             const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
-            const M slopes = q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
-            const M roundings = M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
-                                M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
-            const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
+            const M slopes =
+                q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
+            const M roundings =
+                M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
+                M(8) * u * (of.determinant / least) +
+                size_of(next) * (p_rounding / least + M(4) * u);
+            const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) *
+                           (M(1) + M(1) / least);
             at.error = inflate * (slopes + roundings + lost);
         }
         at.below = next;

@@ -20,7 +20,8 @@ S if_less(const M& x, const M& y, const S& a, const S& b) {
 
 /// one() where x < y, else other(); for packs both are computed.
 template <class M, class F, class G>
-[[gnu::always_inline]] inline auto computed_if_less(const M& x, const M& y, const F& one, const G& other) {
+[[gnu::always_inline]] inline auto computed_if_less(const M& x, const M& y, const F& one,
+                                                    const G& other) {
     if constexpr (IsPack<M>)
         return if_less(x, y, one(), other());
     else
@@ -38,8 +39,8 @@ struct Across {
 /// the element is a point mass. A ratio near 1 is computed from its difference to 1, a `Ratio`: the
 /// slope of a smooth mode is then not the difference of rounded offsets.
 template <class Ratio, bool Lumped = false, class E, class S, class Mass>
-[[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near, const Mass& near_mass,
-                                               const Mass& far_mass) {
+[[gnu::always_inline]] inline Across<S> across(const E& e, const S& stiffness, const S& near,
+                                               const Mass& near_mass, const Mass& far_mass) {
     using std::abs;
     using V = Narrow<S>;
     const auto size = [](const auto& x) REVCHAIN_INLINED { return abs(static_cast<V>(x)); };
@@ -56,15 +57,21 @@ template <class Ratio, bool Lumped = false, class E, class S, class Mass>
         size(change), V(Lane<V>(0.5)), [&]() REVCHAIN_INLINED { return S(V(1)) + S(change); },
         [&]() REVCHAIN_INLINED { return coupling * inverse; });
     if constexpr (Lumped) {
-        result.stiffness =
-            near_mass == Mass(0) ? stiffness * (near * inverse) - far : stiffness * ((near - S(near_mass)) * inverse);
+        result.stiffness = near_mass == Mass(0) ? stiffness * (near * inverse) - far
+                                                : stiffness * ((near - S(near_mass)) * inverse);
     } else {
-        const auto mass = [&](const auto& x) REVCHAIN_INLINED { return V(e.mass_size(static_cast<Lane<V>>(x))); };
-        const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass), over = size(inverse);
-        const V of_coupling = V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
+        const auto mass = [&](const auto& x)
+                              REVCHAIN_INLINED { return V(e.mass_size(static_cast<Lane<V>>(x))); };
+        const V k = static_cast<V>(e.size(stiffness)), far_size = mass(far_mass),
+                over = size(inverse);
+        const V of_coupling =
+            V(2) * size(coupling) * ((k + mass(e.weight) + mass(near_mass) + far_size) * over);
         const V of_weight = (k + far_size) * (size(near) * over) + e.resisted_size(k, over);
-        result.stiffness = computed_if_less(of_coupling + (k + far_size), of_weight,
-            [&]() REVCHAIN_INLINED { return propagate_by_coupling(stiffness, far, coupling, inverse); },
+        result.stiffness = computed_if_less(
+            of_coupling + (k + far_size), of_weight,
+            [&]() REVCHAIN_INLINED {
+                return propagate_by_coupling(stiffness, far, coupling, inverse);
+            },
             [&]() REVCHAIN_INLINED { return propagate(e, stiffness, near, far, inverse); });
     }
     return result;
@@ -122,15 +129,18 @@ template <class S, class Rise, class Sink, class Forces>
         least = if_less(balance, least, balance, least);
     }
     offset[n] = zero;
-    for (std::size_t m = n; m-- > 0;) offset[m] = if_less(number(m), pin, down[m] * offset[m + 1], one);
-    for (std::size_t m = 1; m < n; ++m) offset[m] = if_less(pin, number(m), up[m - 1] * offset[m - 1], offset[m]);
+    for (std::size_t m = n; m-- > 0;)
+        offset[m] = if_less(number(m), pin, down[m] * offset[m + 1], one);
+    for (std::size_t m = 1; m < n; ++m)
+        offset[m] = if_less(pin, number(m), up[m - 1] * offset[m - 1], offset[m]);
     return result;
 }
 
 /// Returns a function (element, pin) for offsets in one unit for all elements, the largest about 1.
 /// `share`: 1 for forces (offsets times weights), 2 for energies (squares of offsets).
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
-auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, int share) {
+auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset,
+                 int share) {
     using std::frexp, std::ldexp;
     const auto* const at = offset.data();
     using T = std::decay_t<decltype(*at)>;
@@ -140,10 +150,12 @@ auto in_one_unit(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets
             if (y == T(0)) continue;
             int exponent = 0;
             frexp(y, &exponent);
-            largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
+            largest = std::max(largest.value_or(std::numeric_limits<int>::min()),
+                               exponent + pencil.units[m] / share);
         }
     return [&pencil, at, share, unit = largest.value_or(0)](std::size_t element, std::size_t pin) {
-        const T y = pencil.units.empty() ? at[pin] : T(ldexp(at[pin], pencil.units[element] / share - unit));
+        const T y = pencil.units.empty() ? at[pin]
+                                         : T(ldexp(at[pin], pencil.units[element] / share - unit));
         return S(static_cast<std::conditional_t<std::is_same_v<S, T>, S, Narrow<S>>>(y));
     };
 }
@@ -177,7 +189,8 @@ Eigenvector<T> normalised(Vector<T> offset) {
         if (y == T(0)) continue;
         if (sign == T(0)) sign = y;
         if (m + 1 < offset.size() && side != T(0) && (y < T(0)) != (side < T(0)))
-            result.crossings.push_back({m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
+            result.crossings.push_back(
+                {m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
         side = y;
     }
     if (sign < T(0)) largest = -largest;
@@ -203,7 +216,8 @@ struct UnroundedEigenvector {
 /// gap (at most 1) the relative distance to the next eigenvalue. An error e in `eigenvalue` adds e
 /// / gap. `Ratio`: scalar of ratios of neighbours; with S slopes are as accurate.
 template <class Ratio, Real S, bool Spins, bool OwnErrors>
-UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil, const S& root) {
+UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil,
+                                              const S& root) {
     using std::abs;
     using T = Narrow<S>;
     const auto& elements = pencil.elements;
@@ -216,7 +230,8 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     const auto sink = [&](std::size_t m, S& above) {
         const auto& e = elements[m];
         const S stiffness = e.stiffness_at(x);
-        if (m + 1 == elements.size()) return detail::Across<S>{stiffness - e.lower, S(T(0))};  // rigid
+        if (m + 1 == elements.size())
+            return detail::Across<S>{stiffness - e.lower, S(T(0))};  // rigid
         above = detail::rescaled(above, -pencil.step_down(m + 1));
         return detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
     };
@@ -225,11 +240,13 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S, Spins, OwnE
     };
     const auto forces = [&](std::size_t m) {
         const T own = meeting(elements[m], elements[m].lower);
-        if (m == 0) return pencil.ground ? own + meeting(*pencil.ground, pencil.ground->upper) : own;
+        if (m == 0)
+            return pencil.ground ? own + meeting(*pencil.ground, pencil.ground->upper) : own;
         const auto& hung = elements[m - 1];
         return own + detail::rescaled(meeting(hung, hung.upper), pencil.step_down(m));
     };
-    const S footing = pencil.ground ? S(pencil.ground->stiffness_at(x) - pencil.ground->upper) : S(T(0));
+    const S footing =
+        pencil.ground ? S(pencil.ground->stiffness_at(x) - pencil.ground->upper) : S(T(0));
     auto [offset, down, up, pin] = detail::twisted<S>(elements.size(), rise, sink, forces, footing);
     UnroundedEigenvector<S> result{std::move(offset), S(T(0)), {}};
     for (const S& y : result.offset)
@@ -260,7 +277,8 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     UnroundedEigenvector<S> vector = unrounded_eigenvector<Narrow<S>>(pencil, eigenvalue);
     Eigenvector<T> result{Vector<T>(pencil.size() + 1), std::move(vector.crossings)};
     for (Index m = 0; m <= pencil.size(); ++m)
-        result.offset[m] = static_cast<T>(vector.offset[static_cast<std::size_t>(m)] / vector.largest + S(T(0)));
+        result.offset[m] =
+            static_cast<T>(vector.offset[static_cast<std::size_t>(m)] / vector.largest + S(T(0)));
     return result;
 }
 
@@ -276,7 +294,8 @@ S mass_form(const E& e, const S& lower, const S& upper) {
 /// 1e-25). For a hanging chain without spins it is y^T M y / y^T K y, two sums of positive terms;
 /// for a quadratic family the root next to `near`, by Newton's method. Cost: one pass, no division.
 template <Real S, bool Spins, bool OwnErrors, class Offsets>
-S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset, const S& near = {}) {
+S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offsets& offset,
+                    const S& near = {}) {
     const auto offsets = detail::in_one_unit(pencil, offset, 2);
     const S zero(Narrow<S>(0));
     S mass = zero, stiffness = zero, spin = zero;
@@ -287,7 +306,8 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
         if constexpr (Spins) spin = spin + e.spin * square;
     };
     if (pencil.ground) add(*pencil.ground, zero, offsets(0, 0));
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) add(pencil.elements[m], offsets(m, m), offsets(m, m + 1));
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
+        add(pencil.elements[m], offsets(m, m), offsets(m, m + 1));
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
     for (int step = 0; step < 3; ++step) {
@@ -302,12 +322,14 @@ S rayleigh_quotient(const ElementPencil<S, Spins, OwnErrors>& pencil, const Offs
 /// sizes of the terms at a pin, max |Q(x) y| / max (|L| |y| + |M| |y|). Evaluated in S, so that it
 /// is the error of the offsets and not of the evaluation. Cost: one pass.
 template <Real S, bool Spins, bool OwnErrors, Real X, Real T>
-T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& root, const Vector<T>& offset) {
+T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& root,
+                    const Vector<T>& offset) {
     using std::abs;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return abs(static_cast<M>(x)); };
     const auto offsets = detail::in_one_unit(pencil, offset, 1);
-    const Factors<S> x = pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
+    const Factors<S> x =
+        pencil.factors(S(static_cast<std::conditional_t<std::is_same_v<X, S>, S, M>>(root)));
     M largest(0), worst(0), size(0);
     S force(M(0));  // of the link below
     const auto pass = [&](const auto& e, const S& lower, const S& upper, bool is_ground) {
@@ -321,7 +343,8 @@ T relative_residual(const ElementPencil<S, Spins, OwnErrors>& pencil, const X& r
         const M spring_size = stiffness_size * (size_of(lower) + size_of(upper));
         if (!is_ground) {
             const M masses = size_of(e.lower * lower) + size_of(e.cross * upper);
-            worst = std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
+            worst =
+                std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
             largest = std::max(largest, size + spring_size + masses);
         }
         force = -spring - (e.cross * lower + e.upper * upper);

@@ -45,7 +45,8 @@ struct ShapesInLanes {
         }
         T* next = numbers_.get();
         offset = {next, each + shape_lanes}, next += offset.size();
-        for (std::span<T>* part : {&down, &up, &below, &above, &rest, &change}) *part = {next, each}, next += each;
+        for (std::span<T>* part : {&down, &up, &below, &above, &rest, &change})
+            *part = {next, each}, next += each;
     }
     /// Stores the first `pins` numbers of the first `count` lanes as rows `stride` numbers apart.
     void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
@@ -54,9 +55,11 @@ struct ShapesInLanes {
         if (count == shape_lanes)
             for (; m + tile <= pins; m += tile)
                 for (std::size_t i = 0; i < shape_lanes; ++i)
-                    for (std::size_t k = 0; k < tile; ++k) rows[i * stride + m + k] = offset[(m + k) * shape_lanes + i];
+                    for (std::size_t k = 0; k < tile; ++k)
+                        rows[i * stride + m + k] = offset[(m + k) * shape_lanes + i];
         for (; m < pins; ++m)
-            for (std::size_t i = 0; i < count; ++i) rows[i * stride + m] = offset[m * shape_lanes + i];
+            for (std::size_t i = 0; i < count; ++i)
+                rows[i * stride + m] = offset[m * shape_lanes + i];
     }
     /// Crossings of the mode in `lane` with offsets `row`, lowest first, without the held pin.
     std::vector<Crossing<T>> crossings(std::size_t lane, const T* row) const {
@@ -82,7 +85,8 @@ struct ShapesInLanes {
         crossed.clear();
         for (std::size_t m = 0; m + 1 < down.size() / shape_lanes; ++m) {
             const T lower = row[m], upper = row[m + 1];
-            const T ratio = m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
+            const T ratio =
+                m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
             const bool seen = std::min(abs(lower), abs(upper)) > least_offset;
             if (seen ? (lower < T(0)) == (upper < T(0)) : !(ratio < T(0))) continue;
             const T share = seen              ? lower / (lower - upper)
@@ -121,8 +125,8 @@ struct TwistInLanes {
     V above;      ///< the number of eigenvalues above x, by rounded arithmetic
 };
 template <class Terms, bool Spins, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                               const V& x, ShapesInLanes<T>& s) {
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(
+    Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil, const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
     constexpr bool lumped = Terms::lumped;
     const std::size_t n = pencil.elements.size();
@@ -176,16 +180,19 @@ template <class Terms, bool Spins, class V, class T>
 
 /// The offset of pin m from `twisted_in_lanes`, for one pin after the other; `last`: that of m - 1.
 template <class V, class T>
-[[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist, const V& last) {
+[[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist,
+                                            const V& last) {
     V offset = V::load(&s.offset[m * shape_lanes]);
-    if (m > 0) offset = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * shape_lanes]) * last, offset);
+    if (m > 0)
+        offset = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * shape_lanes]) * last,
+                         offset);
     return offset;
 }
 
 template <class Where, class Terms, bool Spins, class T>
-[[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms,
-                                                   const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                   const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
+[[gnu::always_inline]] inline void shapes_in_lanes(
+    Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
+    const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     using V = Pack<T, width, L / width>;
@@ -203,7 +210,8 @@ template <class Where, class Terms, bool Spins, class T>
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
-    forces_left<fused, false, V>(terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
+    forces_left<fused, false, V>(
+        terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -226,7 +234,9 @@ template <class Where, class Terms, bool Spins, class T>
     for (std::size_t m = 0; m < n; ++m) {
         const V at(static_cast<T>(m)), given = V::load(&s.change[m * L]);
         if (m > 0)
-            change = if_less(twist, at, given * V::load(&s.above[m * L]) + V::load(&s.up[(m - 1) * L]) * change, given);
+            change = if_less(
+                twist, at, given * V::load(&s.above[m * L]) + V::load(&s.up[(m - 1) * L]) * change,
+                given);
         else
             change = given;
         change.store(&s.change[m * L]);
@@ -259,7 +269,8 @@ template <class Where, class Terms, bool Spins, class T>
     }
     if (!residuals) return;
     V worst{}, meeting{};
-    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
+    forces_left<fused, true, V>(
+        terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
         [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
@@ -275,14 +286,15 @@ template <class Where, class Terms, bool Spins, class T>
 /// is false where the correction is not small; `eigenvector` can still do those. Precondition: the
 /// pencil is in one unit. Cost: 5 ns a link and mode (AVX-512), residuals 2.
 template <std::floating_point T, bool Spins>
-void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, const RootsInLanes<T>& roots,
-                     bool residuals, ShapesInLanes<T>& shapes) {
+void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
+                     const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& shapes) {
     shapes.make_room(pencil.elements.size());
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
             detail::shapes_in_lanes(where, detail::Terms<true>(), pencil, roots, residuals, shapes);
         else
-            detail::shapes_in_lanes(where, detail::Terms<false>(), pencil, roots, residuals, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<false>(), pencil, roots, residuals,
+                                    shapes);
     });
 }
 

@@ -86,7 +86,8 @@ class BatchWorker {
     void copy(const BatchColumn<T>& column, Index c, Index which) {
         const T* from = column.data + c * column.chain_stride;
         double* to = raw_.data() + which * batch_.size * pencil::block_lanes + waiting_;
-        for (Index m = 0; m < batch_.size; ++m, from += column.link_stride, to += pencil::block_lanes)
+        for (Index m = 0; m < batch_.size;
+             ++m, from += column.link_stride, to += pencil::block_lanes)
             *to = static_cast<double>(*from);
     }
 
@@ -99,11 +100,13 @@ class BatchWorker {
             std::fill(lanes + waiting_, lanes + pencil::block_lanes, lanes[0]);
         }
         const double* const raw = raw_.data();
-        const pencil::LaneBlock block{batch_.size,      raw,
-                                      raw + column,     batch_.centroid ? raw + 2 * column : nullptr,
-                                      raw + 3 * column, batch_.radius_of_gyration.has_value()};
+        const pencil::LaneBlock block{
+            batch_.size,      raw,
+            raw + column,     batch_.centroid ? raw + 2 * column : nullptr,
+            raw + 3 * column, batch_.radius_of_gyration.has_value()};
         std::array<std::int64_t, pencil::block_lanes> verified{};
-        pencil::lane_spectrum(block, plan_.count, method, work_.data(), found_.data(), verified.data());
+        pencil::lane_spectrum(block, plan_.count, method, work_.data(), found_.data(),
+                              verified.data());
         for (Index i = 0; i < waiting_; ++i) {
             const Index c = chains_[static_cast<std::size_t>(i)];
             const double* const found = found_.data() + i;
@@ -114,7 +117,8 @@ class BatchWorker {
                 continue;
             }
             T* const to = heights_.data() + c * plan_.count;
-            for (Index j = 0; j < plan_.count; ++j) to[j] = static_cast<T>(found[j * pencil::block_lanes]);
+            for (Index j = 0; j < plan_.count; ++j)
+                to[j] = static_cast<T>(found[j * pencil::block_lanes]);
         }
         waiting_ = 0;
     }

@@ -24,7 +24,8 @@ T proved_error(const pencil::ElementPencil<Wide<T>>& pencil, Index j, const T& h
 
 /// The modes asked for of all that `solve()` finds, in the units of the chain's pencils.
 template <Real T, class Solve>
-Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method, const Solve& solve) {
+Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method,
+                  const Solve& solve) {
     check(options);
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);

@@ -45,8 +45,8 @@ std::string_view name_of(ModesMethod method) {
 
 /// Heights by the cheapest method, or by the one asked for; by bisection where that has none.
 template <class... Models>
-models::Solution solved(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options,
-                        const std::tuple<Models...>& methods) {
+models::Solution solved(const Chain<double>& chain, const ModeRange& range,
+                        const ModesOptions<double>& options, const std::tuple<Models...>& methods) {
     const models::Question question = question_of(range, options.rtol, options.progress);
     if (options.method == ModesMethod::automatic) return solve(methods, chain, question);
     models::Solution found = models::solve_by(methods, name_of(options.method), chain, question);
@@ -56,14 +56,15 @@ models::Solution solved(const Chain<double>& chain, const ModeRange& range, cons
 
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
 REVCHAIN_LAZY
-std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const models::Answer& answer) {
+std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
+                                             const models::Answer& answer) {
     const int exponent = -chain.units().length_exponent;
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
     for (Index j = 0; j < answer.conical_height.size(); ++j) {
-        const Wide<double> height = answer.unrounded.empty()
-                                        ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
-                                        : answer.unrounded[static_cast<std::size_t>(j)];
+        const Wide<double> height =
+            answer.unrounded.empty() ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
+                                     : answer.unrounded[static_cast<std::size_t>(j)];
         heights.push_back({static_cast<double>(height), answer.error_bound[j], height});
     }
     return heights;
@@ -76,7 +77,8 @@ inline constexpr bool is_among<Model, std::tuple<Models...>> = (std::same_as<Mod
 
 /// Modes of a chain of doubles by any of the methods.
 template <class Methods>
-Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const ModesOptions<double>& options) {
+Modes<double> modes_by(const Methods& methods, const Chain<double>& chain,
+                       const ModesOptions<double>& options) {
     LazyCounter<double> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
     Modes<double> result = room_for_modes<double>(range);
@@ -84,15 +86,18 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
     if (range.count > 0) found = solved(chain, range, options, methods);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
-        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options.rtol);
-    if (range.count > 0 && options.certify) certify(result, assembled.pencils(), chain.mode_count());
+        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0,
+                   options.rtol);
+    if (range.count > 0 && options.certify)
+        certify(result, assembled.pencils(), chain.mode_count());
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
     auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose),
                  condense = options.method != ModesMethod::bisection,
                  first = range.first](Index from, Index count, bool details, Progress* progress) {
         if constexpr (is_among<models::Condensed, Methods>)
             if (condense && count > 0)
-                if (auto shapes = condensed_shapes(finder.chain(), first + from, finder.heights(from, count), progress))
+                if (auto shapes = condensed_shapes(finder.chain(), first + from,
+                                                   finder.heights(from, count), progress))
                     return std::move(*shapes);
         return finder(from, count, details, progress);
     };
@@ -104,7 +109,8 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain, const
 }  // namespace detail
 
 template <Real T, class... Models>
-Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options, const std::tuple<Models...>& methods) {
+Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options,
+               const std::tuple<Models...>& methods) {
     const auto in_double = [&](const Chain<double>& wide, const ModesOptions<double>& asked) {
         return detail::modes_by(detail::with_bisection(methods), wide, asked);
     };

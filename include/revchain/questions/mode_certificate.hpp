@@ -12,8 +12,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// `before` + 1 of `mode_count`. They are as far away as its error bound says, or where rounding to
 /// T leaves that in doubt a little farther.
 template <Real T, class Count>
-void certify(Certificate<T>& certificate, Index j, const T& height, const T& bound, Index before, Index mode_count,
-             const Count& count) {
+void certify(Certificate<T>& certificate, Index j, const T& height, const T& bound, Index before,
+             Index mode_count, const Count& count) {
     using std::isfinite;
     certificate.lower[j] = T(0), certificate.above_lower[j] = mode_count;
     certificate.upper[j] = std::numeric_limits<T>::infinity(), certificate.above_upper[j] = 0;
@@ -43,8 +43,9 @@ void certify(Found& modes, Index mode_count, const Count& count) {
     modes.certificate = {height, height, Vector<Index>(size), Vector<Index>(size)};
     parallel_for(size, 1, [&](Index begin, Index end) {
         for (Index j = begin; j < end; ++j) {
-            look();
-            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j, mode_count, count);
+            check_interrupt();
+            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j,
+                    mode_count, count);
         }
     });
 }

@@ -16,7 +16,8 @@ template <class Options>
 void check(const Options& options) {
     if (!options.rtol) return;
     const auto rtol = *options.rtol;
-    if (!(rtol >= decltype(rtol)(0))) throw_invalid("modes", "rtol must not be negative or NaN", rtol);
+    if (!(rtol >= decltype(rtol)(0)))
+        throw_invalid("modes", "rtol must not be negative or NaN", rtol);
 }
 
 /// The modes whose numbers are asked for, of `all` there are.
@@ -32,7 +33,8 @@ ModeRange numbered_range(Index all, const Options& options) {
     if (count < 1) throw_invalid("modes", "count must be at least 1", count);
     std::string most = of;
     if (left < all)
-        most = std::to_string(left) + " from number " + std::to_string(options.first) + " on of the " + of;
+        most = std::to_string(left) + " from number " + std::to_string(options.first) +
+               " on of the " + of;
     if (count > left) throw_invalid("modes", "count must not exceed the " + most, count);
     return {options.first, count};
 }
@@ -43,8 +45,9 @@ template <class Options, class Above, class Below>
 ModeRange chosen(Index all, const Options& options, const Above& above, const Below& below) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        throw_invalid("modes", "give one of mode numbers (first, count), conical_height and "
-                               "angular_speed, not several");
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and "
+                      "angular_speed, not several");
     if (options.conical_height) return modes_within(*options.conical_height, all, above);
     if (!options.angular_speed) return numbered_range(all, options);
     require_positive("modes", "gravity", options.gravity);

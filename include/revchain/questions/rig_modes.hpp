@@ -24,9 +24,12 @@ ModeRange numbered(const RigModesOptions& options, Index available) {
 
 /// The mode numbers of one sense that numbers or a window ask for.
 REVCHAIN_LAZY
-ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
+ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
+                 Index available) {
     if (!options.conical_height && !options.angular_speed) return numbered(options, available);
-    const auto above = [&](const RigWord& x, double given) { return roots.above(x, forward, "modes", given); };
+    const auto above = [&](const RigWord& x, double given) {
+        return roots.above(x, forward, "modes", given);
+    };
     return chosen(
         available, options, [&](double height) { return above(roots.at_height(height), height); },
         [&](double speed) { return above(roots.at_speed(speed), speed); });
@@ -35,15 +38,15 @@ ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool for
 REVCHAIN_LAZY
 void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
     modes.first = range.first, modes.available = available;
-    for (Vector<double>* column :
-         {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
+    for (Vector<double>* column : {&modes.conical_height, &modes.error_bound, &modes.angular_speed,
+                                   &modes.speed_error_bound})
         column->resize(range.count);
 }
 
 /// Stores mode number j (from 0) of those found; returns whether it is proved.
 REVCHAIN_LAZY
-bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
-              const FoundRoot& root) {
+bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
+              const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
     const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
@@ -52,7 +55,8 @@ bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::Si
     const double ulp = epsilon<double>();
     const double margin = root.margin * (1 + 4 * root.margin) + 32 * operation_error<RigWord>();
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
-    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    if (pencil.quadratic)
+        of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
     const bool proved = of_height < 1;
     if (!proved) of_height = of_speed = std::numeric_limits<double>::infinity();
     modes.error_bound[j] = of_height, modes.speed_error_bound[j] = of_speed;
@@ -74,34 +78,40 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
     const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
     const double guess = roots.pencil().quadratic ? std::sqrt(height) : height;
     const auto report = [&](double share, Index done, double of) {
-        advance(options.progress, from + (to - from) * (share + of * static_cast<double>(done) / all));
+        advance(options.progress,
+                from + (to - from) * (share + of * static_cast<double>(done) / all));
     };
     const auto finished = [&](Index done) { report(0, done, 0.4); };
     bool proved = true;
     std::vector<RigWord> found;
-    const auto store = [&]<bool Spins>(const std::vector<FoundRoot>& stored,
-                                       std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
+    const auto store = [&]<bool Spins>(
+                           const std::vector<FoundRoot>& stored,
+                           std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
         for (const FoundRoot& root : stored) {
             const auto j = static_cast<Index>(found.size());
             proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
             found.push_back(root.x);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<Spins>(
-            rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
+            RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
+                                  std::move(found), options.threads));
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
         if (!elements) return false;
         std::optional<std::vector<FoundRoot>> several_roots;
-        if constexpr (!Spins) several_roots = roots_under_a_spring(rig, *elements, range, available);
-        if (!several_roots) several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if constexpr (!Spins)
+            several_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!several_roots)
+            several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
         if (!several_roots) return false;
         using Elements = pencil::ElementPencil<RigWord, Spins>;
         store(*several_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type())) return proved;
+        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type()))
+            return proved;
     store(refined_roots(roots, range.first - 1, range.count, guess, finished,
                         [&](Index done) { report(0.4, done, 0.6); }),
           std::shared_ptr<const pencil::ElementPencil<RigWord>>());
@@ -123,7 +133,8 @@ RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
                                   .gravity = options.gravity,
                                   .threads = options.threads,
                                   .progress = options.progress};
-    if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
+    if (!options.conical_height &&
+        !options.angular_speed) {  // numbers beyond the last give no modes
         const ModeRange range = numbered(options, available);
         if (range.count == 0) {
             make_room(result.forward, range, available);
@@ -158,7 +169,8 @@ OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, doub
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
     if (!(bound < 1)) bound = std::numeric_limits<double>::infinity();
     const auto in_unit = [&](double y) { return std::ldexp(y, rig.units.length_exponent); };
-    return {{in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
+    return {
+        {in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
 REVCHAIN_LAZY
@@ -170,7 +182,8 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     const std::size_t senses = roots.senses().size();
     bool proved = true;
     for (std::size_t i = 0; i < senses; ++i) {
-        const double share = 0.9 / static_cast<double>(senses), from = share * static_cast<double>(i);
+        const double share = 0.9 / static_cast<double>(senses),
+                     from = share * static_cast<double>(i);
         WhirlModes& sense = i == 0 ? result.forward : result.backward;
         proved &= count_modes_of(sense, rig, roots, i == 0, options, from, from + share);
         result.complete &= roots.senses()[i].available.proved;
@@ -178,11 +191,13 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     if (!roots.has_momentum())
         if (const auto negative = counted_negative_heights(pencil)) {
             const Index count = std::max<Index>(0, negative->available.count);
-            const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+            const double start =
+                std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
             result.other_available = count;
             result.complete &= negative->available.proved;
             if (options.other && count > 0)
-                for (const FoundRoot& root : refined_roots(negative->roots, 0, count, start, {}, {})) {
+                for (const FoundRoot& root :
+                     refined_roots(negative->roots, 0, count, start, {}, {})) {
                     const double height = -static_cast<double>(root.x);
                     result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
                     proved &= std::isfinite(result.other.back().error_bound);
@@ -219,8 +234,8 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x);
             const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
-            result.other.push_back(
-                {height * unit, speed, std::abs(speed.imag()), 2 * bound * (1 + bound) + 8 * epsilon<double>()});
+            result.other.push_back({height * unit, speed, std::abs(speed.imag()),
+                                    2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
     result.other_available = static_cast<Index>(result.other.size());
@@ -235,8 +250,8 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.x);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(
-            RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
+            rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
@@ -275,7 +290,8 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     check(options);
     const Threads used("modes", options.threads);
     if (has_nothing(rig)) return plain_modes(rig, options);
-    const RigRoots roots("modes", rig, options.gravity, [&](double share) { advance(options.progress, 0.9 * share); });
+    const RigRoots roots("modes", rig, options.gravity,
+                         [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = RigMethod::counts;
@@ -313,24 +329,28 @@ REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) :
     if (detail::has_nothing(rig))
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
-        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
+        roots_ =
+            std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
 }
 
 REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {
     detail::require_positive("count_modes", "conical height", height);
     if (plain_) return plain_->above_height(height);
     const auto above = [&](bool forward) {
-        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height", height);
+        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height",
+                             height);
     };
     return above(true) + (roots_->has_momentum() ? above(false) : 0);
 }
 
 REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
     if (!std::isfinite(angular_speed) || angular_speed == 0)
-        detail::throw_invalid("count_modes", "angular speed must be finite and not 0", angular_speed);
+        detail::throw_invalid("count_modes", "angular speed must be finite and not 0",
+                              angular_speed);
     if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
     const bool forward = angular_speed > 0 || !roots_->has_momentum();
-    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed", angular_speed);
+    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed",
+                         angular_speed);
 }
 
 REVCHAIN_DEFINE

@@ -60,7 +60,8 @@ Link<double> with_datum(Link<double> link, Datum datum, double x) {
 /// and W/kappa monotone in W, both follow from the ends. At most 1 where all centroids are at or
 /// below their pins, since W dM <= M and W dK <= K. Cost O(N).
 REVCHAIN_LAZY
-double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
+double weight_influence(const Chain<double>& chain, Index link, double low, double high,
+                        double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {
@@ -105,9 +106,12 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
         range.low = std::min(0.0, present), range.high = std::max(link.length, present);
     if (low) range.low = *low;
     if (high) range.high = *high;
-    const auto refuse = [&](const std::string& rule, double value) { throw_invalid(place, "between: " + rule, value); };
+    const auto refuse = [&](const std::string& rule, double value) {
+        throw_invalid(place, "between: " + rule, value);
+    };
     if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high))
-        refuse("its high end must exceed its low end " + in_digits(range.low) + ", both finite", range.high);
+        refuse("its high end must exceed its low end " + in_digits(range.low) + ", both finite",
+               range.high);
     if (datum != Datum::centroid && range.low < 0)
         refuse("its low end must not be negative for this quantity", range.low);
     if (datum != Datum::centroid && datum != Datum::radius_of_gyration && !(range.low > 0))
@@ -117,8 +121,10 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
     const double W = link.weight, a = link.length, h = link.centroid;
     if (datum == Datum::centroid && W > 0)
         range.low = std::max(range.low, below > 0 ? -a * below / W * (1 - inside) : a * inside);
-    if (datum == Datum::weight && h < 0) range.high = std::min(range.high, -a * below / h * (1 - inside));
-    if (datum == Datum::length && h < 0) range.low = std::max(range.low, -W * h / below * (1 + inside));
+    if (datum == Datum::weight && h < 0)
+        range.high = std::min(range.high, -a * below / h * (1 - inside));
+    if (datum == Datum::length && h < 0)
+        range.low = std::max(range.low, -W * h / below * (1 + inside));
     if (!(range.low < range.high)) refuse("the link would stand, not hang, up to", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
@@ -132,7 +138,8 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
 /// It must be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a
 /// and in h. At the support v = 0. Cost O(N).
 REVCHAIN_LAZY
-std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum, const Wide<double>& height) {
+std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum,
+                                    const Wide<double>& height) {
     using S = Wide<double>;
     const Pencils<double> pencils(chain);
     const auto& elements = pencils.wide().elements;
@@ -147,7 +154,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
     for (std::size_t m = n; m-- > at + 1;) {
         const auto& e = elements[m];
         const S stiffness = lambda * e.stiffness;
-        E = m + 1 == n ? stiffness - e.lower : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
+        E = m + 1 == n ? stiffness - e.lower
+                       : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
     }
     const ScaledLink<S> link = scaled_links(chain)[at];
     const auto& [W, a, h, rho, below] = link;
@@ -173,7 +181,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
             if (top)
                 quadratic(-W, lambda * W, a * a * D + turning);
             else
-                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda), a * a * D * (W - E) - A * turning);
+                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda),
+                          a * a * D * (W - E) - A * turning);
             break;
         }
         case Datum::length: {
@@ -181,7 +190,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
             if (top)
                 quadratic(D, lambda * below, own);
             else
-                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h, A * own - W * W * h * h);
+                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h,
+                          A * own - W * W * h * h);
             break;
         }
         default: {  // the factor

@@ -43,12 +43,14 @@ template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator*(const Interval<V>& x, const Interval<V>& y) {
     const V a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high;
     const V open = detail::unknown((a + b) + (c + d));
-    return {detail::down(min(min(a, b), min(c, d)) + open), detail::up(max(max(a, b), max(c, d)) + open)};
+    return {detail::down(min(min(a, b), min(c, d)) + open),
+            detail::up(max(max(a, b), max(c, d)) + open)};
 }
 /// NaN unless y is positive.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator/(const Interval<V>& x, const Interval<V>& y) {
-    const V zero(0), open = if_less(zero, y.low, zero, V(std::numeric_limits<Lane<V>>::quiet_NaN()));
+    const V zero(0),
+        open = if_less(zero, y.low, zero, V(std::numeric_limits<Lane<V>>::quiet_NaN()));
     return {detail::down(x.low / if_less(x.low, zero, y.low, y.high) + open),
             detail::up(x.high / if_less(x.high, zero, y.high, y.low) + open)};
 }
@@ -70,7 +72,8 @@ template <IsPack V>
 }
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> hull(const Interval<V>& x, const Interval<V>& y) {
-    return {min(x.low, y.low) + detail::unknown(x.low + y.low), max(x.high, y.high) + detail::unknown(x.high + y.high)};
+    return {min(x.low, y.low) + detail::unknown(x.low + y.low),
+            max(x.high, y.high) + detail::unknown(x.high + y.high)};
 }
 
 }  // namespace revchain

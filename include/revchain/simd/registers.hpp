@@ -43,11 +43,14 @@ struct RegisterOf {
     // GCC 12 aligns those of template parameters to 16 bytes unless told otherwise, and then
     // assumes their natural alignment.
     typedef T Numbers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
-    typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
+    typedef T InMemory
+        __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     using Integer = IntegerLike<T>;
     using Natural = std::make_unsigned_t<Integer>;
-    typedef Integer Integers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
-    typedef Natural Naturals __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
+    typedef Integer Integers
+        __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
+    typedef Natural Naturals
+        __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     // NOLINTEND(modernize-use-using)
 
     [[gnu::always_inline]] static void fill(Numbers& to, const T& x) {
@@ -74,8 +77,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x, const Numbers& y,
-                                                         const Numbers& p) {
+    [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x,
+                                                         const Numbers& y, const Numbers& p) {
 #if defined(REVCHAIN_FUSED_INSTRUCTIONS)
         if constexpr (is_double && bytes == 64)
             to = __builtin_ia32_vfmaddpd512_mask(x, y, -p, all_lanes, as_it_is);
@@ -114,8 +117,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static void equal(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            from_mask(
-                to, __builtin_ia32_pcmpeqq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
+            from_mask(to, __builtin_ia32_pcmpeqq512_mask(REVCHAIN_BITS_AS(Longs, x),
+                                                         REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x == y;
@@ -123,14 +126,14 @@ struct RegisterOf {
     [[gnu::always_inline]] static void greater(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            from_mask(
-                to, __builtin_ia32_pcmpgtq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
+            from_mask(to, __builtin_ia32_pcmpgtq512_mask(REVCHAIN_BITS_AS(Longs, x),
+                                                         REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x > y;
     }
-    [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y, const Numbers& a,
-                                               const Numbers& b) {
+    [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y,
+                                               const Numbers& a, const Numbers& b) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
             to = __builtin_ia32_blendmpd_512_mask(b, a, mask_less(x, y));
@@ -141,7 +144,8 @@ struct RegisterOf {
 
    private:
     static constexpr std::size_t bytes = Width * sizeof(T);
-    static constexpr bool is_double = std::is_same_v<T, double>, has_masks = is_double && bytes == 64;
+    static constexpr bool is_double = std::is_same_v<T, double>,
+                          has_masks = is_double && bytes == 64;
     static constexpr int all_lanes = -1, as_it_is = 4;  // rounding
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
     // NOLINTBEGIN(modernize-use-using)

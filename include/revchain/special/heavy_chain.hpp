@@ -92,7 +92,8 @@ inline Vector<double> revolutions_per_second(Index count, double length,
                                              double gravity = conical_pendulum::standard_gravity) {
     detail::check("analytic::heavy_chain::revolutions_per_second", "count", count, length);
     const double pendulum = conical_pendulum::revolutions_per_second(length, gravity);
-    return detail::for_numbers(count, [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
+    return detail::for_numbers(count,
+                               [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
 }
 
 }  // namespace revchain::analytic::heavy_chain

@@ -12,7 +12,8 @@
 /// hold for exponents from -0.99 to 100.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tapered_chain {
 namespace detail {
-inline Index check(std::string_view where, std::string_view name, Index number, double length, double exponent) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length,
+                   double exponent) {
     analytic::detail::check(where, name, number, length);
     if (exponent > -1 && exponent <= 1e4) return number;
     revchain::detail::throw_invalid(where, "exponent must be above -1 and at most 1e4", exponent);
@@ -48,7 +49,9 @@ class Mode {
 
     /// Offset Gamma(p+1) (z/2)^-p J_p(z) at x, 1 at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, which exceeds 1 for p < -1/2.
-    double shape(double x) const { return offset_(argument(x, "analytic::tapered_chain::Mode::shape")); }
+    double shape(double x) const {
+        return offset_(argument(x, "analytic::tapered_chain::Mode::shape"));
+    }
 
     /// dy/dx: -Gamma(p+2) (z/2)^-(p+1) J_{p+1}(z) / lambda, -1/lambda at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest slope.

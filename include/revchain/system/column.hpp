@@ -19,8 +19,9 @@ namespace revchain::inline REVCHAIN_BUILD {
 template <class V>
 class Column {
    public:
-    Column(V value) : single_(std::move(value)) {}                       // NOLINT(google-explicit-constructor)
-    Column(std::vector<V> values) : count_(values.size()), stride_(1) {  // NOLINT(google-explicit-constructor)
+    Column(V value) : single_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+    Column(std::vector<V> values)
+        : count_(values.size()), stride_(1) {  // NOLINT(google-explicit-constructor)
         owned_ = std::make_shared<const std::vector<V>>(std::move(values));
         numbers_ = owned_->data();
     }
@@ -39,7 +40,8 @@ class Column {
     const V* data() const { return is_scalar() ? &single_ : numbers_; }
     const V& operator[](Index m) const { return data()[m * stride_]; }
     friend bool operator==(const Column& x, const Column& y) {
-        return x.stride_ == y.stride_ && std::equal(x.data(), x.data() + x.stored(), y.data(), y.data() + y.stored());
+        return x.stride_ == y.stride_ &&
+               std::equal(x.data(), x.data() + x.stored(), y.data(), y.data() + y.stored());
     }
 
    private:
@@ -75,7 +77,8 @@ Summary<T> summary(const T* x, Index count) {
     constexpr bool compensated = is_double_word<Wide<T>>;
     using S = std::conditional_t<compensated, T, Wide<T>>;
     return simd([&](auto) REVCHAIN_INLINED {
-        S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
+        S sum[sum_lanes]{},
+            error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
         T least[sum_lanes], most[sum_lanes]{};
         std::fill_n(least, sum_lanes, x[0]);
         const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
@@ -130,12 +133,13 @@ Wide<T> times(const T& x, Index count) {
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;
-    if (column.is_scalar()) return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
+    if (column.is_scalar())
+        return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
     T least = column[0], most{};
     CompensatedSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
-        look();
+        check_interrupt();
         if (below != nullptr) below->push_back(sum.value());
         const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
         sum.add(segment.sum);

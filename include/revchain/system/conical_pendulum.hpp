@@ -20,7 +20,8 @@ template <class Options>
 [[noreturn]] void throw_too_slow(std::string_view place, Index mode, double critical, double height,
                                  const Options& options) {
     const std::string there = ", where mode " + std::to_string(mode) + " leaves the vertical";
-    if (!options.angular_speed) throw_rule(place, "conical height", "less than " + in_digits(critical) + there, height);
+    if (!options.angular_speed)
+        throw_rule(place, "conical height", "less than " + in_digits(critical) + there, height);
     const double speed = conical_pendulum::angular_speed(critical, options.gravity);
     throw_rule(place, "angular speed", "greater than " + in_digits(speed) + " rad/s" + there,
                std::abs(*options.angular_speed));
@@ -29,20 +30,24 @@ template <class Options>
 }  // namespace detail
 
 template <Real T>
-HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance, const T& height) {
+HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance,
+                            const T& height) {
     using std::frexp, std::ldexp, std::sqrt;
     constexpr std::string_view place = "held_plummet";
-    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread, "distance", distance,
-                             "height", height);
+    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread,
+                             "distance", distance, "height", height);
     // Kahan's order of the sides, for the area of a thin triangle.
     T a = upper_thread, b = lower_thread, c = distance;
     if (a < b) std::swap(a, b);
     if (b < c) std::swap(b, c);
     if (a < b) std::swap(a, b);
     const T slack = c - (a - b);
-    if (!(slack >= T(0))) detail::throw_invalid(place, "distance must make a triangle with the two threads", distance);
+    if (!(slack >= T(0)))
+        detail::throw_invalid(place, "distance must make a triangle with the two threads",
+                              distance);
     // Roots first: a product of two lengths may leave the range.
-    const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
+    const T radius =
+        sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
     // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance
     // are differences.
     using S = Wide<T>;
@@ -50,7 +55,8 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     frexp(a, &unit), frexp(distance, &short_unit);
     const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit));
     const S d(ldexp(distance, -unit)), x(height);
-    const S rise = ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
+    const S rise =
+        ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
     const S along = rise * (u + l);
     const S depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     if (x >= depth) {
@@ -78,7 +84,8 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
     if (!(farthest <= std::numeric_limits<T>::max() / T(2)) || !(c > T(0)))
-        detail::throw_invalid(place, "height must be larger, else the tangent of an inclination overflows", height);
+        detail::throw_invalid(
+            place, "height must be larger, else the tangent of an inclination overflows", height);
     const auto function = [&](const T& t) {
         const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant;
         const T versed = t / (secant + T(1)) * (t / secant);
@@ -86,14 +93,17 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
         // far inwards l sin d is nearly l: the difference of the two is added instead
         if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
         if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
-        return std::pair<T, T>(t * (gap + versed) - r, gap + versed * (T(1) + cosine + cosine * cosine));
+        return std::pair<T, T>(t * (gap + versed) - r,
+                               gap + versed * (T(1) + cosine + cosine * cosine));
     };
     const auto negative = [&](const T& t) {  // where the function falls
         const auto [value, slope] = function(t);
         return std::pair<T, T>(-value, -slope);
     };
     CarriedInclinations<T> result;
-    const auto add = [&](const T& t) { result.inclination[static_cast<std::size_t>(result.count++)] = atan(t); };
+    const auto add = [&](const T& t) {
+        result.inclination[static_cast<std::size_t>(result.count++)] = atan(t);
+    };
     T turn(0);  // slope 0 at |t| = sqrt(c^(-2/3) - 1): a maximum on the inner side
     if (gap < T(0)) {
         const T root = cbrt(c);

@@ -26,10 +26,11 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
         const From& x = column.data()[m];
         values.push_back(from_words<To>(x));
         if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
-            throw_invalid("Chain",
-                          "links[" + std::to_string(m) + "]: " + std::string(name) +
-                              " must lie in the range of the precision; use a wider one, or another unit",
-                          static_cast<double>(x));
+            throw_invalid(
+                "Chain",
+                "links[" + std::to_string(m) + "]: " + std::string(name) +
+                    " must lie in the range of the precision; use a wider one, or another unit",
+                static_cast<double>(x));
     }
     if (column.is_scalar()) return Column<To>(values[0]);
     return values;
@@ -43,8 +44,9 @@ Chain<To> converted(const Chain<From>& chain) {
     const auto weight = converted<To>("weight", chain.weight());
     const auto length = converted<To>("length", chain.length());
     const auto centroid = converted<To>("centroid", chain.centroid());
-    return Chain<To>(chain.size(), weight, length, centroid,
-                     converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
+    return Chain<To>(
+        chain.size(), weight, length, centroid,
+        converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
 }
 
 }  // namespace revchain::detail

@@ -11,13 +11,16 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// Weight per length of a cord, s the distance from the free end: the exponent p of s^p; a function
 /// of s; or such a function as polynomials, which several cords may share.
-using CordDensity = std::variant<double, std::function<double(double)>, std::shared_ptr<const LineDensity>>;
+using CordDensity =
+    std::variant<double, std::function<double(double)>, std::shared_ptr<const LineDensity>>;
 
 /// The weights of a cord. Where `weight` is given, only the proportions of `density` count.
 struct CordOptions {
-    std::optional<double> weight{};  ///< of the cord without the tip; absent: 1, or the total of a density function
-    CordDensity density = 0.0;       ///< weight per length; exponent 0: uniform, 1: thicker towards the support
-    double tip_weight = 0;           ///< of a particle at the free end, in the unit of `weight`
+    std::optional<double>
+        weight{};  ///< of the cord without the tip; absent: 1, or the total of a density function
+    CordDensity density =
+        0.0;  ///< weight per length; exponent 0: uniform, 1: thicker towards the support
+    double tip_weight = 0;  ///< of a particle at the free end, in the unit of `weight`
 };
 
 /// A perfectly flexible cord hung from one end, the limit of a chain of ever more links.
@@ -33,19 +36,24 @@ class Cord {
         detail::require_positive("Cord", "length", length);
         if (const double* exponent = std::get_if<double>(&options.density)) {
             if (!(*exponent > -1 && *exponent <= 1e4))
-                detail::throw_invalid("Cord", "the exponent of the density must be above -1 and at most 1e4",
-                                      *exponent);
+                detail::throw_invalid(
+                    "Cord", "the exponent of the density must be above -1 and at most 1e4",
+                    *exponent);
             exponent_ = *exponent;
         } else {
-            if (const auto* function = std::get_if<std::function<double(double)>>(&options.density)) {
-                if (!*function) detail::throw_invalid("Cord", "the density must be a function, not an empty one");
+            if (const auto* function =
+                    std::get_if<std::function<double(double)>>(&options.density)) {
+                if (!*function)
+                    detail::throw_invalid("Cord",
+                                          "the density must be a function, not an empty one");
                 density_ = std::make_shared<LineDensity>(*function, length);
             } else {
                 density_ = std::get<std::shared_ptr<const LineDensity>>(options.density);
             }
             if (!density_ || density_->length() != length)
-                detail::throw_invalid("Cord", "the density must be given over the length of the cord, not over",
-                                      density_ ? density_->length() : 0.0);
+                detail::throw_invalid(
+                    "Cord", "the density must be given over the length of the cord, not over",
+                    density_ ? density_->length() : 0.0);
             if (!options.weight) weight_ = density_->total();
         }
         detail::require_positive("Cord", "weight", weight_);
@@ -67,9 +75,11 @@ class Cord {
     std::shared_ptr<const LineDensity> line_density() const {
         if (!exponent_ || is_uniform()) return density_;
         if (!(*exponent_ <= 20))
-            detail::throw_invalid("Cord", "power series take exponents of the density up to 20 only", *exponent_);
+            detail::throw_invalid(
+                "Cord", "power series take exponents of the density up to 20 only", *exponent_);
         return std::make_shared<LineDensity>(
-            [length = length_, p = *exponent_](double s) { return std::pow(s / length, p); }, length_);
+            [length = length_, p = *exponent_](double s) { return std::pow(s / length, p); },
+            length_);
     }
 
    private:

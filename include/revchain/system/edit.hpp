@@ -30,7 +30,8 @@ Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
     const S w1(ldexp(one.weight, -exponent)), w2(ldexp(other.weight, -exponent)), both = w1 + w2;
     const S share = w2 / both, rest = w1 / both, apart = other.centroid - one.centroid;
     const S centroid = one.centroid + share * apart;
-    const S gyration = rest * one.gyration_ratio + share * other.gyration_ratio + share * rest * apart * apart;
+    const S gyration =
+        rest * one.gyration_ratio + share * other.gyration_ratio + share * rest * apart * apart;
     return {weight, length, times_length<T>(centroid, length), gyration};
 }
 
@@ -54,14 +55,17 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 /// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not
 /// positive, a negative radius of gyration, and where the result is not a valid chain.
 template <Real T>
-Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, const T& radius_of_gyration = T(0)) {
+Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0,
+                     const T& radius_of_gyration = T(0)) {
     constexpr std::string_view place = "with_weight";
     detail::require_positive(place, "weight", weight);
     if (pin < 0 || pin >= chain.size())
-        detail::throw_invalid(place, "pin must be from 0, the free end, to " + std::to_string(chain.size() - 1), pin);
+        detail::throw_invalid(
+            place, "pin must be from 0, the free end, to " + std::to_string(chain.size() - 1), pin);
     auto links = detail::links_of(chain);
     Link<T>& link = links[static_cast<std::size_t>(pin)];
-    const Wide<T> gyration = detail::gyration_from_radius<T>(place, link.length, radius_of_gyration);
+    const Wide<T> gyration =
+        detail::gyration_from_radius<T>(place, link.length, radius_of_gyration);
     link = detail::joined<T>(link.length, detail::body(link), {weight, Wide<T>(T(1)), gyration});
     return Chain<T>(links);
 }
@@ -74,7 +78,8 @@ Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     constexpr std::string_view place = "with_thread";
     detail::require_positive(place, "length", length);
     if (pin < 1 || pin > chain.size())
-        detail::throw_invalid(place, "pin must be from 1 to " + std::to_string(chain.size()) + ", the support", pin);
+        detail::throw_invalid(
+            place, "pin must be from 1 to " + std::to_string(chain.size()) + ", the support", pin);
     auto links = detail::links_of(chain);
     links.insert(links.begin() + pin, plummet<T>(T(0), length));
     return Chain<T>(links);
@@ -87,7 +92,9 @@ template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {
     if (link < 0 || link + 1 >= chain.size())
         detail::throw_invalid(
-            "clamped", "link must be from 0 to " + std::to_string(chain.size() - 2) + ", the next to highest", link);
+            "clamped",
+            "link must be from 0 to " + std::to_string(chain.size() - 2) + ", the next to highest",
+            link);
     auto links = detail::links_of(chain);
     const auto at = static_cast<std::size_t>(link);
     const Link<T> lower = links[at], upper = links[at + 1];
@@ -97,7 +104,8 @@ Chain<T> clamped(const Chain<T>& chain, Index link) {
     const S upper_ratio = detail::in_lengths<T>(upper.length, length);
     const detail::Body<T> above{upper.weight, detail::in_lengths<T>(upper.centroid, length),
                                 upper.gyration_ratio * (upper_ratio * upper_ratio)};
-    const detail::Body<T> below{lower.weight, upper_ratio + detail::in_lengths<T>(lower.centroid, length),
+    const detail::Body<T> below{lower.weight,
+                                upper_ratio + detail::in_lengths<T>(lower.centroid, length),
                                 lower.gyration_ratio * (ratio * ratio)};
     links[at + 1] = detail::joined<T>(length, above, below);
     links.erase(links.begin() + link);

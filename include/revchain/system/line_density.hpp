@@ -28,7 +28,7 @@ class LineDensity {
    public:
     static constexpr int degree = 12;
     using Coefficients = std::array<double, degree + 1>;  ///< those of powers, the constant first
-    static constexpr double rounding = 8e-15;             // below what functions of a dozen operations give
+    static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
     static constexpr int least_halvings = 2, max_at_tip = 40;
     static constexpr double narrowest = 0x1p-45;  // of pieces, over the distance from the free end
     static constexpr std::size_t max_pieces = 20'000;
@@ -39,28 +39,35 @@ class LineDensity {
     struct Piece {
         double middle, half;
         Coefficients factor;  ///< of powers of (s - middle)/half
-        double power = 0;     ///< not 0: this much of a power law, factor[0] its value at the right end
-        double below = 0;     ///< weight of the chain below the piece
-        double doubt = 0;     ///< estimated error of the weight of the piece
+        double power =
+            0;  ///< not 0: this much of a power law, factor[0] its value at the right end
+        double below = 0;  ///< weight of the chain below the piece
+        double doubt = 0;  ///< estimated error of the weight of the piece
     };
 
     /// Throws InvalidArgument where the function is not positive and finite, for a length that is
     /// not, a function that is rough at too many points, or an integral not known to `most_doubt`.
-    LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
+    LineDensity(const std::function<double(double)>& weight_per_length, double length)
+        : length_(length) {
         detail::require_positive("LineDensity", "length", length);
         Given given{weight_per_length, {}, 0};
-        for (int i = 0; i < grid; ++i) given.on_grid[static_cast<std::size_t>(i)] = given(on_grid(i));
+        for (int i = 0; i < grid; ++i)
+            given.on_grid[static_cast<std::size_t>(i)] = given(on_grid(i));
         given.largest = *std::max_element(given.on_grid.begin(), given.on_grid.end());
         divide(given, 0, length, 0);
-        std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
+        std::sort(pieces_.begin(), pieces_.end(),
+                  [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
         sum_up();
-        const auto worst = std::max_element(pieces_.begin(), pieces_.end(),
-                                            [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
-        if (!(error(length) <= most_doubt)) throw_rough("has an integral that cannot be resolved", worst->middle);
+        const auto worst =
+            std::max_element(pieces_.begin(), pieces_.end(),
+                             [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
+        if (!(error(length) <= most_doubt))
+            throw_rough("has an integral that cannot be resolved", worst->middle);
     }
     /// From the pieces of another one; `below` is computed. Throws InvalidArgument for pieces that are
     /// not contiguous from 0 to `length`, or where the density is not positive and finite.
-    LineDensity(double length, std::vector<Piece> pieces) : length_(length), pieces_(std::move(pieces)) {
+    LineDensity(double length, std::vector<Piece> pieces)
+        : length_(length), pieces_(std::move(pieces)) {
         detail::require_positive("LineDensity", "length", length);
         check_pieces();
         sum_up();
@@ -84,9 +91,11 @@ class LineDensity {
         double moved = 0, largest = 0;
         for (std::size_t i = 1; i < pieces_.size(); ++i) {
             const double at = end(pieces_[i - 1]);
-            const double jump = polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
+            const double jump =
+                polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
             moved += std::abs(jump) * at * epsilon<double>();
-            largest = std::max(largest, moved / std::max(pieces_[i].below, weight_below(std::min(s, length_))));
+            largest = std::max(
+                largest, moved / std::max(pieces_[i].below, weight_below(std::min(s, length_))));
         }
         return largest;
     }
@@ -114,7 +123,8 @@ class LineDensity {
         if (nudged(s) >= length_) return total_ + mean() * (s - length_);
         if (s == 0) return 0;
         const Piece& piece = piece_at(s);
-        if (piece.power != 0) return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
+        if (piece.power != 0)
+            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
         // near the free end the weight must be right relative to itself
         if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
@@ -136,30 +146,38 @@ class LineDensity {
             const double begin = piece.middle - piece.half;
             if (!(piece.half > 0 && std::abs(begin - at) <= gap))
                 detail::throw_invalid(
-                    "LineDensity", "a piece must begin where the one before ends, at " + detail::in_digits(at), begin);
+                    "LineDensity",
+                    "a piece must begin where the one before ends, at " + detail::in_digits(at),
+                    begin);
             double size = 0;
             for (const double c : piece.factor) size += std::abs(c);
             bool positive = size > 0 && std::isfinite(size);
             if (piece.power != 0)
-                positive &= at == 0 && piece.factor[0] > 0 && piece.power > -1 && std::isfinite(piece.power);
+                positive &= at == 0 && piece.factor[0] > 0 && piece.power > -1 &&
+                            std::isfinite(piece.power);
             for (int i = 0; piece.power == 0 && i <= degree; ++i) {
-                const double value = polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
+                const double value =
+                    polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
                 positive &= value >= -10 * rounding * size;
             }
             at = end(piece);
             if (!positive)
-                detail::throw_invalid("LineDensity", "weight per length must be positive and finite from " +
-                                                         detail::in_digits(begin) + " to " + detail::in_digits(at));
+                detail::throw_invalid(
+                    "LineDensity", "weight per length must be positive and finite from " +
+                                       detail::in_digits(begin) + " to " + detail::in_digits(at));
         }
         if (!(std::abs(at - length_) <= gap))
-            detail::throw_invalid("LineDensity", "the pieces must end at the length " + detail::in_digits(length_), at);
+            detail::throw_invalid("LineDensity",
+                                  "the pieces must end at the length " + detail::in_digits(length_),
+                                  at);
     }
     void sum_up() {
         if (pieces_.front().power == 0) at_tip_ = about(0);
         for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);
         for (Piece& piece : pieces_) {
             piece.below = total_;
-            total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
+            total_ += piece.power == 0 ? weight_within(piece, 1)
+                                       : piece.factor[0] * 2 * piece.half / (piece.power + 1);
         }
     }
 
@@ -167,8 +185,9 @@ class LineDensity {
     /// The end of a piece, also if rounded, belongs to the next piece, so that paths continue.
     static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
-        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
-                                            [](double x, const Piece& piece) { return x < end(piece); });
+        const auto after =
+            std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
+                             [](double x, const Piece& piece) { return x < end(piece); });
         return after == pieces_.end() ? pieces_.back() : *after;
     }
     static double polynomial(const Coefficients& factor, double t) {
@@ -197,15 +216,18 @@ class LineDensity {
             const double value = function(s);
             if (!(value > 0 && std::isfinite(value)))
                 detail::throw_invalid(
-                    "LineDensity", "weight per length must be positive and finite; at " + detail::in_digits(s), value);
+                    "LineDensity",
+                    "weight per length must be positive and finite; at " + detail::in_digits(s),
+                    value);
             return value;
         }
     };
     double on_grid(int i) const { return length_ * (i + 0.5) / grid; }
 
     [[noreturn]] static void throw_rough(const std::string& how, double s) {
-        detail::throw_invalid("LineDensity", "weight per length " + how +
-                                                 " (use a chain of many short links instead of a cord); near s",
+        detail::throw_invalid("LineDensity",
+                              "weight per length " + how +
+                                  " (use a chain of many short links instead of a cord); near s",
                               s);
     }
 
@@ -214,9 +236,11 @@ class LineDensity {
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
         Coefficients sample{}, chebyshev{};
         const auto cosine = [](std::size_t k, std::size_t i) {
-            return std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
+            return std::cos(std::numbers::pi * static_cast<double>(k) *
+                            (static_cast<double>(i) + 0.5) / count);
         };
-        for (std::size_t i = 0; i < count; ++i) sample[i] = f(piece.middle + piece.half * cosine(1, i));
+        for (std::size_t i = 0; i < count; ++i)
+            sample[i] = f(piece.middle + piece.half * cosine(1, i));
         double largest = *std::max_element(sample.begin(), sample.end());
         double least = *std::min_element(sample.begin(), sample.end());
         for (std::size_t k = 0; k < count; ++k) {
@@ -236,9 +260,11 @@ class LineDensity {
         if (tail > tolerance && tail > 0.03 * before && before <= 8 * epsilon<double>() * f.largest)
             tolerance = std::max(tolerance, 8 * epsilon<double>() * f.largest);
         // At the free end, where little hangs below, the density must be right relative to itself.
-        bool good = halvings >= least_halvings && tail <= tolerance && (low > 0 || least > 0.02 * largest);
+        bool good =
+            halvings >= least_halvings && tail <= tolerance && (low > 0 || least > 0.02 * largest);
         if (good) {
-            for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
+            for (std::size_t k = count;
+                 k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
                 chebyshev[k] = 0;
             piece.factor = in_powers(chebyshev);
             good = agrees(f, low, high, piece, 10 * rounding * largest, 10 * tolerance);
@@ -255,10 +281,12 @@ class LineDensity {
             piece.power = std::log2(f(high) / f(high / 2));
             if (!(piece.power > -1))
                 detail::throw_invalid("LineDensity",
-                                      "the weight near the free end must be finite; weight per length goes like s^p, p",
+                                      "the weight near the free end must be finite; weight per "
+                                      "length goes like s^p, p",
                                       piece.power);
             if (piece.power == 0) piece.power = 1e-30;
-            const double turned = std::abs(std::log2(f(high / 2) / f(high / 4)) - piece.power), grown = piece.power + 1;
+            const double turned = std::abs(std::log2(f(high / 2) / f(high / 4)) - piece.power),
+                         grown = piece.power + 1;
             piece.doubt = 8 * turned * piece.factor[0] * high / (grown * grown);
         } else if (!good && !is_jump(f, low, high, piece)) {
             constexpr int parts = 64;
@@ -288,7 +316,8 @@ class LineDensity {
     /// Whether a polynomial gives the function within a tolerance: between its Chebyshev points, at
     /// the ends and on the grid. Sets its doubt: the error of the integral by the values between or,
     /// where one differs by more than the rounding, by the largest difference.
-    bool agrees(const Given& f, double low, double high, Piece& piece, double rounded, double tolerance) const {
+    bool agrees(const Given& f, double low, double high, Piece& piece, double rounded,
+                double tolerance) const {
         const auto off = [&](double s, double value) {
             return polynomial(piece.factor, (s - piece.middle) / piece.half) - value;
         };

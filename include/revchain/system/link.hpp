@@ -13,8 +13,8 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Units: any consistent set; weights enter only by their ratios. `Chain` checks the numbers.
 template <Real T>
 struct Link {
-    T weight{};    ///< W >= 0 (0: a massless thread or wire)
-    T length{};    ///< a > 0, pin to pin
+    T weight{};  ///< W >= 0 (0: a massless thread or wire)
+    T length{};  ///< a > 0, pin to pin
     T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
     /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity: not the pendulum
     /// length l = h + rho^2/h, because h = 0 is allowed; a ratio, so that no unit of length takes it
@@ -56,8 +56,10 @@ template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());
     if (!(ratio <= largest && Wide<T>(T(1)) <= ratio * largest))
-        throw_invalid(place, "radius of gyration and length are too far apart for this scalar, with a length of " +
-                                 in_digits(length));
+        throw_invalid(
+            place,
+            "radius of gyration and length are too far apart for this scalar, with a length of " +
+                in_digits(length));
     return ratio;
 }
 
@@ -80,8 +82,9 @@ template <Real T>
 struct CompoundPendulum {
     T weight{};
     T length{};
-    T centroid{};                           ///< h
-    std::optional<T> pendulum_length{};     ///< l, of the equivalent simple pendulum about the upper pin; sign of h
+    T centroid{};  ///< h
+    std::optional<T>
+        pendulum_length{};  ///< l, of the equivalent simple pendulum about the upper pin; sign of h
     std::optional<T> radius_of_gyration{};  ///< rho >= 0, about the centre of gravity
 };
 
@@ -100,17 +103,20 @@ Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
 /// (rho/a)^2 from rho^2 = h (l - h), §8 (1). Throws InvalidArgument for an imaginary rho, and for
 /// h = 0, where l does not determine rho.
 template <Real T>
-Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid, T pendulum_length) {
+Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid,
+                                      T pendulum_length) {
     require_finite(place, "centroid", centroid, "pendulum length", pendulum_length);
     if (centroid == T(0))
-        throw_invalid(place, "a centroid at the upper pin has no pendulum length; give the radius of "
-                             "gyration instead");
+        throw_invalid(place,
+                      "a centroid at the upper pin has no pendulum length; give the radius of "
+                      "gyration instead");
     require_positive(place, "length", length);
     if (centroid > T(0) ? pendulum_length < centroid : centroid < pendulum_length)
-        throw_invalid(place, "imaginary radius of gyration: centroid (pendulum length - centroid) must "
-                             "not be negative, with centroid " +
-                                 in_digits(centroid) + " and pendulum length " +
-                                 in_digits(pendulum_length));
+        throw_invalid(place,
+                      "imaginary radius of gyration: centroid (pendulum length - centroid) must "
+                      "not be negative, with centroid " +
+                          in_digits(centroid) + " and pendulum length " +
+                          in_digits(pendulum_length));
     if (pendulum_length == centroid) return Wide<T>(T(0));
     const Wide<T> beyond = Wide<T>(pendulum_length) - Wide<T>(centroid);  // exact
     return in_reach(place, in_lengths<T>(centroid, length) * in_lengths(beyond, length), length);
@@ -127,11 +133,13 @@ template <Real T>
 Link<T> compound_pendulum(const CompoundPendulum<T>& body) {
     constexpr std::string_view place = "compound_pendulum";
     if (body.pendulum_length.has_value() == body.radius_of_gyration.has_value())
-        detail::throw_invalid(place, "give either pendulum_length or radius_of_gyration (not both)");
+        detail::throw_invalid(place,
+                              "give either pendulum_length or radius_of_gyration (not both)");
     return {body.weight, body.length, body.centroid,
             body.radius_of_gyration
                 ? detail::gyration_from_radius<T>(place, body.length, *body.radius_of_gyration)
-                : detail::gyration_from_pendulum_length<T>(place, body.length, body.centroid, *body.pendulum_length)};
+                : detail::gyration_from_pendulum_length<T>(place, body.length, body.centroid,
+                                                           *body.pendulum_length)};
 }
 
 /// rho, radius of gyration about the centre of gravity.

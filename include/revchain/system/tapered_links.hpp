@@ -20,7 +20,8 @@ struct TaperedLinks {
 template <class S>
 bool is_lost(const S& term, const S& sum) {
     using std::abs;
-    return static_cast<Narrow<S>>(abs(term)) <= operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
+    return static_cast<Narrow<S>>(abs(term)) <=
+           operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
 }
 
 /// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then n doublings, which leave the relative
@@ -31,7 +32,8 @@ std::pair<S, S> decay(S x) {
     int doublings = 0;
     for (; x > S(0.25); ++doublings) x = ldexp(x, -1);
     S term = -x, fall = term;
-    for (double n = 2; n < 40 && !is_lost(term, fall); ++n) fall = fall + (term = -(term * x) / S(n));
+    for (double n = 2; n < 40 && !is_lost(term, fall); ++n)
+        fall = fall + (term = -(term * x) / S(n));
     S rest = S(1) + fall;
     for (; doublings > 0; --doublings) fall = fall * (S(2) + fall), rest = rest * rest;
     return {fall, rest};
@@ -71,10 +73,11 @@ TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const
     const S q = S(exponent) + S(1);
     S hung(weight);
     for (std::size_t m = n - 1; m > 0; --m) {
-        if (m % 64 == 0) look();
+        if (m % 64 == 0) check_interrupt();
         const S u = S(1) / S(2 * static_cast<double>(m) + 1), u2 = u * u;
         S power = u, area = u;  // artanh u
-        for (double odd = 3; odd < 200 && !is_lost(power, area); odd += 2) area = area + (power = power * u2) / S(odd);
+        for (double odd = 3; odd < 200 && !is_lost(power, area); odd += 2)
+            area = area + (power = power * u2) / S(odd);
         const auto [fall, rest] = decay<S>(S(2) * q * area);
         const auto [mean, variance] = mean_and_variance<S>(exponent, u);
         links.weight[m] = static_cast<T>(-(hung * fall));

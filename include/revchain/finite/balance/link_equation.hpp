@@ -120,18 +120,25 @@ T rounding_step(const T& t) {
 
 /// Encloses the tangents under the loads R, for any width of the stiffness; NaN if none is found.
 template <Real T>
-Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
+Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning,
+                       const Interval<T>& R) {
     if (is_zero(turning)) return R / stiffness;
     const bool wide = stiffness.width() > T(16) * epsilon<T>() * stiffness.low;
     const auto near = [&](const T& load, const T& steepest) {
         return tangent_of(wide ? steepest : stiffness.middle(), turning.middle(), load);
     };
     const T low = near(R.low, R.low < T(0) ? stiffness.low : stiffness.high);
-    const T high = !wide && R.low == R.high ? low : near(R.high, R.high < T(0) ? stiffness.high : stiffness.low);
-    const auto load = [&](const T& t) { return stiffness * Interval<T>(t) + turning * sine_at(Interval<T>(t)); };
+    const T high = !wide && R.low == R.high
+                       ? low
+                       : near(R.high, R.high < T(0) ? stiffness.high : stiffness.low);
+    const auto load = [&](const T& t) {
+        return stiffness * Interval<T>(t) + turning * sine_at(Interval<T>(t));
+    };
     constexpr int tries = 41;
-    return {first_passing(low, T(-rounding_step(low)), tries, [&](const T& t) { return load(t).high <= R.low; }),
-            first_passing(high, rounding_step(high), tries, [&](const T& t) { return load(t).low >= R.high; })};
+    return {first_passing(low, T(-rounding_step(low)), tries,
+                          [&](const T& t) { return load(t).high <= R.low; }),
+            first_passing(high, rounding_step(high), tries,
+                          [&](const T& t) { return load(t).low >= R.high; })};
 }
 
 }  // namespace revchain::finite

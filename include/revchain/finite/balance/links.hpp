@@ -58,7 +58,8 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     using S = Wide<T>;
     using E = Narrow<S>;
     if (!chain.has_one_weight_unit())
-        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
+        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
+                              chain.total_weight());
     Links<S> result;
     result.units = chain.units();
     result.links.reserve(static_cast<std::size_t>(chain.size()));
@@ -71,7 +72,8 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
         const S a(E(ldexp(link.length, -result.units.length_exponent)));
         const S h(E(ldexp(link.centroid, -result.units.length_exponent)));
         const S p = h / a, q = (a - h) / a, moment = p * weight;
-        result.links.push_back({a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
+        result.links.push_back(
+            {a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
         below = below + S(link.weight);
     }
     return result;

@@ -46,7 +46,8 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
 /// Solves a symmetric tridiagonal system: `x` is the right side, then the solution. `upper[m]`
 /// couples rows m and m + 1; the last is not used. The diagonal becomes the pivots.
 REVCHAIN_LAZY
-void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
+void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper,
+                       std::vector<double>& x) {
     for (std::size_t m = 0; m < x.size(); ++m) {
         if (m > 0) {
             const double share = upper[m - 1] / diagonal[m - 1];
@@ -77,36 +78,41 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: forces, then steps
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
-        S from_below(0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
+        S from_below(
+            0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
         double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
             if (!(abs(d) < link.length)) return result;
-            const S cosine = cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
-            const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
-                    at_upper = link.rest * y[m + 1];
+            const S cosine = cosine_of(link.length, d, result.stands(m)),
+                    tangent = d / (link.length * cosine);
+            const S pull = height * link.pull * tangent, turn = link.cross * d,
+                    at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
             // lambda times the force of the link on its lower pin; on the upper pin it is opposite
             change[m] = -as_double(from_below + (pull + turn - at_lower));
             const double c = as_double(cosine), a = as_double(link.length);
-            const double stiffness = as_double(height * link.pull) / (a * c * c * c) + as_double(link.cross);
+            const double stiffness =
+                as_double(height * link.pull) / (a * c * c * c) + as_double(link.cross);
             diagonal[m] = below_stiffness - below_mass + stiffness - as_double(link.moment);
             upper[m] = -stiffness;
             from_below = -(pull + turn) - at_upper;
             below_stiffness = stiffness, below_mass = as_double(link.rest);
         }
-        if constexpr (is_held<End>) {
+        if constexpr (is_support<End>) {
             if (support.yields()) {
-                change[n] =
-                    -as_double(from_below + support.stiffness * (y[n] - support.radius) - support.carriage * y[n]);
-                diagonal[n] = below_stiffness - below_mass + as_double(support.stiffness - support.carriage);
+                change[n] = -as_double(from_below + support.stiffness * (y[n] - support.radius) -
+                                       support.carriage * y[n]);
+                diagonal[n] =
+                    below_stiffness - below_mass + as_double(support.stiffness - support.carriage);
             }
         }
         solve_tridiagonal(diagonal, upper, change);
         double largest = 0;
         for (std::size_t m = 0; m < rows; ++m) {
             const double share = as_double(abs(y[m]));
-            largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
+            largest =
+                std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
             y[m] = y[m] + S(change[m]);
         }
         if (!(largest < std::numeric_limits<double>::infinity())) return result;

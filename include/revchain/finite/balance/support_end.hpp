@@ -30,7 +30,7 @@ struct OnAxis {
 ///     y = b + (H + W y)/(lambda E),
 /// with H/lambda the pull of the chain. Unless b = 0 there is no straight shape and no symmetry.
 template <class S>
-struct Held {
+struct SupportEnd {
     S radius;        ///< b, of any sign; a double
     S compliance;    ///< 1/(lambda E); 0 if firm
     S stiffness;     ///< lambda E, if it yields
@@ -52,7 +52,7 @@ struct Held {
 };
 
 template <class End>
-inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
+inline constexpr bool is_support = !std::is_same_v<End, OnAxis>;
 
 /// The sweep of a chain asks these functions for its support, for the posture in which all links
 /// hang, and whether all links may stand (never: nothing would bear the load). See `RiggedLinks`.
@@ -74,7 +74,7 @@ OnAxis enclosed(const OnAxis& end) {
     return end;
 }
 template <class T, class S>
-Held<Interval<T>> enclosed(const Held<S>& end) {
+SupportEnd<Interval<T>> enclosed(const SupportEnd<S>& end) {
     const T b = static_cast<T>(end.radius), W = static_cast<T>(end.carriage);
     return {b, enclosed<T>(end.compliance), enclosed<T>(end.stiffness), W, end.symmetric, end.firm};
 }

@@ -81,8 +81,8 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
 /// Distance of the topmost pin from its `support`, for a tangent of the lowest link or an interval
 /// of them. Puts the tangents of all links into `tangents`.
 template <class S, class End = OnAxis>
-S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lowest, const End& support = {},
-                 std::vector<S>* tangents = nullptr) {
+S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lowest,
+                 const End& support = {}, std::vector<S>* tangents = nullptr) {
     PlainSweep<S> rules{links, height, tangents};
     const SweepEnd<S> end = sweep_up(links, lowest, rules);
     return support.miss(end.offset, end.sum);
@@ -90,7 +90,8 @@ S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lo
 
 /// The sign of `support_offset` at one tangent; 0 if rounding leaves it undecided.
 template <Real T, class End = OnAxis>
-int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t, const End& support = {}) {
+int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t,
+            const End& support = {}) {
     return support_offset(links, height, Interval<T>(t), support).sign();
 }
 

@@ -40,14 +40,17 @@ struct BranchLinks {
         using std::sqrt;
         return spin.empty() ? S(0.0) : S(speed / sqrt(height));
     }
-    S pull(std::size_t m, const S& n) const { return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]); }
+    S pull(std::size_t m, const S& n) const {
+        return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]);
+    }
     /// The derivative of lambda times the pull by log lambda, over lambda.
     S growing_pull(std::size_t m, const S& n) const { return pull(m, S(n * S(0.5))); }
 
     Inclined inclined(std::size_t m, double tau) const {
         if (is_spring(m)) return {std::sinh(tau), std::sinh(tau), 1, std::cosh(tau), 1};
         // from e^|tau| - 1, accurate at small inclinations
-        const double e = std::expm1(std::abs(tau)), inverse = 0.5 / (1 + e), secant = 1 + e * e * inverse,
+        const double e = std::expm1(std::abs(tau)), inverse = 0.5 / (1 + e),
+                     secant = 1 + e * e * inverse,
                      tangent = std::copysign(e * (e + 2) * inverse, tau);
         return {tangent, tangent / secant, secant, 1 / (secant * secant), secant * secant * secant};
     }
@@ -79,7 +82,8 @@ struct BranchSystem {
     double gravity = conical_pendulum::standard_gravity;
     Rotation direction = Rotation::forward;
 
-    explicit BranchSystem(const Chain<double>& of) : chain(links_of(of)), links(chain.links), units(chain.units) {
+    explicit BranchSystem(const Chain<double>& of)
+        : chain(links_of(of)), links(chain.links), units(chain.units) {
         bearing = ldexp(of.weight_below(of.size()), -units.weight_exponent);
     }
     BranchSystem(const Rig& of, double g, Rotation sense)
@@ -87,8 +91,8 @@ struct BranchSystem {
         using std::sqrt;
         for (const detail::RigLink& link : detail::rig_links(of)) {
             const bool stands = of.stands(static_cast<Index>(links.links.size()));
-            links.links.push_back(
-                {link.length, stands ? -link.tension : link.tension, link.cross, link.moment, link.rest});
+            links.links.push_back({link.length, stands ? -link.tension : link.tension, link.cross,
+                                   link.moment, link.rest});
             if (of.has_momentum()) links.spin.push_back(stands ? -link.spin : link.spin);
             bearing = link.hung;
         }
@@ -104,7 +108,8 @@ struct BranchSystem {
         S reach(0.0);
         for (const Link<S>& link : links.links) reach = reach + link.length;
         const S stiffness = ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
-        links.links.push_back({reach, stiffness * reach, S(0.0), S(in_weights(support.carriage_weight)), S(0.0)});
+        links.links.push_back(
+            {reach, stiffness * reach, S(0.0), S(in_weights(support.carriage_weight)), S(0.0)});
         if (!links.spin.empty()) links.spin.push_back(S(0.0));
         links.spring = true;
     }

@@ -16,10 +16,15 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 class BranchWalk {
    public:
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05, double longest = 0.5)
-        : longest_(longest), corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
+        : longest_(longest),
+          corrector_(&corrector),
+          before_(start),
+          here_(std::move(start)),
+          step_(step) {}
 
     /// A walk whose last step joins two neighbouring points.
-    static BranchWalk between(Corrector& corrector, const BranchPoint& before, const BranchPoint& here) {
+    static BranchWalk between(Corrector& corrector, const BranchPoint& before,
+                              const BranchPoint& here) {
         BranchWalk walk(corrector, here);
         walk.before_ = before;
         return walk;
@@ -32,13 +37,15 @@ class BranchWalk {
     /// Takes one step; returns false if no step above 1e-9 of arc is accepted.
     bool advance() {
         constexpr double max_rise = 0.75;
-        const double longest = std::min(longest_, max_rise / (largest_rise(here_.tangent) + 1e-300));
+        const double longest =
+            std::min(longest_, max_rise / (largest_rise(here_.tangent) + 1e-300));
         return detail::arc_step(step_, longest, 0.5, [&](double step) -> std::optional<double> {
             auto next = at(here_, step);
             if (!next) return {};
             const double cosine = inner(next->tangent, here_.tangent);
             if (!(cosine > 0.9) || !on_the_way(*next)) return {};
-            if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves) return {};
+            if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves)
+                return {};
             before_ = std::move(here_), here_ = std::move(*next);
             return cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8;
         });
@@ -47,14 +54,17 @@ class BranchWalk {
     /// The point at distance `reach` of arc from another, in the plane across its direction.
     std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
         BranchState there = moved(from.state, reach, from.tangent);
-        auto next = corrector_->corrected(std::move(there), from.tangent, 0.3 * std::abs(reach) + 1e-9);
+        auto next =
+            corrector_->corrected(std::move(there), from.tangent, 0.3 * std::abs(reach) + 1e-9);
         if (!next) return next;
         next->arc = from.arc + reach;
         if (next->half_waves == 0) next->half_waves = from.half_waves;
         return next;
     }
 
-    std::optional<BranchPoint> within(double share) const { return at(before_, share * (here_.arc - before_.arc)); }
+    std::optional<BranchPoint> within(double share) const {
+        return at(before_, share * (here_.arc - before_.arc));
+    }
 
    private:
     /// Whether the middle of the cubic through both ends and their tangents lies on the branch.

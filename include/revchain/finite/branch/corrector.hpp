@@ -38,7 +38,9 @@ double largest_rise(const BranchState& x) {
 }
 /// The size of a correction: its length along the arc, or 1/4 of its largest tau.
 REVCHAIN_LAZY
-double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4); }
+double size_of(const BranchState& x) {
+    return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4);
+}
 
 /// Linear solver for the balance of a chain together with one condition. The unknowns are changes d
 /// of the links' reaches a sin delta, and h of log lambda:
@@ -50,13 +52,19 @@ double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), l
 class BorderedChain {
    public:
     explicit BorderedChain(std::size_t size)
-        : size_(size), below_(size), pivot_(size), force_(size), along_height_(size), weight_(size) {}
+        : size_(size),
+          below_(size),
+          pivot_(size),
+          force_(size),
+          along_height_(size),
+          weight_(size) {}
 
     /// Factors at a shape, from element stiffnesses, masses at lower and upper pins, pull = lambda
     /// sigma tan delta, and the condition's row and derivative by log lambda.
     template <class Link>
-    void factor(const std::vector<double>& stiffness, const std::vector<Link>& links, const std::vector<double>& pull,
-                const std::vector<double>& row, double row_height) {
+    void factor(const std::vector<double>& stiffness, const std::vector<Link>& links,
+                const std::vector<double>& pull, const std::vector<double>& row,
+                double row_height) {
         corner_ = row_height;
         double dynamic = 0, eliminated = 0, share = 0;
         for (std::size_t m = 0; m < size_; ++m) {
@@ -88,7 +96,8 @@ class BorderedChain {
         // pivot x + along_height h = force,  weight x + corner h = left
         const double p = pivot_[top], q = along_height_[top], r = weight_[top], g = force_[top];
         double x, h;
-        if (std::abs(p) * std::abs(corner_) + std::abs(q) * std::abs(r) == 0) return degenerate(reach);
+        if (std::abs(p) * std::abs(corner_) + std::abs(q) * std::abs(r) == 0)
+            return degenerate(reach);
         if (std::abs(p) >= std::abs(q)) {
             h = (left - r * (g / p)) / (corner_ - r * (q / p));
             x = (g - q * h) / p;
@@ -125,10 +134,12 @@ class Corrector {
    public:
     explicit Corrector(BranchLinks<double> links)
         : links_(std::move(links)), border_(links_.size()), half_waves_are_kept_(links_.plain) {
-        for (auto* each : {&growth_, &along_, &stiffness_, &left_, &row_, &reach_}) each->resize(size());
+        for (auto* each : {&growth_, &along_, &stiffness_, &left_, &row_, &reach_})
+            each->resize(size());
         for (const auto& link : links_.links) half_waves_are_kept_ &= !(link.cross < 0);
     }
-    explicit Corrector(std::vector<Link<double>> chain) : Corrector(BranchLinks<double>(std::move(chain))) {}
+    explicit Corrector(std::vector<Link<double>> chain)
+        : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
     /// Whether the number of half waves is constant along a branch: in chains with l <= a for all
@@ -161,13 +172,14 @@ class Corrector {
 
     /// The state on the branch in the plane through `start` across a direction. None if the first
     /// step is longer than `farthest`, or longer than `contraction` times the one before.
-    std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
-                                         double contraction = 0.3) {
+    std::optional<BranchPoint> corrected(BranchState start, const BranchState& across,
+                                         double farthest, double contraction = 0.3) {
         double last = 0;
         for (int round = 0; round < 12; ++round) {
             Change change = step(start, across);
             const double size = size_of(change.correction);
-            if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2)) return std::nullopt;
+            if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2))
+                return std::nullopt;
             const bool small = size < 1e-7;
             if (round > 0 && !small && size > contraction * last) return std::nullopt;
             if (round > 5 && !small) return std::nullopt;
@@ -209,7 +221,8 @@ class Corrector {
             const double d = link.length * here.sine, upper = y;
             growth_[m] = 1 / (link.length * here.slope);
             along_[m] = pull;
-            if (!links_.spin.empty()) along_[m] = height * links_.growing_pull(m, speed) * here.tangent;
+            if (!links_.spin.empty())
+                along_[m] = height * links_.growing_pull(m, speed) * here.tangent;
             stiffness_[m] = factor / link.length * here.steepening + link.cross;
             left_[m] = -pull - link.cross * d;
             y += d;

@@ -13,7 +13,9 @@ struct Measured {
 
 struct HeightMeasure {
     double wanted;
-    Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
+    Measured operator()(const BranchPoint& p) const {
+        return {p.state.log_height - wanted, p.tangent.log_height};
+    }
 };
 
 /// tau of the lowest link; with `either` its absolute value.
@@ -66,8 +68,9 @@ struct WithinStep {
 
 /// The zero of f(measured) between two points of the step at which its signs differ.
 template <class Measure, class F>
-std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
-                                    double at_low, double at_high, double tolerance) {
+std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f,
+                                    double low, double high, double at_low, double at_high,
+                                    double tolerance) {
     std::optional<WithinStep> best;
     const auto value_at = [&](double share) {
         auto point = walk.within(share);
@@ -108,8 +111,9 @@ std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& meas
     };
     // an extremum matters only if the number may reach the wanted value and return
     const double reach = walk.here().arc - walk.before().arc;
-    const bool may_return = a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
-                                                         reach * std::max(std::abs(a.slope), std::abs(b.slope));
+    const bool may_return =
+        a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
+                                     reach * std::max(std::abs(a.slope), std::abs(b.slope));
     const auto turn = may_return ? turning_of(walk, measure) : std::nullopt;
     if (turn) {
         const double there = measure(turn->point).value;

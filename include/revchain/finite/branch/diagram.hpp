@@ -41,11 +41,16 @@ class ChainQuestions {
         }
         return found;
     }
-    bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
+    bool is_known_at(double height) const {
+        return count_modes(chain_, {.conical_height = height}) == 0;
+    }
     /// The first mode; above it there is no shape (see steady_shapes).
-    std::optional<double> settled_above() const { return detail::one_mode(chain_, 1, false).conical_height; }
+    std::optional<double> known_above() const {
+        return detail::one_mode(chain_, 1, false).conical_height;
+    }
     std::string not_provable(double lowest) const {
-        const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
+        const bool single =
+            single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
         return single ? "" : "links hang at several inclinations";
     }
 
@@ -93,18 +98,20 @@ class RigQuestions {
     /// energy in the turning frame, times lambda, has the second derivative lambda diag(pull a
     /// sec^3) - M (plus the spring's), which is at least that of the straight chain. That matrix is
     /// positive definite at rest and regular below the first critical speed.
-    std::optional<double> settled_above() const {
+    std::optional<double> known_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;
-        if (!hangs_in_tension(std::ldexp(first, -system->units.length_exponent))) return std::nullopt;
+        if (!hangs_in_tension(std::ldexp(first, -system->units.length_exponent)))
+            return std::nullopt;
         return first * (1 + found_[0].error_bound);
     }
-    bool is_settled_at(double height) const { return settled_above().value_or(height) < height; }
+    bool is_known_at(double height) const { return known_above().value_or(height) < height; }
     /// Why the proof of a diagram down to a height does not cover the rig; empty if it does.
     std::string not_provable(double lowest) const {
-        if (!settled_above()) return "the proof is for rigs whose links all hang in tension";
+        if (!known_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
-        if (!single_valued(swept_links<double>(system->rigged_at(Fine(lowest))), Interval<double>(lowest)))
+        if (!single_valued(swept_links<double>(system->rigged_at(Fine(lowest))),
+                           Interval<double>(lowest)))
             return "links hang at several inclinations";
         return "";
     }
@@ -114,7 +121,8 @@ class RigQuestions {
     bool hangs_in_tension(double height) const {
         const Fine fastest = system->links.speed_at(Fine(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
-            if (rig_.stands(static_cast<Index>(m)) || !enclosed<Far>(system->links.links[m].moment).positive())
+            if (rig_.stands(static_cast<Index>(m)) ||
+                !enclosed<Far>(system->links.links[m].moment).positive())
                 return false;
             for (const Fine& n : {Fine(0.0), fastest})
                 if (!(system->links.pull(m, n) > system->bearing * Fine(1e-20))) return false;
@@ -151,28 +159,31 @@ class Diagram {
                 throw_not_thorough("branches", lowest);
         }
         const bool from_rest = !ask_.system->links.is_symmetric();
-        const auto settled = ask_.settled_above();
+        const auto known = ask_.known_above();
         std::vector<double> heights;
         if (!from_rest) heights = ask_.modes_above(lowest);
-        const double top = settled.value_or(of_length());
+        const double top = known.value_or(of_length());
         log_top_ = std::log(100 * std::max(lowest, top) * unit_);
-        if (!from_rest && settled && heights.empty()) {
-            result_.complete = ask_.is_settled_at(lowest);
+        if (!from_rest && known && heights.empty()) {
+            result_.complete = ask_.is_known_at(lowest);
             result_.remark = "no shape leaves the vertical at this height or above";
             return std::move(result_);
         }
         const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
         for (Index mode = 1; mode <= roots; ++mode) {
             result_.branches.push_back(ask_.followed(mode, lowest));
-            settle(result_.branches.back().end);
+            check_end(result_.branches.back().end);
         }
         // from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
-        for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
-        prove(settled);
+        for (int i = 0; i < lists; ++i)
+            check_list(lowest * std::pow(first / lowest, double(i) / lists));
+        prove(known);
         std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
-        const auto before = [](const Branch& x, const Branch& y) { return highest(x) > highest(y); };
+        const auto before = [](const Branch& x, const Branch& y) {
+            return highest(x) > highest(y);
+        };
         std::stable_sort(result_.branches.begin() + roots, result_.branches.end(), before);
         return std::move(result_);
     }
@@ -187,7 +198,7 @@ class Diagram {
     static double highest(const Branch& branch) {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }
-    void settle(BranchEnd end) {
+    void check_end(BranchEnd end) {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
@@ -221,7 +232,7 @@ class Diagram {
         return at;
     }
     /// Checks that every shape at a height is on one branch; follows branches of those on none.
-    void look(double height) {
+    void check_list(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
         result_.consistent &= list.complete;
@@ -231,7 +242,9 @@ class Diagram {
             for (const SteadyShape& state : states_at(branch, corrector_, height)) {
                 ++crossings;
                 for (std::size_t j = 0; j < met.size(); ++j)
-                    met[j] += (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() < 1e-9;
+                    met[j] +=
+                        (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() <
+                        1e-9;
             }
         };
         for (const Branch& branch : result_.branches) meet(branch);
@@ -239,12 +252,13 @@ class Diagram {
             if (met[j] > 0) continue;
             BranchState up;
             up.rise.assign(corrector_.size(), 0.0), up.log_height = 1;
-            Branch loop = from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
+            Branch loop =
+                from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
             if (loop.size() < 2) {
                 result_.consistent = false;
                 continue;
             }
-            settle(loop.end);
+            check_end(loop.end);
             meet(loop);
             result_.branches.push_back(std::move(loop));
         }
@@ -253,8 +267,9 @@ class Diagram {
     }
 
     /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
-    void prove(const std::optional<double>& settled) {
-        result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
+    void prove(const std::optional<double>& known) {
+        result_.remark =
+            "branches and lists of all shapes do not agree, or a list is not proved complete";
         const double lowest = result_.conical_height * unit_;
         const std::string reason = ask_.not_provable(lowest);
         const auto explained = [&] { return reason.empty() ? std::string() : ": " + reason; };
@@ -263,12 +278,13 @@ class Diagram {
             return;
         }
         result_.remark =
-            "every proved list of all shapes is accounted for; isolated loops that lie wholly between two "
+            "every proved list of all shapes is accounted for; isolated loops that lie wholly "
+            "between two "
             "of the heights looked at are not excluded" +
             explained();
         if (!reason.empty()) return;
         if constexpr (detail::is_thorough<Means>)
-            prove_between(lowest, *settled * unit_ * (1 + 1e-9));
+            prove_between(lowest, *known * unit_ * (1 + 1e-9));
         else
             result_.remark += "; revchain::thorough as the last argument asks for a proof";
     }
@@ -282,8 +298,8 @@ class Diagram {
         else if (!result_.consistent)
             result_.remark = "a loop was found that lists of all shapes do not agree with";
         else
-            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) + " and " +
-                              detail::in_digits(proof.open_high / unit_);
+            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) +
+                              " and " + detail::in_digits(proof.open_high / unit_);
     }
     /// Proves both signs of the lowest link's tangent if the support is off the axis.
     DiagramProof proved_between(double lowest, double first) {
@@ -294,8 +310,11 @@ class Diagram {
             if (tight > lowest) whole.leave_open(lowest, std::min(tight, first));
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
-            const auto is_known = [&](const auto& at, const auto& within) { return known(diagram, at, within); };
-            const auto proof = prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
+            const auto is_known = [&](const auto& at, const auto& within) {
+                return known(diagram, at, within);
+            };
+            const auto proof =
+                prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
             if (!proof.complete) whole.leave_open(proof.open_low, proof.open_high);
             if (diagram.is_symmetric()) break;
         }
@@ -312,16 +331,18 @@ class Diagram {
         Branch found = from_here(state, across, 1);
         // a branch to the vertical is that of a mode, one to the lowest height is in the list
         // there, one to slow speeds is the one from rest
-        if (found.end == BranchEnd::vertical || found.end == BranchEnd::height || found.end == BranchEnd::slow)
+        if (found.end == BranchEnd::vertical || found.end == BranchEnd::height ||
+            found.end == BranchEnd::slow)
             return true;
         if (found.end != BranchEnd::closed && found.end != BranchEnd::loose) {
             ++stuck_;
             return false;
         }
         const double top = highest(found);
-        const double bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
+        const double bottom =
+            *std::min_element(found.conical_height.begin(), found.conical_height.end());
         result_.branches.push_back(std::move(found));
-        look(std::sqrt(top * bottom));  // checks that branches and list agree
+        check_list(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;
     }
 
@@ -336,7 +357,8 @@ class Diagram {
 template <class Questions, class System, class Options, class Means>
 Branches diagram_of(const System& system, const Options& options, Means) {
     const double lowest = lowest_height("branches", options);
-    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1)
+        detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     return Diagram<Questions, Options, Means>(system, lowest, options).run();
 }
 

@@ -24,7 +24,8 @@ struct XMeasure {
     Measured operator()(const BranchPoint& p) const {
         const double rise = p.state.rise[0], turned = side != 0 ? side : std::copysign(1.0, rise);
         const double height = turned * std::exp(p.state.log_height), x = height * std::sinh(rise);
-        return {x - wanted, x * p.tangent.log_height + height * std::cosh(rise) * p.tangent.rise[0]};
+        return {x - wanted,
+                x * p.tangent.log_height + height * std::cosh(rise) * p.tangent.rise[0]};
     }
 };
 
@@ -68,17 +69,22 @@ class DiagramProver {
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
         const auto spent = [&] { return proof.rectangles >= budget_; };
-        const auto open = [&](const Rectangle& part) { proof.leave_open(part.height_low, part.height_high); };
+        const auto open = [&](const Rectangle& part) {
+            proof.leave_open(part.height_low, part.height_high);
+        };
         const auto visit = [&](const std::vector<Rectangle>& parts, const auto& wait) {
             const auto y = offsets_over(parts);
             for (std::size_t i = 0; i < parts.size(); ++i) {
-                if (settled(parts[i], y[i], proof, known)) continue;
+                if (is_decided(parts[i], y[i], proof, known)) continue;
                 if (!split(parts[i], y[i], wait)) open(parts[i]);
             }
         };
-        const int slabs = std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
+        const int slabs =
+            std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
         for (int i = 0; i < slabs; ++i) {
-            const auto cut = [&](int k) { return highest * std::pow(lowest / highest, k * (1.0 / slabs)); };
+            const auto cut = [&](int k) {
+                return highest * std::pow(lowest / highest, k * (1.0 / slabs));
+            };
             const double high = cut(i), low = i + 1 == slabs ? lowest : cut(i + 1);
             const Rectangle slab{0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)};
             each_cell<batch>(std::deque{slab}, spent, visit, open);
@@ -91,7 +97,8 @@ class DiagramProver {
 
     /// Whether nothing remains to be proved in a part.
     template <class Known>
-    bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
+    bool is_decided(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof,
+                    Known&& known) {
         ++proof.rectangles;
         const bool from_zero = goes_to_vertical(part);
         if ((!from_zero && !y.value.may_vanish()) || !y.slope[0].may_vanish()) return true;
@@ -113,7 +120,8 @@ class DiagramProver {
         if (diagram_.spins()) {
             std::array<Taylor<double, 2>, batch> result;
             for (std::size_t i = 0; i < count; ++i)
-                result[i] = diagram_.spinning_over(Cell<double, 2>(parts[i].x(), parts[i].height()));
+                result[i] =
+                    diagram_.spinning_over(Cell<double, 2>(parts[i].x(), parts[i].height()));
             return result;
         }
         return detail::for_own([&]<class Registers>(Registers) {
@@ -122,40 +130,49 @@ class DiagramProver {
             for (std::size_t first = 0; first < count; first += V::size) {
                 const auto lanes = [&](double Rectangle::*number) REVCHAIN_INLINED {
                     V x;
-                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, parts[std::min(first + i, count - 1)].*number);
+                    for (std::size_t i = 0; i < V::size; ++i)
+                        x.set(i, parts[std::min(first + i, count - 1)].*number);
                     return x;
                 };
                 const Interval<V> x(lanes(&Rectangle::low), lanes(&Rectangle::high)),
                     height(lanes(&Rectangle::height_low), lanes(&Rectangle::height_high));
                 const auto y = diagram_.over(Cell<V, 2>(x, height));
                 for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
-                    const auto lane = [&](const Interval<V>& of)
-                                          REVCHAIN_INLINED { return Interval<double>(of.low[i], of.high[i]); };
+                    const auto lane = [&](const Interval<V>& of) REVCHAIN_INLINED {
+                        return Interval<double>(of.low[i], of.high[i]);
+                    };
                     auto& to = result[first + i];
                     to.value = lane(y.value), to.centre_value = lane(y.centre_value);
                     for (std::size_t k = 0; k < 2; ++k)
-                        to.slope[k] = lane(y.slope[k]), to.centre_slope[k] = lane(y.centre_slope[k]);
+                        to.slope[k] = lane(y.slope[k]),
+                        to.centre_slope[k] = lane(y.centre_slope[k]);
                     for (std::size_t k = 0; k < 3; ++k) to.bend[k] = lane(y.bend[k]);
                 }
             }
             return result;
         });
     }
-    bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
+    bool goes_to_vertical(const Rectangle& part) const {
+        return part.low == 0 && diagram_.is_symmetric();
+    }
 
     /// The part extended up and down, if its zeros lie on one graph lambda(x) inside.
-    std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
+    std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y,
+                                        DiagramProof& proof) const {
         const bool from_zero = goes_to_vertical(part);
         const auto rise = [&](const Taylor<double, 2>& f) {
             const Interval<double>& along = from_zero ? f.bend[1] : f.slope[1];
-            const Interval<double> most(from_zero ? f.bend[0].size() : f.slope[0].size()), width(part.high - part.low);
+            const Interval<double> most(from_zero ? f.bend[0].size() : f.slope[0].size()),
+                width(part.high - part.low);
             if (along.may_vanish()) return std::numeric_limits<double>::infinity();
             const double least = std::min(std::abs(along.low), std::abs(along.high));
             return (width * most / Interval<double>(least)).high * (1 + 1e-12);
         };
         const double reach = 1.5 * rise(y);
-        if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low)))) return std::nullopt;
-        const Rectangle beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
+        if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low))))
+            return std::nullopt;
+        const Rectangle beyond{part.low, part.high, part.height_low - reach,
+                               part.height_high + reach};
         ++proof.rectangles;
         if (!(rise(offsets_over({beyond}).front()) <
               std::min(part.height_low - beyond.height_low, beyond.height_high - part.height_high)))
@@ -186,7 +203,8 @@ class DiagramProver {
             by_height = std::log(part.height_high / part.height_low);
         const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
         if ((thin && low) || (at_zero && part.high < 1e-30) ||
-            rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
+            rounding_rules(from_zero ? y.slope[0] : y.value,
+                           from_zero ? y.centre_slope[0] : y.centre_value))
             return false;
         Rectangle first = part, second = part;
         if (low || (!thin && by_x >= by_height))
@@ -206,14 +224,16 @@ class DiagramProver {
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x) through
 /// `at`: a point of it is in the rectangle, or it crosses the x of `at` there.
 template <class Branch>
-bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within,
-                  int side = 0) {
+bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
+                  const Rectangle& within, int side = 0) {
     const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
     const auto inside = [&](const BranchState& state) {  // by more than the error of points
-        const double height = std::exp(state.log_height), x = height * std::sinh(turned(state.rise[0]));
+        const double height = std::exp(state.log_height),
+                     x = height * std::sinh(turned(state.rise[0]));
         constexpr double off = 1e-10;
         const double low = within.height_low * (1 + off), high = within.height_high * (1 - off);
-        return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height && height < high;
+        return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height &&
+               height < high;
     };
     const auto& points = trace_of(branch).points;
     for (const BranchPoint& point : points)
@@ -226,7 +246,8 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
         if (std::abs(here.state.log_height - log_height) > reach ||
             std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))
             continue;
-        const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});
+        const auto crossings =
+            crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});
         for (const WithinStep& each : crossings) {
             const double height = std::exp(each.point.state.log_height);
             if (within.height_low < height && height < within.height_high) return true;

@@ -19,7 +19,8 @@ struct DiagramPoint {
 class EnclosedDiagram {
    public:
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
-    EnclosedDiagram(const BranchSystem& system, int side) : side_(system.links.is_symmetric() ? 0 : side) {
+    EnclosedDiagram(const BranchSystem& system, int side)
+        : side_(system.links.is_symmetric() ? 0 : side) {
         const auto& from = system.links;
         links_ = enclosed<double>(std::vector<Link<Fine>>(
             from.links.begin(), from.links.begin() + static_cast<std::ptrdiff_t>(from.bodies())));
@@ -61,12 +62,14 @@ class EnclosedDiagram {
         const Interval<double> lambda(at.height);
         const double turned = side_ < 0 ? -1 : 1;
         std::vector<Interval<double>> tangents;
-        const auto y = support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda, OnAxis{}, &tangents);
+        const auto y = support_offset(links_at(lambda), lambda, Interval<double>(at.x) / lambda,
+                                      OnAxis{}, &tangents);
         BranchState state;
         double reach = 0;
         for (const auto& t : tangents) state.rise.push_back(turned * std::asinh(t.middle()));
         for (const auto& link : links_) reach += link.length.middle();
-        if (!firm_) state.rise.push_back(turned * std::asinh((y.middle() - radius_.middle()) / reach));
+        if (!firm_)
+            state.rise.push_back(turned * std::asinh((y.middle() - radius_.middle()) / reach));
         state.log_height = std::log(at.height);
         return state;
     }
@@ -86,16 +89,18 @@ class EnclosedDiagram {
         EnclosedLinks<double> result = links_;
         if (kept_.spin.empty()) return result;
         const Interval<double> speed = kept_.speed / sqrt(height);
-        for (std::size_t m = 0; m < size(); ++m) result[m].pull = result[m].pull + speed * kept_.spin[m];
+        for (std::size_t m = 0; m < size(); ++m)
+            result[m].pull = result[m].pull + speed * kept_.spin[m];
         return result;
     }
-    Held<Interval<double>> held_at(const Interval<double>& height) const {
+    SupportEnd<Interval<double>> held_at(const Interval<double>& height) const {
         const Interval<double> stiffness = height * stiffness_;
         return {radius_,        firm_ ? Interval<double>(0.0) : Interval<double>(1.0) / stiffness,
                 stiffness,      carriage_,
                 is_symmetric(), firm_};
     }
-    Interval<double> offset(const EnclosedLinks<double>& links, double x, const Interval<double>& lambda) const {
+    Interval<double> offset(const EnclosedLinks<double>& links, double x,
+                            const Interval<double>& lambda) const {
         return support_offset(links, lambda, Interval<double>(x) / lambda, held_at(lambda));
     }
     template <class T>
@@ -111,7 +116,8 @@ class EnclosedDiagram {
         const Interval<T>&lambda = cell.range(1), &centre = cell.centre(1);
         pulled.value = lambda * drawn.value, pulled.centre_value = centre * drawn.centre_value;
         pulled.slope = {lambda * drawn.slope[0], drawn.value + lambda * drawn.slope[1]};
-        pulled.centre_slope = {centre * drawn.centre_slope[0], drawn.centre_value + centre * drawn.centre_slope[1]};
+        pulled.centre_slope = {centre * drawn.centre_slope[0],
+                               drawn.centre_value + centre * drawn.centre_slope[1]};
         pulled.bend = {lambda * drawn.bend[0], drawn.slope[0] + lambda * drawn.bend[1],
                        Interval<T>(T(2)) * drawn.slope[1] + lambda * drawn.bend[2]};
         return cell.centred(pulled - sweep.sum() - spread<T>(carriage_) * y);

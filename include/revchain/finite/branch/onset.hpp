@@ -91,7 +91,8 @@ double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const 
     const BranchPoint at = onset.point(rounded(system.links), small);
     const auto found = polished(system.links, at.state, GivenPlace(at));
     Fine critical(onset.height);
-    if (found.shape.converged) critical = found.height + found.height * Fine(small * small * onset.curvature);
+    if (found.shape.converged)
+        critical = found.height + found.height * Fine(small * small * onset.curvature);
     const double gap = as_double((critical - height) / height);
     return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
@@ -99,7 +100,8 @@ double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const 
 /// The state at a height so close to the mode's that double hardly resolves it: from the law of the
 /// onset, balanced in double-double. None if that fails.
 REVCHAIN_LAZY
-std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
+std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
+                                         const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
     BranchState state = onset.state(rounded(system.links), amplitude);
@@ -125,7 +127,8 @@ struct BranchRoot {
     double height;                     ///< of the mode, or from rest of the first mode
 
     template <class Options>
-    static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
+    static BranchRoot of(std::string_view place, const Chain<double>& chain,
+                         const Options& options) {
         require_mode(place, options.mode, chain.mode_count());
         const auto found = detail::one_mode(chain, options.mode);
         return from(BranchSystem(chain), found.conical_height, &found.shape);
@@ -138,11 +141,13 @@ struct BranchRoot {
         detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
-                detail::throw_invalid(place,
-                                      "with a support off the axis mode must be 1, the branch from rest; "
-                                      "branches lists those born in folds",
-                                      mode);
-            return from(BranchSystem(rig, gravity, direction), first_height(place, rig, gravity, direction));
+                detail::throw_invalid(
+                    place,
+                    "with a support off the axis mode must be 1, the branch from rest; "
+                    "branches lists those born in folds",
+                    mode);
+            return from(BranchSystem(rig, gravity, direction),
+                        first_height(place, rig, gravity, direction));
         }
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         require_mode(place, mode, modes.count());
@@ -151,9 +156,11 @@ struct BranchRoot {
         return from(BranchSystem(rig, gravity, direction), found.conical_height, &shape);
     }
     /// Conical height of the slowest mode of a rig; its length if it has none.
-    static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
+    static double first_height(std::string_view place, const Rig& rig, double gravity,
+                               Rotation direction) {
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
-        return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
+        return modes.count() > 0 ? modes.found(1, 1).front().conical_height
+                                 : rig.chain().total_length();
     }
 
     /// The state of the slowly turning rig, almost straight, at a log of height or above.
@@ -161,7 +168,8 @@ struct BranchRoot {
         const double unit = std::ldexp(1.0, -system->units.length_exponent);
         log_height = std::max(log_height, std::log(height * unit));
         for (int round = 0; round < 12; ++round, log_height += 2) {
-            BranchState straight{std::vector<double>(corrector.size(), 0.0), log_height}, faster = straight;
+            BranchState straight{std::vector<double>(corrector.size(), 0.0), log_height},
+                faster = straight;
             faster.log_height = -1;
             auto found = corrector.corrected(straight, faster, 0.1);
             if (found) return found;
@@ -172,9 +180,12 @@ struct BranchRoot {
    private:
     static void require_mode(std::string_view place, Index mode, Index count) {
         if (mode < 1 || mode > count)
-            detail::throw_invalid(place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
+            detail::throw_invalid(
+                place, "mode must be from 1 to the number of modes, " + std::to_string(count),
+                mode);
     }
-    static BranchRoot from(BranchSystem system, double height, const Vector<double>* mode = nullptr) {
+    static BranchRoot from(BranchSystem system, double height,
+                           const Vector<double>* mode = nullptr) {
         auto narrow = rounded(system.links);
         std::optional<BranchOnset> onset;
         if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system.units.length_exponent));

@@ -17,7 +17,8 @@ class PathEnergies {
         if (kind.density == nullptr) return;
         // below the start of the path the inclination is that of the free end
         const double s = Path::first_arc(kind), below = kind.weight_below(s);
-        const double moment = kind.density->first_moment(s * kind.unit), cosine = 1 / std::hypot(1.0, tip_offset);
+        const double moment = kind.density->first_moment(s * kind.unit),
+                     cosine = 1 / std::hypot(1.0, tip_offset);
         const double carried = s * below - moment * (below - kind.tip) * s;
         add(carried / cosine * (1 - cosine * cosine), carried * cosine);
     }
@@ -56,9 +57,13 @@ inline BranchPlace operator+(const BranchPlace& x, const BranchPlace& y) {
 inline BranchPlace operator-(const BranchPlace& x, const BranchPlace& y) {
     return {x.bend - y.bend, x.log_height - y.log_height};
 }
-inline BranchPlace operator*(double s, const BranchPlace& x) { return {s * x.bend, s * x.log_height}; }
+inline BranchPlace operator*(double s, const BranchPlace& x) {
+    return {s * x.bend, s * x.log_height};
+}
 REVCHAIN_LAZY
-double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
+double dot(const BranchPlace& x, const BranchPlace& y) {
+    return x.bend * y.bend + x.log_height * y.log_height;
+}
 REVCHAIN_LAZY
 double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
@@ -80,16 +85,19 @@ class BranchLine {
 
     /// The point of the line near `from`, across `direction`, with its direction on the same side;
     /// none if Newton's method does not converge at once.
-    std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction, double reach) const {
+    std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction,
+                                 double reach) const {
         BranchPlace at = from;
         double last = std::numeric_limits<double>::infinity();
         Point found;
         for (int round = 0; round < 12; ++round) {
-            if (!(at.bend > 0) || at.bend > 700 || std::exp(-at.log_height) * chain_.length > 1e6) return std::nullopt;
+            if (!(at.bend > 0) || at.bend > 700 || std::exp(-at.log_height) * chain_.length > 1e6)
+                return std::nullopt;
             const auto value = value_at(at, round > 0);
             if (!value) return std::nullopt;
             const BranchPlace& slope = value->second;
-            const double across = slope.bend * direction.log_height - slope.log_height * direction.bend;
+            const double across =
+                slope.bend * direction.log_height - slope.log_height * direction.bend;
             found = {at, {-slope.log_height, slope.bend}, slope.bend, value->first};
             found.direction = (1 / size(found.direction)) * found.direction;
             if (dot(found.direction, direction) < 0) found.direction = -1.0 * found.direction;
@@ -97,7 +105,9 @@ class BranchLine {
                                    value->first * direction.bend / across};
             const double moved = size(step);
             if (!std::isfinite(moved) || size(at + step - from) > reach) return std::nullopt;
-            if (moved < 4e-16 * (1 + size(at)) || (round > 1 && moved < 1e-12 && moved > 0.3 * last)) return found;
+            if (moved < 4e-16 * (1 + size(at)) ||
+                (round > 1 && moved < 1e-12 && moved > 0.3 * last))
+                return found;
             if (round > 2 && moved > 0.5 * last) return std::nullopt;
             at = at + step, last = moved;
         }
@@ -105,22 +115,28 @@ class BranchLine {
     }
     /// f and its slopes. The slope by height is 1 for a uniform cord without a tip, else a
     /// difference of two paths, accurate to 1e-7; only directions and steps use it.
-    std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at, bool fine = true) const {
+    std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at,
+                                                           bool fine = true) const {
         const double tolerance = fine ? PathSeries::rounding : 1e-13;
         const auto path = [&](double log_height, bool with_change) {
-            return Path(kind(log_height), std::sinh(at.bend),
-                        {.crossings = crossing_, .tolerance = tolerance, .with_change = with_change});
+            return Path(
+                kind(log_height), std::sinh(at.bend),
+                {.crossings = crossing_, .tolerance = tolerance, .with_change = with_change});
         };
-        const auto enough = [&](const Path& x) { return static_cast<int>(x.crossings().size()) >= crossing_; };
+        const auto enough = [&](const Path& x) {
+            return static_cast<int>(x.crossings().size()) >= crossing_;
+        };
         const Path here = path(at.log_height, true);
         if (!enough(here)) return std::nullopt;
         const Path::Crossing& support = here.crossings().back();
         double by_height = 1;
         if (!here.kind().is_bare()) {
             constexpr double little = 1e-4;
-            const Path above = path(at.log_height + little, false), below = path(at.log_height - little, false);
+            const Path above = path(at.log_height + little, false),
+                       below = path(at.log_height - little, false);
             if (!enough(above) || !enough(below)) return std::nullopt;
-            by_height = 1 + std::log(above.crossings().back().arc / below.crossings().back().arc) / (2 * little);
+            by_height = 1 + std::log(above.crossings().back().arc / below.crossings().back().arc) /
+                                (2 * little);
         }
         return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
                          BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
@@ -162,7 +178,8 @@ class BranchLineWalk {
             const BranchPlace guess = at_.at + step * at_.direction;
             const auto next = line_.next_to(guess, at_.direction, step);
             if (!next) return {};
-            const double turned = std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
+            const double turned =
+                std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
             if (turned > 0.2 || size(next->at - guess) > step / 3) return {};
             at_ = *next;
             return turned < 0.05 ? 2 : 1;

@@ -13,14 +13,15 @@ struct CordBranch {
     Index mode = 0;  ///< the mode at which it leaves the vertical; 0 for an isolated branch
     /// For each point. `tip_inclination`: of the free end, rad; `tip_radius`: its offset;
     /// `top_tension`: at the support; the others as in `Branch`.
-    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
-        effective_energy;
+    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
+        moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< constant along a branch
     std::vector<std::size_t> folds;  ///< indices of points with a local extreme of conical height
     BranchEnd end = BranchEnd::budget;
 
     std::size_t size() const { return arc.size(); }
-    double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
+    double angular_speed(std::size_t point,
+                         double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point. Throws InvalidArgument for the straight cord (point 0 on the branch of
@@ -38,15 +39,17 @@ struct CordBranch {
 namespace finite {
 /// The shape of a cord at a conical height with its free end near an offset, at a fold or not.
 /// Throws InvalidArgument if it could not be followed.
-CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset, bool at_fold);
+CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset,
+                     bool at_fold);
 }  // namespace finite
 
 /// All branches found above a conical height. `complete` if a theorem counts the shapes (see
 /// `steady_shapes` of a cord). Else `consistent`: at each height in `looked_at` each scanned shape
 /// is on one.
 struct CordBranches {
-    std::vector<CordBranch> branches;  ///< of the modes, slowest first, then isolated ones, highest first
-    double conical_height = 0;         ///< lowest conical height of the diagram
+    std::vector<CordBranch>
+        branches;               ///< of the modes, slowest first, then isolated ones, highest first
+    double conical_height = 0;  ///< lowest conical height of the diagram
     bool consistent = false, complete = false;
     std::vector<double> looked_at;  ///< conical heights of scanned lists, descending
     std::string remark;             ///< what may be missing
@@ -57,7 +60,8 @@ namespace finite {
 /// The shape at a point of a line; none if no path could be followed that far. At a fold the error
 /// is that of its position.
 REVCHAIN_LAZY
-std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
+std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point,
+                                  bool at_fold = false) {
     constexpr double of_fold = 1e-7;
     const double height = std::exp(point.at.log_height);
     if (at_fold) {
@@ -81,10 +85,13 @@ void append_vertical(CordBranch& branch, double height) {
     const ContinuousChain& chain = branch.line->chain();
     const PathKind kind = kind_of(chain, height, 0);
     PathEnergies energies(kind, 0);
-    const Path path(kind, 1, {.crossings = branch.line->crossing(), .with_change = false}, energies);
-    branch.arc.push_back(0), branch.conical_height.push_back(height), branch.tip_inclination.push_back(0);
+    const Path path(kind, 1, {.crossings = branch.line->crossing(), .with_change = false},
+                    energies);
+    branch.arc.push_back(0), branch.conical_height.push_back(height),
+        branch.tip_inclination.push_back(0);
     branch.tip_radius.push_back(0), branch.moment_of_inertia.push_back(0);
-    branch.top_tension.push_back(chain.line_weight * height * kind.weight_below(chain.length / height));
+    branch.top_tension.push_back(chain.line_weight * height *
+                                 kind.weight_below(chain.length / height));
     branch.effective_energy.push_back(chain.line_weight * height * height * energies.potential());
     branch.half_waves.push_back(branch.line->crossing());
     branch.points.push_back({{0, std::log(height)}, {1, 0}});
@@ -100,7 +107,8 @@ bool append(CordBranch& branch, const BranchLine::Point& point) {
     PathSeries last;
     const auto visit = [&](const auto& series, double duration) {
         energies(series, duration);
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(series)>, PathSeries>) last = series;
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(series)>, PathSeries>)
+            last = series;
     };
     const Path path(kind, tip, {.crossings = line.crossing(), .with_change = false}, visit);
     if (static_cast<int>(path.crossings().size()) < line.crossing()) return false;
@@ -120,22 +128,25 @@ bool append(CordBranch& branch, const BranchLine::Point& point) {
 
 /// Follows a line from a point until it ends or `stop(last, now)` gives a reason. Folds are points.
 template <class Stop>
-BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
-                 const Stop& stop) {
+BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest,
+                 std::size_t most, const Stop& stop) {
     const BranchLine& line = *branch.line;
     BranchLineWalk walk(line, start, longest);
     while (branch.size() < most) {
         const BranchLine::Point last = walk.at();
         if (!walk.advance())
-            return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;
+            return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical
+                                                                  : BranchEnd::stuck;
         BranchLine::Point now = walk.at();
         if (last.rate * now.rate < 0) {  // not at the vertical, where the rate is 0
             const auto fold = line.between(last, now, [](const auto& point) { return point.rate; });
             if (fold) {
                 BranchLine::Point turn = *fold;
-                if (const auto end = stop(last, turn)) return append(branch, turn) ? *end : BranchEnd::stuck;
+                if (const auto end = stop(last, turn))
+                    return append(branch, turn) ? *end : BranchEnd::stuck;
                 if (append(branch, turn)) branch.folds.push_back(branch.size() - 1);
-                if (const auto end = stop(*fold, now)) return append(branch, now) ? *end : BranchEnd::stuck;
+                if (const auto end = stop(*fold, now))
+                    return append(branch, now) ? *end : BranchEnd::stuck;
                 if (!append(branch, now)) return BranchEnd::stuck;
                 continue;
             }
@@ -150,9 +161,11 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
 /// Stops where a line first comes down to a height.
 REVCHAIN_LAZY
 auto down_to(const BranchLine& line, double log_end) {
-    return [&line, log_end](const BranchLine::Point& last, BranchLine::Point& now) -> std::optional<BranchEnd> {
+    return [&line, log_end](const BranchLine::Point& last,
+                            BranchLine::Point& now) -> std::optional<BranchEnd> {
         if (!(now.at.log_height <= log_end)) return std::nullopt;
-        const auto end = line.between(last, now, [&](const auto& point) { return point.at.log_height - log_end; });
+        const auto end = line.between(
+            last, now, [&](const auto& point) { return point.at.log_height - log_end; });
         if (!end) return BranchEnd::stuck;
         now = *end, now.at.log_height = log_end;
         return BranchEnd::height;
@@ -161,7 +174,8 @@ auto down_to(const BranchLine& line, double log_end) {
 
 /// The branch of a mode of given height, down to another height.
 REVCHAIN_LAZY
-CordBranch branch_of_mode(const Cord& cord, double critical, double height, const BranchOptions& options) {
+CordBranch branch_of_mode(const Cord& cord, double critical, double height,
+                          const BranchOptions& options) {
     CordBranch result;
     result.mode = options.mode;
     auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(options.mode));
@@ -175,8 +189,8 @@ CordBranch branch_of_mode(const Cord& cord, double critical, double height, cons
 
 /// Adds the point between two neighbouring points at which `value` of a point is 0, if any.
 template <class F>
-void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, const BranchLine::Point& last,
-                 const BranchLine::Point& now, const F& value) {
+void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line,
+                 const BranchLine::Point& last, const BranchLine::Point& now, const F& value) {
     const double before = value(last), after = value(now);
     if (after == 0) {
         to.push_back(now);

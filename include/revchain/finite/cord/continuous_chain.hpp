@@ -89,11 +89,13 @@ Path path_at_rest(const ContinuousChain& chain, double height, Path::Options opt
 
 /// The shape near an almost exact path; none if no path could be followed that far.
 REVCHAIN_LAZY
-std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length, double height) {
+std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing,
+                                  double length, double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
         const Path path(kind, tip_offset, {.crossings = crossing}, samples);
-        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing) return std::nullopt;
+        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing)
+            return std::nullopt;
         const Path::Crossing& support = path.crossings().back();
         const double step = (length / height - support.arc) / support.rate;
         if (std::abs(step) < TipOffset::near * tip_offset || round == 3)
@@ -104,17 +106,22 @@ std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int c
 
 /// For each crossing, ranges of eta_0 at whose ends it is on different sides of the support.
 REVCHAIN_LAZY
-std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length, int count) {
+std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings,
+                                           double length, int count) {
     std::vector<std::vector<TipRange>> ranges(crossings);
     std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
     double last = 0;
     for (int i = 1; i <= count; ++i) {
-        const double x = static_cast<double>(i) / count, tip = i == count ? length : length * x * x * x;
-        const Path path(
-            kind, tip,
-            {.crossings = static_cast<int>(crossings), .farthest = length, .tolerance = 1e-12, .with_change = false});
+        const double x = static_cast<double>(i) / count,
+                     tip = i == count ? length : length * x * x * x;
+        const Path path(kind, tip,
+                        {.crossings = static_cast<int>(crossings),
+                         .farthest = length,
+                         .tolerance = 1e-12,
+                         .with_change = false});
         for (std::size_t j = 0; j < crossings; ++j) {
-            const bool now = i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
+            const bool now =
+                i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
             if (now != below[j]) ranges[j].push_back({last, tip, below[j]});
             below[j] = now;
         }
@@ -127,7 +134,8 @@ std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t cro
 REVCHAIN_LAZY
 double length_in_heights(std::string_view place, double length, double height) {
     const double heights = length / height;
-    if (!(heights <= 1e6)) detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
+    if (!(heights <= 1e6))
+        detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
     return heights;
 }
 
@@ -184,7 +192,8 @@ CordShapes continuous_shapes(const ContinuousChain& chain, double height, int mo
 REVCHAIN_LAZY
 Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     constexpr std::string_view place = "modes";
-    if (count < 1 || count > 100'000) detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
+    if (count < 1 || count > 100'000)
+        detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
     Vector<double> heights(count);
     const auto place_of = [&](double height, Index crossing) {
         const Path path = path_at_rest(chain, height, {.crossings = static_cast<int>(crossing)});
@@ -193,13 +202,15 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
                 place,
                 chain.density != nullptr
                     ? "the line density is too rough to follow up to critical height"
-                    : "the tip weight is too great beside the chain's to follow up to critical height",
+                    : "the tip weight is too great beside the chain's to follow up to critical "
+                      "height",
                 crossing);
         return path.crossings();
     };
     if (kind_of(chain, 1, 0).is_bare()) {
         const auto crossings = place_of(1, count);
-        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
+        for (Index j = 0; j < count; ++j)
+            heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
         return heights;
     }
     for (Index j = 1; j <= count; ++j) {
@@ -207,8 +218,8 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
             return std::log(place_of(height, j).back().arc * height / chain.length);
         };
         const double guess = j == 1 ? chain.length : heights[j - 2];
-        heights[j - 1] =
-            detail::zero_between(detail::sign_change_near(guess, excess), excess, {.value = 2 * epsilon<double>()});
+        heights[j - 1] = detail::zero_between(detail::sign_change_near(guess, excess), excess,
+                                              {.value = 2 * epsilon<double>()});
     }
     return heights;
 }
@@ -229,7 +240,9 @@ Index critical_heights_above(const ContinuousChain& chain, double height) {
 class CordModeShape {
    public:
     CordModeShape(const ContinuousChain& chain, double height, Index mode)
-        : chain_(chain), height_(height), path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
+        : chain_(chain),
+          height_(height),
+          path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
 
     /// Offset at distance s from the free end; 1 there.
     double shape(double s) const { return state("CordModes::offset", s).offset; }
@@ -246,7 +259,8 @@ class CordModeShape {
     Vector<double> vertical_points() const {
         return detail::zeros_between(nodes(), chain_.length, [&](double s) {
             const PathState at = state("CordModes::vertical_points", s);
-            const double steep = slope(at), part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
+            const double steep = slope(at),
+                         part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
             return std::pair(steep, -part * (at.offset / height_ + steep) / height_);
         });
     }

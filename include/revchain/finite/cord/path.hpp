@@ -36,7 +36,8 @@ class Path {
     /// Follows the path to crossing number `crossings` or the first step that ends beyond
     /// `farthest`. `visit(series, duration)` receives every step.
     template <class Visit>
-    Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit) : kind_(kind) {
+    Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit)
+        : kind_(kind) {
         PathState state{0, tip_offset, -kind.tip * tip_offset, 0};
         PathChange change{0, 1, -kind.tip, 0};
         if (kind.is_bare()) {
@@ -52,7 +53,7 @@ class Path {
         }
         PathSeries series;
         while (!ended(options, state)) {
-            detail::look();
+            detail::check_interrupt();
             series.start(kind, state, options.with_change ? &change : nullptr);
             double duration = within_piece(series, series.reach(options.tolerance));
             PathSeries::Reached next = series.reached(duration);
@@ -64,14 +65,16 @@ class Path {
                 duration *= 0.6;
                 next = series.reached(duration);
             }
-            if (crossings_in(state, passed) == 1) note_crossing(series, duration, options.with_change);
+            if (crossings_in(state, passed) == 1)
+                note_crossing(series, duration, options.with_change);
             steps_.push_back({state, duration});
             const bool all_crossed = static_cast<int>(crossings_.size()) >= options.crossings;
             visit(series, all_crossed ? crossings_.back().time : duration);
             const double tension = kind.tension(next.state.pull, kind.weight_below(next.state.arc));
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
-            if (options.with_change) change = at_place(kind, next.state, series.change(duration), series, duration);
+            if (options.with_change)
+                change = at_place(kind, next.state, series.change(duration), series, duration);
             if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
             state = next.state;
         }
@@ -97,16 +100,21 @@ class Path {
     static PathState near_tip(const PathKind& kind, double tip_offset, double s) {
         const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset);
         if (s == 0) return {0, tip_offset, -kind.tip * tip_offset, 0};
-        const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
+        const double below = kind.weight_below(s) - kind.tip,
+                     moment = kind.density->first_moment(s * kind.unit);
         return {s, tip_offset - tip_offset * s / secant,
-                -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant), s / secant};
+                -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant),
+                s / secant};
     }
 
     /// The derivative of that state by the offset of the free end.
     static PathChange change_near_tip(const PathKind& kind, double tip_offset, double s) {
-        const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset), turn = s / (secant * secant * secant);
-        const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
-        return {0, 1 - turn, -kind.tip - below * (1 - turn * moment), -kind.bend * tip_offset * turn};
+        const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset),
+                     turn = s / (secant * secant * secant);
+        const double below = kind.weight_below(s) - kind.tip,
+                     moment = kind.density->first_moment(s * kind.unit);
+        return {0, 1 - turn, -kind.tip - below * (1 - turn * moment),
+                -kind.bend * tip_offset * turn};
     }
 
    private:
@@ -115,7 +123,8 @@ class Path {
                                const PathSeries& series, double duration) {
         const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);
         const double density = kind.density == nullptr ? 1.0 : series.density_at(duration);
-        return {0, change.offset - x.pull / tension * change.arc, change.pull + density * x.offset * change.arc,
+        return {0, change.offset - x.pull / tension * change.arc,
+                change.pull + density * x.offset * change.arc,
                 change.height - below / tension * change.arc};
     }
     double within_piece(const PathSeries& series, double duration) const {
@@ -125,8 +134,8 @@ class Path {
         return time_at(series, end, duration);
     }
     bool ended(const Options& options, const PathState& state) const {
-        return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
-               steps_.size() >= max_steps;
+        return static_cast<int>(crossings_.size()) >= options.crossings ||
+               state.arc > options.farthest || steps_.size() >= max_steps;
     }
     /// 0 for eta > 0 > u, then in the order in which quadrants are passed.
     static int quadrant(const PathState& x) {
@@ -134,7 +143,9 @@ class Path {
         if (x.offset < 0) return x.pull >= 0 ? 2 : 1;
         return x.pull <= 0 ? 1 : 3;
     }
-    static int quadrants(const PathState& from, const PathState& to) { return (quadrant(to) - quadrant(from) + 4) % 4; }
+    static int quadrants(const PathState& from, const PathState& to) {
+        return (quadrant(to) - quadrant(from) + 4) % 4;
+    }
     /// Quadrants 1 and 3 are entered through the axis.
     static int crossings_in(const PathState& from, int passed) {
         const int first = quadrant(from);
@@ -155,8 +166,8 @@ class Path {
         Crossing crossing{PathSeries::at(series.arc, t), 0, t};
         if (with_change) {
             const PathChange change = series.change(t);
-            crossing.rate =
-                change.arc - PathSeries::at(series.tension, t) * change.offset / PathSeries::at(series.pull, t);
+            crossing.rate = change.arc - PathSeries::at(series.tension, t) * change.offset /
+                                             PathSeries::at(series.pull, t);
         }
         crossings_.push_back(crossing);
     }

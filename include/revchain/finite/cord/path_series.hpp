@@ -33,12 +33,15 @@ struct PathKind {
     double line_weight = 1;                ///< mean weight per length, the unit of tensions
 
     double weight_below(double arc) const {
-        return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
+        return tip +
+               (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
     }
     double density_at(double arc) const {
         return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;
     }
-    double tension(double pull, double below) const { return bend == 0 ? below : std::hypot(pull, below); }
+    double tension(double pull, double below) const {
+        return bend == 0 ? below : std::hypot(pull, below);
+    }
     /// Whether the free end, where T = 0, needs a series of its own: `TipSeries`.
     bool is_bare() const { return density == nullptr && tip == 0; }
 };
@@ -73,8 +76,8 @@ class PathSeries {
         double bend = 1, weight = 1;  ///< V' = weight T,  T' = weight V - bend u eta
         double weight_change = 0;     ///< derivative of `weight`
     };
-    void start(const Constants& constants, const PathState& state, double weight_below, const PathChange* change,
-               double change_below) {
+    void start(const Constants& constants, const PathState& state, double weight_below,
+               const PathChange* change, double change_below) {
         set(state, weight_below, change);
         below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
         uniform<false>(constants);
@@ -82,15 +85,19 @@ class PathSeries {
 
     /// The longest time for which the first omitted terms stay below `tolerance`.
     double reach(double tolerance) const {
-        const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
+        const double size =
+            std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
         return std::min(latest_, reach(tolerance, [&](std::size_t k) {
-                            return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
+                            return std::max(std::abs(offset[k]) / size,
+                                            std::abs(tension[k]) / tension[0]);
                         }));
     }
     /// The reach if `largest(k)` is the size of the coefficients k.
     template <class Largest>
     static double reach(double tolerance, const Largest& largest) {
-        const auto of = [&](std::size_t k) { return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k)); };
+        const auto of = [&](std::size_t k) {
+            return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k));
+        };
         return std::min(of(order), of(order - 1));
     }
 
@@ -107,7 +114,9 @@ class PathSeries {
     };
     Reached reached(double t) const {  // all sums at once, since each waits for itself
         const Coefficients& pulled = is_dense_ ? mass : tension;
-        Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(pulled[order])};
+        Reached x{{arc[order], offset[order], pull[order], height[order]},
+                  tension[order],
+                  std::abs(pulled[order])};
         for (std::size_t k = order; k-- > 0;) {
             x.state.arc = x.state.arc * t + arc[k];
             x.state.offset = x.state.offset * t + offset[k];
@@ -122,7 +131,8 @@ class PathSeries {
     PathState state(double t) const { return reached(t).state; }
     double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
-        PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
+        PathChange x{arc_change[order], offset_change[order], pull_change[order],
+                     height_change[order]};
         for (std::size_t k = order; k-- > 0;) {
             x.arc = x.arc * t + arc_change[k];
             x.offset = x.offset * t + offset_change[k];
@@ -139,7 +149,8 @@ class PathSeries {
 
    private:
     void set(const PathState& state, double weight_below, const PathChange* change) {
-        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull, height[0] = state.height;
+        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull,
+        height[0] = state.height;
         below[0] = weight_below, has_change_ = change != nullptr;
         if (!has_change_) return;
         arc_change[0] = change->arc, offset_change[0] = change->offset;
@@ -189,7 +200,8 @@ class PathSeries {
             for (std::size_t first = 0; first <= last; first += block) {
                 for (std::size_t i = first; i < first + block; ++i) {
                     eT[n + i] += en * w[i] + wn * e[i];
-                    if constexpr (change) d_eT[n + i] += en * dw[i] + wn * de[i] + den * w[i] + dwn * e[i];
+                    if constexpr (change)
+                        d_eT[n + i] += en * dw[i] + wn * de[i] + den * w[i] + dwn * e[i];
                 }
             }
         };
@@ -205,7 +217,8 @@ class PathSeries {
             if constexpr (change) d_ee[2 * n] += en * den;
         };
         if constexpr (change)
-            tension_change[0] = (bend * pull[0] * pull_change[0] + below[0] * change_below[0]) / tension[0];
+            tension_change[0] =
+                (bend * pull[0] * pull_change[0] + below[0] * change_below[0]) / tension[0];
         double en = offset[0], den = change ? offset_change[0] : 0.0;
         for (std::size_t n = 0; n < order; ++n) {
             const double inverse = 1.0 / static_cast<double>(n + 1);
@@ -214,7 +227,8 @@ class PathSeries {
             spread(n, en, wn, den, dwn);
             e[n] = en;
             if constexpr (change) de[n] = den;
-            const double next = pull[n] * inverse, next_change = change ? pull_change[n] * inverse : 0.0;
+            const double next = pull[n] * inverse,
+                         next_change = change ? pull_change[n] * inverse : 0.0;
             offset[n + 1] = next;
             arc[n + 1] = wn * inverse;
             below[n + 1] = weight * arc[n + 1];
@@ -226,12 +240,14 @@ class PathSeries {
                 offset_change[n + 1] = next_change;
                 arc_change[n + 1] = dwn * inverse;
                 if constexpr (!unit_weight)
-                    below_change[n + 1] = weight * arc_change[n + 1] + constants.weight_change * arc[n + 1];
+                    below_change[n + 1] =
+                        weight * arc_change[n + 1] + constants.weight_change * arc[n + 1];
                 height_change[n + 1] = change_below[n] * inverse;
                 pull_change[n + 1] = -d_eT[n] * inverse;
-                tension_change[n + 1] =
-                    weight * height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
-                if constexpr (!unit_weight) tension_change[n + 1] += constants.weight_change * height[n + 1];
+                tension_change[n + 1] = weight * height_change[n + 1] -
+                                        bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+                if constexpr (!unit_weight)
+                    tension_change[n + 1] += constants.weight_change * height[n + 1];
             }
             en = next, den = next_change;
         }
@@ -280,14 +296,20 @@ class PathSeries {
             density_change[k] = product(slope, arc_change, n);
             below_change[k] = product(density, arc_change, n);
             if (n == 0)
-                tension_change[0] = (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) / tension[0];
+                tension_change[0] =
+                    (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) /
+                    tension[0];
             offset_change[k + 1] = pull_change[k] * inverse;
             arc_change[k + 1] = tension_change[k] * inverse;
             height_change[k + 1] = below_change[k] * inverse;
-            mass_change[k] = product(density_change, tension, n) + product(density, tension_change, n);
-            pull_change[k + 1] = -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
-            drive_change[k] = below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
-            tension_change[k + 1] = (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
+            mass_change[k] =
+                product(density_change, tension, n) + product(density, tension_change, n);
+            pull_change[k + 1] =
+                -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
+            drive_change[k] =
+                below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
+            tension_change[k + 1] =
+                (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
         }
         mass[order] = product(density, tension, order);
     }
@@ -307,7 +329,8 @@ double time_of_zero(double latest, const F& value_and_slope) {
 REVCHAIN_LAZY
 double time_at(const PathSeries& series, double arc, double latest) {
     return time_of_zero(latest, [&](double t) {
-        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
+        return std::pair(PathSeries::at(series.arc, t) - arc,
+                         series.pace * PathSeries::at(series.tension, t));
     });
 }
 
@@ -343,13 +366,15 @@ class TipSeries {
             height[n + 1] = cosine[n] * inverse;
         }
         // no zero of eta before max(1.4458, eta_0): it bends less than at small amplitude
-        const double within = PathSeries::reach(
-            tolerance, [&](std::size_t k) { return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k])); });
+        const double within = PathSeries::reach(tolerance, [&](std::size_t k) {
+            return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k]));
+        });
         reach = std::min(0.9 * std::max(1.4458, tip_offset), within);
     }
 
     PathState state(double arc) const {
-        return {arc, PathSeries::at(offset, arc), arc * PathSeries::at(tangent, arc), PathSeries::at(height, arc)};
+        return {arc, PathSeries::at(offset, arc), arc * PathSeries::at(tangent, arc),
+                PathSeries::at(height, arc)};
     }
     PathChange change(double arc) const {
         return {0, PathSeries::at(offset_change, arc), arc * PathSeries::at(tangent_change, arc),
@@ -361,7 +386,8 @@ class TipSeries {
 
    private:
     /// Coefficient n of a power of a series by J. C. P. Miller's recurrence.
-    static double power(const Coefficients& of, const Coefficients& result, std::size_t n, double exponent) {
+    static double power(const Coefficients& of, const Coefficients& result, std::size_t n,
+                        double exponent) {
         if (n == 0) return std::pow(of[0], exponent);
         double sum = 0;
         const auto whole = static_cast<double>(n);

@@ -18,7 +18,8 @@ struct CrossingLaw {
         return {c, c / (2 * crossing - 1)};
     }
     /// Through a value and a slope, where they fit.
-    static CrossingLaw through(double tip_offset, double rise, double rate, const CrossingLaw& otherwise) {
+    static CrossingLaw through(double tip_offset, double rise, double rate,
+                               const CrossingLaw& otherwise) {
         const double power = rate * tip_offset / rise;  // local exponent of eta_0, between 2 and 1
         if (!(power > 1.0001 && power < 2)) return otherwise;
         const double b = (2 - power) / (power - 1);
@@ -51,20 +52,23 @@ struct TipOffset {
     CrossingLaw law;
 };
 REVCHAIN_LAZY
-TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
-                     CrossingLaw law) {
+TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length,
+                     TipRange range, CrossingLaw law) {
     const auto middle = [&] {
         if (range.low == 0) return 0.1 * range.high;
         return std::clamp(std::sqrt(range.low) * std::sqrt(range.high), range.low, range.high);
     };
-    const auto inside = [&](double tip) { return tip > range.low && tip < range.high ? tip : middle(); };
+    const auto inside = [&](double tip) {
+        return tip > range.low && tip < range.high ? tip : middle();
+    };
     const double rise = length - place_at_rest;
     double tip = inside(std::min(law.tip_offset(rise), 0.999 * range.high)), last = 0.05;
     for (int round = 0; round < 200; ++round) {
         // the fitted law leaves 1e-2 of the step's square, relative to the rise, which near a
         // critical height is a small part of the arc; more accuracy is not needed
         const double square = last * last;
-        const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
+        const double tolerance =
+            std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
         const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
         if (static_cast<int>(path.crossings().size()) < crossing) return {0, law};
         const Path::Crossing& found = path.crossings().back();
@@ -78,7 +82,8 @@ TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, d
         last = std::abs(next / tip - 1);
         tip = next;
         // the next step would be below the square of this one plus the tolerance
-        if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise && tolerance * length < TipOffset::near * rise)
+        if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise &&
+            tolerance * length < TipOffset::near * rise)
             break;
     }
     return {tip, law};

@@ -33,7 +33,8 @@ template <class System>
 std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& to) {
     const auto turning = [&](const HeldState& x) {
         const HeldEnd<double> end = held(x.forces, true);
-        return end.offset_change[0] * end.rise_change[1] - end.offset_change[1] * end.rise_change[0];
+        return end.offset_change[0] * end.rise_change[1] -
+               end.offset_change[1] * end.rise_change[0];
     };
     const double at_low = turning(from), at_high = turning(to);
     if (!(at_low * at_high < 0)) return {};
@@ -68,11 +69,13 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
         states.push_back(state), ways.push_back(held.kept());
-        if (state.forces.height < HeldCurve<System>::at_rest * as_double(held.length())) return true;
+        if (state.forces.height < HeldCurve<System>::at_rest * as_double(held.length()))
+            return true;
         branch.end = HeldBranchEnd::rest;
         return false;
     });
-    if (states.size() >= static_cast<std::size_t>(HeldCurve<System>::max_steps)) branch.end = HeldBranchEnd::budget;
+    if (states.size() >= static_cast<std::size_t>(HeldCurve<System>::max_steps))
+        branch.end = HeldBranchEnd::budget;
     for (std::size_t i = 0; i < states.size(); ++i) {
         held.keep(ways[i]);
         branch.shapes.push_back(describe(states[i], false));
@@ -93,31 +96,37 @@ struct HeldStart {
     int half_waves;
     bool outwards = true;
 
-    static HeldStart of_mode(int mode, bool mirrored) {
-        return mirrored ? HeldStart{mode} : HeldStart{(mode + 1) / 2, mode % 2 == 1};
+    static HeldStart of_mode(int mode, bool symmetric) {
+        return symmetric ? HeldStart{mode} : HeldStart{(mode + 1) / 2, mode % 2 == 1};
     }
 };
 
 /// The branch of a mode at a span, for heights from `least` up; none if it does not exist.
 REVCHAIN_LAZY
-std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports, double span,
-                                      double least, int mode, double max_step) {
+std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports,
+                                      double span, double least, int mode, double max_step) {
     HeldChain held(chain, supports);
     const int exponent = held.links().units.length_exponent;
     const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
-    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
+    const HeldStart start = HeldStart::of_mode(mode, held.is_symmetric());
     held.springs_at(Fine(height));
     const auto first = held.at_height(start.half_waves, Fine(apart), height, start.outwards);
     held.springs_at({});
     if (!first) return {};
-    HeldBranch branch = branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
-        if (!is_fold)
-            if (auto shape = held.finished(state, Fine(apart), Fine(state.forces.height), false)) return *shape;
-        const HeldForces<Fine> forces{Fine(state.forces.across), Fine(state.forces.along), Fine(state.forces.height)};
-        std::vector<Direction<Fine>> ways_there;
-        for (const Direction<double>& d : held.kept()) ways_there.push_back({Fine(d.sine), Fine(d.cosine)});
-        return described(held.links(), held.ends(forces.height), forces, Fine(apart), ways_there);
-    });
+    HeldBranch branch =
+        branch_from(held, *first, max_step, [&](const HeldState& state, bool is_fold) {
+            if (!is_fold)
+                if (auto shape =
+                        held.finished(state, Fine(apart), Fine(state.forces.height), false))
+                    return *shape;
+            const HeldForces<Fine> forces{Fine(state.forces.across), Fine(state.forces.along),
+                                          Fine(state.forces.height)};
+            std::vector<Direction<Fine>> ways_there;
+            for (const Direction<double>& d : held.kept())
+                ways_there.push_back({Fine(d.sine), Fine(d.cosine)});
+            return described(held.links(), held.ends(forces.height), forces, Fine(apart),
+                             ways_there);
+        });
     branch.mode = mode;
     branch.half_waves = branch.shapes.empty() ? start.half_waves : branch.shapes.front().half_waves;
     return branch;
@@ -125,16 +134,19 @@ std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupp
 
 /// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
 REVCHAIN_LAZY
-std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain, const HeldSupports& supports, double span,
+std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain,
+                                               const HeldSupports& supports, double span,
                                                double tension, int mode) {
     HeldChain held(chain, supports);
-    const HeldStart start = HeldStart::of_mode(mode, held.mirrored());
+    const HeldStart start = HeldStart::of_mode(mode, held.is_symmetric());
     const ChainUnits units = held.links().units;
-    const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
+    const double apart = std::ldexp(span, -units.length_exponent),
+                 wanted = std::ldexp(tension, -units.weight_exponent);
     const auto first = held.at_height(start.half_waves, Fine(apart), 0, start.outwards);
     if (!first) return {};
-    const auto found = held.curve().first_where(
-        *first, [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; });
+    const auto found = held.curve().first_where(*first, [&](const HeldState& x) {
+        return held.top_pull(x.forces) - x.forces.height * wanted;
+    });
     if (!found) return {};
     return held.finished(*found, Fine(apart), Fine(found->forces.height), true);
 }

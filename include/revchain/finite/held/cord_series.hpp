@@ -23,7 +23,8 @@ class CordSeries {
         const PathState state{place.arc, place.offset, place.across, place.rise};
         for (std::size_t i = 0; i < (change == nullptr ? 1 : 3); ++i) {
             const HeldCordState d = change == nullptr ? HeldCordState{} : (*change)[i];
-            const PathChange varied{d.arc, d.offset, d.across, d.rise}, *given = change == nullptr ? nullptr : &varied;
+            const PathChange varied{d.arc, d.offset, d.across, d.rise},
+                *given = change == nullptr ? nullptr : &varied;
             series_[i].start({1, height, i == 2 ? 1.0 : 0.0}, state, place.along, given, d.along);
         }
     }
@@ -40,7 +41,8 @@ class CordSeries {
         for (std::size_t i = 0; i < 3; ++i) {
             const PathChange c = series_[i].change(t);
             result[i] = {0, c.offset - x.across / pull * c.arc, c.height - x.along / pull * c.arc,
-                         c.pull + x.offset * c.arc, PathSeries::at(series_[i].below_change, t) - height * c.arc};
+                         c.pull + x.offset * c.arc,
+                         PathSeries::at(series_[i].below_change, t) - height * c.arc};
         }
         return result;
     }
@@ -53,7 +55,9 @@ class CordSeries {
                              std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
         });
     }
-    double time_at(double wanted, double duration) const { return finite::time_at(series_[0], wanted, duration); }
+    double time_at(double wanted, double duration) const {
+        return finite::time_at(series_[0], wanted, duration);
+    }
 
    private:
     std::array<PathSeries, 3> series_;

@@ -24,16 +24,16 @@ enum class Third { span, height, part };
 template <class Shooter>
 class HeldCurve {
    public:
-    /// `length` and `weight` scale steps; `mirrored`: both ends are on the axis.
-    HeldCurve(Shooter& shooter, double length, double weight, bool mirrored = true)
-        : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
+    /// `length` and `weight` scale steps; `symmetric`: both ends are on the axis.
+    HeldCurve(Shooter& shooter, double length, double weight, bool symmetric = true)
+        : shooter_(&shooter), length_(length), weight_(weight), symmetric_(symmetric) {}
 
     static constexpr int max_steps = 3000;
     static constexpr double at_rest = 1e4;  ///< conical height over length of a chain at rest
 
     /// Newton's method at the span and height of `state`, to double accuracy.
     std::optional<HeldState> corrected(HeldState state) {
-        detail::look();
+        detail::check_interrupt();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
         if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
         (*shooter_)(state.forces, true);
@@ -94,7 +94,8 @@ class HeldCurve {
         step_along<Third::height>(from, true, visit, max_step);
     }
     /// The state in the plane across the chord of two states, at a share of it.
-    std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to, double share) {
+    std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to,
+                                          double share) {
         constexpr Third height = Third::height;
         const Triple scale = scales<height>(from);
         const HeldForces<double>&a = from.forces, &b = to.forces;
@@ -136,7 +137,8 @@ class HeldCurve {
         double off;  ///< lambda times the top tension, less the wanted
     };
     Tense tense(const HeldState& x, double wanted) {
-        const double across = (*shooter_)(x.forces, false).across, along = x.forces.along + x.forces.height * weight_;
+        const double across = (*shooter_)(x.forces, false).across,
+                     along = x.forces.along + x.forces.height * weight_;
         return {x, std::hypot(across, along) - wanted};
     }
     static HeldState mixed(HeldState a, const HeldState& b, double share) {
@@ -180,11 +182,13 @@ class HeldCurve {
     template <Third third>
     Triple scales(const HeldState& x) const {
         const double along = std::abs(x.forces.along), hung = weight_ * x.forces.height,
-                     across = std::abs(x.forces.across) + (has_image(x) ? 0.0 : 0.1 * (along + hung));
+                     across =
+                         std::abs(x.forces.across) + (has_image(x) ? 0.0 : 0.1 * (along + hung));
         const double pull = along + 0.05 * (across + hung);
         if constexpr (third == Third::span) {
             const double least = x.forces.height == 0 ? along : pull;
-            return {across, least, std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
+            return {across, least,
+                    std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
         } else if constexpr (third == Third::height) {
             return {across, pull, x.forces.height + 0.3 * (across + along) / weight_};
         } else {
@@ -201,7 +205,7 @@ class HeldCurve {
             return x.forces.part;
     }
     /// Whether the state with opposite forces across is one too; then this force is never 0.
-    bool has_image(const HeldState& x) const { return mirrored_ || x.forces.part == 0; }
+    bool has_image(const HeldState& x) const { return symmetric_ || x.forces.part == 0; }
     template <Third third>
     static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
         HeldState x = from;
@@ -246,8 +250,8 @@ class HeldCurve {
 
     /// Newton's method back to the curve in the plane across the tangent.
     template <Third third>
-    bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
-                 HeldEnd<double>& end, int& rounds) {
+    bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step,
+                 HeldState& x, HeldEnd<double>& end, int& rounds) {
         Triple at = tangent * step;
         double last = 1;
         for (rounds = 0; rounds < 8; ++rounds) {
@@ -259,7 +263,8 @@ class HeldCurve {
             const auto [over_y, over_z] = gradients<third>(end, scale);
             // three equations: the end's two gaps and the plane
             const double y = end.offset, z = end.rise - x.span, p = tangent.dot(at) - step;
-            const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
+            const Triple a = cross(over_z, tangent), b = cross(tangent, over_y),
+                         c = cross(over_y, over_z);
             const Triple change = -(y * a + z * b + p * c) / over_y.dot(a);
             const double size = change.norm();
             if (!(size < 2 * step + 1e-9)) return false;
@@ -299,7 +304,7 @@ class HeldCurve {
 
     Shooter* shooter_;
     double length_, weight_;
-    bool mirrored_;
+    bool symmetric_;
 };
 
 /// Visits the states of a height with tension at the upper end times height as `wanted`, on the
@@ -307,7 +312,8 @@ class HeldCurve {
 template <class System, class Visit>
 void each_under(System& held, int half_waves, double height, double wanted, const Visit& visit) {
     for (const double share : {0.9, 0.5, 0.99, 0.1})
-        if (const auto state = held.at_height(half_waves, held.length() * typename System::S(share), height))
+        if (const auto state =
+                held.at_height(half_waves, held.length() * typename System::S(share), height))
             return held.curve().under(*state, wanted, visit);
 }
 

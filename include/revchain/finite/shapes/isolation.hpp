@@ -64,8 +64,9 @@ class Cutting {
     /// None if the range is narrower than `narrowest` of its upper end; from 0, of min(`last`, 1).
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
-        const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
-                                        : high - low < narrowest * high || !(low < cut && cut < high);
+        const bool narrow = low == T(0)
+                                ? high < narrowest * std::min(last, T(1))
+                                : high - low < narrowest * high || !(low < cut && cut < high);
         return narrow ? std::nullopt : std::optional<T>(cut);
     }
 
@@ -75,12 +76,14 @@ class Cutting {
 
 /// Visits cells and their parts until none waits, up to `batch` at once: the newest first, so that
 /// few wait, or with `large_first` the oldest, so that remaining cells are small. `visit(cells,
-/// wait)` settles each cell, leaves it open, or passes parts to `wait`; `spent()` ends this.
-template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
-void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
+/// wait)` decides each cell, leaves it open, or passes parts to `wait`; `spent()` ends this.
+template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit,
+          class LeaveOpen>
+void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
+               const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
     while (!waiting.empty()) {
-        detail::look();
+        detail::check_interrupt();
         cells.clear();
         while (cells.size() < batch && !waiting.empty()) {
             cells.push_back(large_first ? waiting.front() : waiting.back());
@@ -94,20 +97,20 @@ void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
 }
 
 /// State of a range of tangents: all shapes known; undecided; undecided because of rounding.
-enum class Seen { settled, open, ruled_by_rounding };
+enum class Seen { decided, open, ruled_by_rounding };
 
-/// Splits `whole` until `classify(part, cells)` settles every part. Calls `leave_open(part)` for
+/// Splits `whole` until `classify(part, cells)` decides every part. Calls `leave_open(part)` for
 /// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns their number.
 template <class T, class Classify, class LeaveOpen>
-long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
-           const LeaveOpen& leave_open) {
+long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget,
+           const Classify& classify, const LeaveOpen& leave_open) {
     Cutting<T> cutting;
     long cells = 0;
     const auto visit = [&](const std::vector<Bracket<T>>& one, const auto& wait) {
         const Bracket<T>& part = one.front();
         ++cells;
         const Seen seen = classify(part, cells);
-        if (seen == Seen::settled) return;
+        if (seen == Seen::decided) return;
         const auto cut = cutting.between(part.low, part.high, narrowest, last);
         if (!cut || seen == Seen::ruled_by_rounding) return leave_open(part);
         wait({*cut, part.high});
@@ -120,22 +123,24 @@ long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budg
 
 /// Splits `whole` until each part has no shape or one. Leaves out the straight chain, at 0.
 template <Real T, class End = OnAxis>
-Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, const Bracket<T>& whole,
-                     const T& narrowest, long budget, const End& support = {}) {
+Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height,
+                     const Bracket<T>& whole, const T& narrowest, long budget,
+                     const End& support = {}) {
     Isolation<T> found;
     const auto classify = [&](const Bracket<T>& part, long&) {
-        const auto end = support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
+        const auto end =
+            support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
         const bool from_zero = part.low == T(0) && support.is_symmetric();
-        if (!from_zero && !end.value.may_vanish()) return Seen::settled;
+        if (!from_zero && !end.value.may_vanish()) return Seen::decided;
         if (!end.slope[0].may_vanish()) {
-            if (from_zero) return Seen::settled;  // the straight chain alone
+            if (from_zero) return Seen::decided;  // the straight chain alone
             const int low = sign_at(links, height, part.low, support),
                       high = sign_at(links, height, part.high, support);
             if (low * high == -1) found.shapes.push_back(part);
-            if (low * high != 0) return Seen::settled;
+            if (low * high != 0) return Seen::decided;
         }
-        const bool rounding =
-            from_zero ? rounding_rules(end.slope[0], end.centre_slope[0]) : rounding_rules(end.value, end.centre_value);
+        const bool rounding = from_zero ? rounding_rules(end.slope[0], end.centre_slope[0])
+                                        : rounding_rules(end.value, end.centre_value);
         return rounding ? Seen::ruled_by_rounding : Seen::open;
     };
     found.cells = split(whole, whole.high, narrowest, budget, classify,

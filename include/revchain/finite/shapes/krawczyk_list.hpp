@@ -19,7 +19,8 @@ class KrawczykList {
     }
     /// Takes over the zeros of the same balance found in fewer digits.
     template <class Fewer, class FewerEnd>
-    KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known) : balance_(balance) {
+    KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known)
+        : balance_(balance) {
         const auto same = [](const TangentBox<Fewer>& x) {
             TangentBox<T> result;
             for (const Interval<Fewer>& t : x) result.push_back({T(t.low), T(t.high)});
@@ -32,7 +33,7 @@ class KrawczykList {
     const std::vector<Zero>& found() const { return found_; }
 
     /// Whether the box has no zero, or one, which is in the list now.
-    bool settles(TangentBox<T> box) {
+    bool decides(TangentBox<T> box) {
         for (int round = 0; round < 4; ++round) {
             if (is_known(box)) return true;
             const auto narrow = balance_.narrowed(box);
@@ -52,7 +53,8 @@ class KrawczykList {
         for (int round = 0; round < 3; ++round) {
             using std::abs;
             for (Interval<T>& t : wider) {
-                const T off = t.width() / T(2) + T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
+                const T off = t.width() / T(2) +
+                              T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
                               std::numeric_limits<T>::min();
                 t = {t.low - off, t.high + off};
             }
@@ -95,14 +97,15 @@ class KrawczykList {
             if (!(now < T(0.5) * before)) break;
         }
         const bool both = balance_.is_symmetric();
-        const TangentBox<T> other = both ? mirrored(near) : near;
+        const TangentBox<T> other = both ? mirror_image(near) : near;
         for (const Zone& zone : zones_) {
             if (!within(near, zone.box) && !within(other, zone.box)) continue;
             zones_.push_back({box, zone.zero});
             return true;
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (within(found_[i].near, box) || (both && within(found_[i].near, mirrored(box)))) {
+            if (within(found_[i].near, box) ||
+                (both && within(found_[i].near, mirror_image(box)))) {
                 zones_.push_back({box, i});
                 return true;
             }

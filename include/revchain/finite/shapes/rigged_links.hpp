@@ -16,7 +16,7 @@ struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
     Fine speed{0.0};  ///< n, signed; 0 without momentum
-    Held<Fine> support{};
+    SupportEnd<Fine> support{};
     Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
     double total_weight = 0;  ///< of the chain
 
@@ -37,7 +37,7 @@ Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
     return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
 
-inline const Held<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
+inline const SupportEnd<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
 inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
 REVCHAIN_LAZY
 bool may_all_stand(const RiggedLinks&) { return true; }
@@ -54,7 +54,8 @@ EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
 
 /// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
 template <class T>
-Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interval<T>>& support) {
+Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
+                               const SupportEnd<Interval<T>>& support) {
     Interval<T> moving = support.carriage;
     for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
     return Interval<T>(T(1)) - support.compliance * moving;
@@ -65,12 +66,14 @@ Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interva
 /// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
 /// there is no bound: then as if they were 1e-6 apart.
 template <class T>
-T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool, const Held<Interval<T>>& support) {
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
+                   const SupportEnd<Interval<T>>& support) {
     Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
     for (const Link<Interval<T>>& link : links) {
         reach = reach + Interval<T>(link.length.size());
         if (!support.firm)
-            drawn = drawn + support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
+            drawn = drawn +
+                    support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
         moving = moving + link.moment + link.rest;
     }
     if (!support.firm) {
@@ -78,8 +81,9 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
         drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
     }
     const Interval<T> turning = links[0].length * links[0].cross;
-    const Interval<T> far = (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
-                            (height * links[0].pull);
+    const Interval<T> far =
+        (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
+        (height * links[0].pull);
     return far.high;
 }
 
@@ -95,7 +99,7 @@ Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>
     for (const double y : shape.offset.head(shape.offset.size() - 1))
         if (y != 0) last = y;
     if (as_double(top) * last < 0) ++shape.half_waves;
-    const Held<Fine>& support = rig.support;
+    const SupportEnd<Fine>& support = rig.support;
     const Fine drawn = top - support.radius,
                inertia = rig.axial_moment + (support.firm ? Fine(0) : support.carriage * top * top);
     Fine energy = -inertia / (Fine(2) * height);
@@ -117,29 +121,38 @@ RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) 
     if (rig.has_momentum()) result.speed = speed;
     for (Index m = 0; m < rig.size(); ++m) {
         const detail::RigLink& link = result.given[static_cast<std::size_t>(m)];
-        const Fine pull = link.spin == Fine(0) ? link.tension : link.tension + result.speed * link.spin;
+        const Fine pull =
+            link.spin == Fine(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
-            detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what), pull.high);
+            detail::throw_invalid("steady_shapes",
+                                  "links[" + std::to_string(m) + "]: " + std::string(what),
+                                  pull.high);
         };
         if (effective_tension<Far>(link, result.speed).may_vanish())
-            reject("the effective tension (tension and n times momentum over length) must not vanish at this speed");
+            reject(
+                "the effective tension (tension and n times momentum over length) must not vanish "
+                "at this speed");
         if (m == 0 && enclosed<Far>(link.moment).may_vanish())
             reject("the lowest link's weight that moves must not balance about its upper pin");
         result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
         result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);
-        result.axial_moment =
-            result.axial_moment +
-            ldexp(rig.flywheel(m).axial_moment, -result.units.weight_exponent - 2 * result.units.length_exponent);
+        result.axial_moment = result.axial_moment + ldexp(rig.flywheel(m).axial_moment,
+                                                          -result.units.weight_exponent -
+                                                              2 * result.units.length_exponent);
     }
     const Support& held = rig.support();
-    const auto length = [&](double x) { return Fine(std::ldexp(x, -result.units.length_exponent)); };
+    const auto length = [&](double x) {
+        return Fine(std::ldexp(x, -result.units.length_exponent));
+    };
     const Fine none(0.0), radius = length(held.radius);
     result.support = {radius, none, none, none, held.radius == 0, held.is_firm()};
     if (!held.is_firm()) {
-        const Fine stiffness = ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        const Fine stiffness =
+            ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
         result.support.stiffness = ldexp(height, -result.units.length_exponent) * stiffness;
         result.support.compliance = Fine(1.0) / result.support.stiffness;
-        result.support.carriage = Fine(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
+        result.support.carriage =
+            Fine(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
     }
     return result;
 }

@@ -16,21 +16,27 @@ using TangentBox = std::vector<Interval<T>>;
 
 template <Real T>
 bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    const auto inside = [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; };
+    const auto inside = [](const auto& a, const auto& b) {
+        return b.low <= a.low && a.high <= b.high;
+    };
     return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    const auto inside = [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; };
+    const auto inside = [](const auto& a, const auto& b) {
+        return b.low < a.low && a.high < b.high;
+    };
     return std::equal(x.begin(), x.end(), y.begin(), inside);
 }
 template <Real T>
 bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
-    const auto meet = [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); };
+    const auto meet = [](const auto& a, const auto& b) {
+        return !(a.high < b.low || b.high < a.low);
+    };
     return !std::equal(x.begin(), x.end(), y.begin(), meet);
 }
 template <Real T>
-TangentBox<T> mirrored(TangentBox<T> x) {
+TangentBox<T> mirror_image(TangentBox<T> x) {
     for (Interval<T>& t : x) t = -t;
     return x;
 }
@@ -46,7 +52,8 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
 template <Real T>
 std::optional<std::vector<T>> inverse_of(const std::vector<T>& a, std::size_t n) {
     using std::abs, std::isfinite;
-    std::vector<std::vector<T>> rows(n, std::vector<T>(2 * n));  // of a, and beside them those of its inverse
+    std::vector<std::vector<T>> rows(
+        n, std::vector<T>(2 * n));  // of a, and beside them those of its inverse
     for (std::size_t i = 0; i < n; ++i) {
         std::copy_n(&a[i * n], n, rows[i].begin());
         rows[i][n + i] = T(1);
@@ -82,11 +89,11 @@ std::optional<std::vector<T>> inverse_of(const std::vector<T>& a, std::size_t n)
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
-    WholeBalance(const EnclosedLinks<T>& links, const Interval<T>& height, std::vector<Posture> posture,
-                 const End& support = {})
+    WholeBalance(const EnclosedLinks<T>& links, const Interval<T>& height,
+                 std::vector<Posture> posture, const End& support = {})
         : size_(links.size()), posture_(std::move(posture)), matrix_(size_ * size_) {
         std::vector<Interval<T>> moving;  // sigma of the weights that move
-        if constexpr (is_held<End>)
+        if constexpr (is_support<End>)
             moving = hold(links, support);
         else
             for (const Link<Interval<T>>& link : links) moving.push_back(link.pull);
@@ -94,7 +101,8 @@ class WholeBalance {
             stiffness_.push_back(height * links[m].pull);
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T>& entry = matrix_[m * size_ + r];
-                entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) * links[r].length;
+                entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) *
+                        links[r].length;
                 if (support.yields()) entry = entry + moving[m] * top_.drawn[r];
                 middle_.push_back(entry.middle());
             }
@@ -104,14 +112,16 @@ class WholeBalance {
     bool is_symmetric() const { return top_.symmetric; }
     Interval<T> top(const std::vector<Interval<T>>& sines) const {
         Interval<T> y(T(0));
-        if constexpr (is_held<End>) {
+        if constexpr (is_support<End>) {
             y = top_.at_rest;
             for (std::size_t r = 0; r < size_; ++r) y = y + top_.drawn[r] * sines[r];
         }
         return y;
     }
 
-    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, Sine<T>(t).value); }
+    Interval<T> sine(std::size_t m, const Interval<T>& t) const {
+        return signed_(m, Sine<T>(t).value);
+    }
 
     /// Encloses all zeros of F in the box (Krawczyk); if the result is strictly within the box,
     /// there is exactly one. None if the derivative has no inverse. Cost N^3. The tests of two forces
@@ -132,8 +142,10 @@ class WholeBalance {
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T> product(T(0));  // of the inverse and B
                 for (std::size_t q = 0; q < size_; ++q)
-                    product = product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
-                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
+                    product =
+                        product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
+                Interval<T> entry =
+                    product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
                 if (m == r) entry = entry + Interval<T>(T(1));
                 sum = sum + entry * off[r];
             }
@@ -166,11 +178,13 @@ class WholeBalance {
         for (std::size_t m = 0; m < size_; ++m) {
             terms[m] = std::abs(as_double(stiffness_[m].middle() * t[m]));
             for (std::size_t r = 0; r < size_; ++r)
-                terms[m] += std::abs(as_double(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
+                terms[m] += std::abs(
+                    as_double(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r) change += std::abs(as_double((*inverse)[m * size_ + r])) * terms[r];
+            for (std::size_t r = 0; r < size_; ++r)
+                change += std::abs(as_double((*inverse)[m * size_ + r])) * terms[r];
             const double tangent = as_double(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
@@ -186,7 +200,8 @@ class WholeBalance {
             moving.push_back(below + link.moment);
             below = moving.back() + link.rest;
         }
-        const Interval<T> yields = Interval<T>(T(1)) - support.compliance * (below + support.carriage);
+        const Interval<T> yields =
+            Interval<T>(T(1)) - support.compliance * (below + support.carriage);
         top_.at_rest = support.firm ? support.radius : support.radius / yields;
         top_.symmetric = support.symmetric;
         for (std::size_t r = 0; r < size_; ++r) {
@@ -197,14 +212,16 @@ class WholeBalance {
         return moving;
     }
 
-    Interval<T> signed_(std::size_t m, const Interval<T>& x) const { return posture_[m] == Posture::hangs ? x : -x; }
+    Interval<T> signed_(std::size_t m, const Interval<T>& x) const {
+        return posture_[m] == Posture::hangs ? x : -x;
+    }
 
     TangentBox<T> value(const std::vector<T>& t) const {
         TangentBox<T> sines(size_), F(size_);
         for (std::size_t r = 0; r < size_; ++r) sines[r] = sine(r, Interval<T>(t[r]));
         for (std::size_t m = 0; m < size_; ++m) {
             F[m] = stiffness_[m] * Interval<T>(t[m]);
-            if constexpr (is_held<End>) F[m] = F[m] - top_.load[m];
+            if constexpr (is_support<End>) F[m] = F[m] - top_.load[m];
             for (std::size_t r = 0; r < size_; ++r) F[m] = F[m] - matrix_[m * size_ + r] * sines[r];
         }
         return F;
@@ -215,8 +232,10 @@ class WholeBalance {
         std::vector<T> jacobian(size_ * size_);
         for (std::size_t r = 0; r < size_; ++r) {
             const T secant_squared = T(1) + t[r] * t[r];
-            const T slope = T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
-            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
+            const T slope =
+                T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
+            for (std::size_t m = 0; m < size_; ++m)
+                jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
             jacobian[r * size_ + r] += stiffness_[r].middle();
         }
         return inverse_of(jacobian, size_);
@@ -224,7 +243,8 @@ class WholeBalance {
     TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {
         TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
+            for (std::size_t r = 0; r < size_; ++r)
+                result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
         return result;
     }
 

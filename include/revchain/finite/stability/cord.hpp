@@ -17,8 +17,8 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;                            ///< ascending; inclination and tension are smooth between
-    std::vector<double> pieces;                           ///< the same of the density; empty if it is uniform
+    std::vector<double> steps;   ///< ascending; inclination and tension are smooth between
+    std::vector<double> pieces;  ///< the same of the density; empty if it is uniform
     std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
     std::function<double(double)> density, weight_below;  ///< of the arc
     bool is_held = false;                                 ///< the lower end too
@@ -33,7 +33,8 @@ CordProfile profile_of(const CordShape& shape) {
             profile.pieces.push_back((piece.middle + piece.half) / shape.conical_height);
     profile.at = [&shape](double arc) {
         const CordPlace place = shape(std::min(arc * shape.conical_height, shape.length));
-        return std::array{place.inclination, place.tension / (shape.conical_height * shape.kind.line_weight)};
+        return std::array{place.inclination,
+                          place.tension / (shape.conical_height * shape.kind.line_weight)};
     };
     profile.density = [&shape](double arc) { return shape.kind.density_at(arc); };
     profile.weight_below = [&shape](double arc) { return shape.kind.weight_below(arc); };
@@ -46,7 +47,8 @@ CordProfile profile_of(const HeldCordShape& shape) {
     for (const HeldCordState& step : shape.steps) profile.steps.push_back(step.arc);
     profile.at = [&shape](double arc) {
         const HeldCordPlace place = shape(std::min(arc * shape.length, shape.length));
-        return std::array{place.inclination, place.height_times_tension / (shape.length * shape.weight)};
+        return std::array{place.inclination,
+                          place.height_times_tension / (shape.length * shape.weight)};
     };
     profile.density = [](double) { return 1.0; };
     profile.weight_below = [](double arc) { return arc; };
@@ -89,15 +91,18 @@ class DisturbedCord {
             const Index first = point.panel * nodes_, above = first + nodes_;
             const auto own = scale.segment(first, nodes_);
             value.row(i).segment(first, nodes_) = lagrange(point.at).cwiseProduct(own);
-            along.row(i).segment(first, nodes_) = point.panel_width * integrals(point.at).cwiseProduct(own);
+            along.row(i).segment(first, nodes_) =
+                point.panel_width * integrals(point.at).cwiseProduct(own);
             along.row(i).tail(n - above) = wide_.cwiseProduct(scale).tail(n - above);
             mass[i] = point.mass, length[i] = point.wide, tension[i] = point.wide * point.tension;
             d.doubt = std::max(d.doubt, point.tension);
         }
         along.row(m) = wide_.cwiseProduct(scale);
         mass[m] = shape_.tip, length[m] = 0;
-        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(), Y = -along;
-        const auto weighed = [](const Matrix<double>& left, const Vector<double>& by, const Matrix<double>& right) {
+        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(),
+                             Y = -along;
+        const auto weighed = [](const Matrix<double>& left, const Vector<double>& by,
+                                const Matrix<double>& right) {
             return Matrix<double>(left.transpose() * by.asDiagonal() * right);
         };
         const Matrix<double> across = weighed(X, mass, X), pulled = weighed(value, tension, value);
@@ -127,15 +132,19 @@ class DisturbedCord {
         const auto inclination = [&](double arc) { return shape_.at(arc)[0]; };
         double last = inclination(0);
         const auto add_up_to = [&](double end, double angle) {
-            const double from = ends.back(), turn = std::abs(angle - last) / 0.7, wide = (end - from) / longest;
-            const int parts = std::max(1, static_cast<int>(std::ceil(std::max(wide, std::min(turn, 4.0)) - 0.2)));
-            for (int i = 1; i <= parts; ++i) ends.push_back(i == parts ? end : from + (end - from) * i / parts);
+            const double from = ends.back(), turn = std::abs(angle - last) / 0.7,
+                         wide = (end - from) / longest;
+            const int parts =
+                std::max(1, static_cast<int>(std::ceil(std::max(wide, std::min(turn, 4.0)) - 0.2)));
+            for (int i = 1; i <= parts; ++i)
+                ends.push_back(i == parts ? end : from + (end - from) * i / parts);
             last = angle;
         };
         for (const double at : shape_.steps) {
             if (!(at > ends.back()) || !(at < length)) continue;
             const double angle = inclination(at);
-            if (at - ends.back() > longest / 2 || std::abs(angle - last) > 0.4) add_up_to(at, angle);
+            if (at - ends.back() > longest / 2 || std::abs(angle - last) > 0.4)
+                add_up_to(at, angle);
         }
         add_up_to(length, inclination(length));
         add_jumps(ends);
@@ -148,12 +157,14 @@ class DisturbedCord {
         for (const double at : shape_.pieces) {
             const double last = jumps.empty() ? 1000 * narrow() : jumps.back() + 4 * narrow();
             if (!(at > last && at < shape_.length - narrow())) continue;
-            const double below = shape_.density(at - narrow()), above = shape_.density(at + narrow());
+            const double below = shape_.density(at - narrow()),
+                         above = shape_.density(at + narrow());
             if (std::abs(above - below) > 0.01 * std::max(above, below)) jumps.push_back(at);
         }
         if (jumps.size() > most) return;
         const auto has_jump = [&](double at) {
-            return std::any_of(jumps.begin(), jumps.end(), [&](double x) { return std::abs(x - at) < narrow(); });
+            return std::any_of(jumps.begin(), jumps.end(),
+                               [&](double x) { return std::abs(x - at) < narrow(); });
         };
         ends.erase(std::remove_if(ends.begin() + 1, ends.end() - 1, has_jump), ends.end() - 1);
         ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
@@ -179,11 +190,13 @@ class DisturbedCord {
             const auto& [t, weight] = rule_[static_cast<std::size_t>(i)];
             const double inclination = shape_.at(low + (high - low) * t)[0];
             const Index at = panel * nodes_ + i;
-            wide_[at] = weight * (high - low), cosine_[at] = std::cos(inclination), sine_[at] = std::sin(inclination);
+            wide_[at] = weight * (high - low), cosine_[at] = std::cos(inclination),
+            sine_[at] = std::sin(inclination);
         }
         double from = low;
         for (const double end : shape_.pieces)
-            if (end > from + narrow() && end < high - narrow()) add_points(panel, low, high, from, end), from = end;
+            if (end > from + narrow() && end < high - narrow())
+                add_points(panel, low, high, from, end), from = end;
         add_points(panel, low, high, from, high);
     }
     /// Points in a part of a panel, with the exact weight of that part.
@@ -192,8 +205,8 @@ class DisturbedCord {
         double sum = 0;
         for (const auto& [t, weight] : rule_) {
             const double arc = from + (to - from) * t, wide = weight * (to - from);
-            points_.push_back(
-                {panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc), shape_.at(arc)[1]});
+            points_.push_back({panel, high - low, (arc - low) / (high - low), wide,
+                               wide * shape_.density(arc), shape_.at(arc)[1]});
             sum += points_.back().mass;
         }
         const double whole = shape_.weight_below(to) - shape_.weight_below(from);
@@ -218,13 +231,14 @@ class DisturbedCord {
 template <class Shape>
 Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     if (!(std::abs(shape.length - cord.length()) <= 1e-14 * cord.length()))
-        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
+        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as",
+                              shape.length);
     const CordProfile profile = profile_of(shape);
     const auto found = [&](int nodes) {
         return judged(frame, DisturbedCord(profile, nodes).disturbed(), ChainUnits{});
     };
     const Stability coarse = found(8);
-    detail::look();
+    detail::check_interrupt();
     Stability result = found(10);
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
@@ -234,19 +248,23 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
                          : result.growth_rate < 1e-2 * result.margin ? Verdict::spectrally_stable
                                                                      : Verdict::undecided;
     }
-    if (result.negative_directions != coarse.negative_directions) result.verdict = Verdict::undecided;
+    if (result.negative_directions != coarse.negative_directions)
+        result.verdict = Verdict::undecided;
     // the slowest exponents, up to the first that only one discretisation has
     const auto unconfirmed = [](const Stability& of, const Stability& by) {
         double slowest = std::numeric_limits<double>::infinity();
         for (const std::complex<double>& s : of.exponents) {
             const auto alike = [&](const std::complex<double>& x) {
-                return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
+                return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 ||
+                       std::abs(x * x - s * s) <= 1e-9;
             };
-            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike)) slowest = std::min(slowest, std::abs(s));
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike))
+                slowest = std::min(slowest, std::abs(s));
         }
         return slowest;
     };
-    const double limit = (1 - 1e-6) * std::min(unconfirmed(result, coarse), unconfirmed(coarse, result));
+    const double limit =
+        (1 - 1e-6) * std::min(unconfirmed(result, coarse), unconfirmed(coarse, result));
     std::vector<std::complex<double>> kept;
     std::vector<double> external, error;
     for (std::size_t i = 0; i < result.exponents.size(); ++i) {
@@ -259,7 +277,8 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     }
     result.exponents = std::move(kept), result.external_damping = std::move(external);
     result.exponent_error = std::move(error);
-    result.internal_damping.assign(result.exponents.size(), std::numeric_limits<double>::quiet_NaN());
+    result.internal_damping.assign(result.exponents.size(),
+                                   std::numeric_limits<double>::quiet_NaN());
     return result;
 }
 

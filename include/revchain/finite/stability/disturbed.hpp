@@ -66,8 +66,12 @@ struct DisturbedIn {
         using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        const auto link = [&](Index m) -> const Link<Fine>& { return shape.links[static_cast<std::size_t>(m)]; };
-        const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
+        const auto link = [&](Index m) -> const Link<Fine>& {
+            return shape.links[static_cast<std::size_t>(m)];
+        };
+        const auto at = [](const std::vector<double>& of, Index m) {
+            return of[static_cast<std::size_t>(m)];
+        };
         Matrix<S> G(pins, pins), length(pins, pins);
         Fine below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
         for (Index m = 0; m < pins; ++m) {  // sums of masses, and of a third and a half of lengths
@@ -95,7 +99,8 @@ struct DisturbedIn {
             offset[m] = is_link ? s : S(shape.upper_offset);
             const S size = abs(stiffness[m]) + y[m] * y[m] * G(m, m);
             unit[m] = size > S(0) ? S(1) / sqrt(size) : S(1);
-            x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
+            x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m],
+                offset[m] /= unit[m];
             const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
             const S lever = is_link ? S(link(m).length) : S(1);
             doubt = std::max(doubt, as_double(lever * S(off) * unit[m] * unit[m]));
@@ -105,7 +110,8 @@ struct DisturbedIn {
         }
         const auto spread = [](const Vector<S>& p, const Matrix<S>& of, const Vector<S>& q) {
             Matrix<S> result = of;
-            for (Index j = 0; j < q.size(); ++j) result.col(j) = result.col(j).cwiseProduct(p) * q[j];
+            for (Index j = 0; j < q.size(); ++j)
+                result.col(j) = result.col(j).cwiseProduct(p) * q[j];
             return result;
         };
         const Matrix<S> centrifugal = spread(x, G, x);
@@ -131,15 +137,19 @@ struct DisturbedIn {
             const bool lowest = m == 0 && shape.lower_yields() && shape.lower_carriage > 0;
             const bool lower = m < n && !(is_zero(link(m).moment) && is_zero(link(m).cross));
             const bool upper = m > 0 && !(is_zero(link(m - 1).rest) && is_zero(link(m - 1).cross));
-            if (!lowest && !lower && !upper && !(m == n && shape.carriage > 0)) massless.push_back(m);
+            if (!lowest && !lower && !upper && !(m == n && shape.carriage > 0))
+                massless.push_back(m);
         }
     }
 
     /// Restricts q to the columns of Q and b to those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
-        for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) *of = within(*of, Q);
-        for (Matrix<S>* of : {&coupling, &drag_coupling}) *of = pencil::transposed_product(Q, pencil::product(*of, Y));
-        for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across}) *of = within(*of, Y);
+        for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane})
+            *of = within(*of, Q);
+        for (Matrix<S>* of : {&coupling, &drag_coupling})
+            *of = pencil::transposed_product(Q, pencil::product(*of, Y));
+        for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across})
+            *of = within(*of, Y);
     }
 
     /// Keeps the lower end fixed; on a spring it may move across the axis.
@@ -155,7 +165,8 @@ struct DisturbedIn {
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
-        kept(top, top - 1) = stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
+        kept(top, top - 1) =
+            stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
         keep(Matrix<S>::Identity(top + 1, top + 1), kept);
         offset = offset.head(top).eval();
         lower_end = (kept.transpose() * lower_end).eval();
@@ -168,7 +179,8 @@ struct DisturbedIn {
     static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index joints = n + shape.held;
-        Matrix<double> given = Matrix<double>::Zero(2 * joints, pins), left = Matrix<double>::Zero(2 * joints, n + 2);
+        Matrix<double> given = Matrix<double>::Zero(2 * joints, pins),
+                       left = Matrix<double>::Zero(2 * joints, n + 2);
         const auto between = [&](Index m, auto&& place) {  // the joints of link m, below and above
             if (m > 0 || shape.held) place(m - 1 + shape.held, 1.0);
             place(m + shape.held, -1.0);

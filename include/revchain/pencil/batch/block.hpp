@@ -98,7 +98,9 @@ class LaneNumbers {
 /// Links after which recurrences are scaled near 1, so that they cannot leave the range.
 inline constexpr std::ptrdiff_t rescaled_every = 8;
 
-[[gnu::always_inline]] inline bool rescaled_after(std::ptrdiff_t m) { return m % rescaled_every == rescaled_every - 1; }
+[[gnu::always_inline]] inline bool rescaled_after(std::ptrdiff_t m) {
+    return m % rescaled_every == rescaled_every - 1;
+}
 
 template <class V>
 [[gnu::always_inline]] inline V rescaling(const V& offset, const V& force) {

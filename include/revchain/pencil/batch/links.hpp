@@ -47,7 +47,8 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
 
     /// Carries y and F with derivatives up one link. One template for numbers and for truncated
     /// power series took 1.1 to 1.25 times as long: the terms in x then wait for y.
-    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y,
+                                     LaneTaylor<V>& f) const {
         const V weight = get(m, 0), flexibility = get(m, 2);
         f.curvature = f.curvature - weight * (x * y.curvature + y.slope);
         f.slope = f.slope - weight * (x * y.slope + y.value);
@@ -141,7 +142,8 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         y[0] = V(1.0);
         f[0] = V(0.0);
         for (std::ptrdiff_t m = 0; m < size(); ++m) {
-            const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper), c = get(m, coupling);
+            const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper),
+                    c = get(m, coupling);
             const V flexibility = get(m, flexibility_);
             f[m + 1] = b * f[m] + c * y[m];
             y[m + 1] = a * y[m] + flexibility * f[m];
@@ -154,14 +156,17 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
     }
 
-    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
-        const V a = get(m, lower), b = get(m, upper), c = get(m, coupling), flexibility = get(m, flexibility_);
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y,
+                                     LaneTaylor<V>& f) const {
+        const V a = get(m, lower), b = get(m, upper), c = get(m, coupling),
+                flexibility = get(m, flexibility_);
         const V on_y = V(1.0) - x * a, on_f = V(1.0) - x * b;
         const V couple = get(m, weight_) - x * c, push = x * couple, push1 = couple - x * c;
         const LaneTaylor<V> above{on_y * y.value + flexibility * f.value,
                                   on_y * y.slope - a * y.value + flexibility * f.slope,
                                   on_y * y.curvature - a * y.slope + flexibility * f.curvature};
-        f.curvature = on_f * f.curvature - b * f.slope - (push * y.curvature + push1 * y.slope - c * y.value);
+        f.curvature =
+            on_f * f.curvature - b * f.slope - (push * y.curvature + push1 * y.slope - c * y.value);
         f.slope = on_f * f.slope - b * f.value - (push * y.slope + push1 * y.value);
         f.value = on_f * f.value - push * y.value;
         y = above;
@@ -181,22 +186,30 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         pass(m, x, get(m, q_), get(m, p_), s);
     }
 
-    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, lower) * get(m, stiffness_); }
+    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const {
+        return get(m, lower) * get(m, stiffness_);
+    }
     [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, stiffness_); }
-    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const { return get(m, upper) * get(m, stiffness_); }
+    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const {
+        return get(m, upper) * get(m, stiffness_);
+    }
 
    private:
-    static constexpr std::ptrdiff_t weight_ = 0, weight_a = 1, weight_aa = 2, p_ = 3, q_ = 4, turn = 5;
-    static constexpr std::ptrdiff_t stiffness_ = 6, cross = 7, flexibility_ = 8, lower = 9, upper = 10;
+    static constexpr std::ptrdiff_t weight_ = 0, weight_a = 1, weight_aa = 2, p_ = 3, q_ = 4,
+                                    turn = 5;
+    static constexpr std::ptrdiff_t stiffness_ = 6, cross = 7, flexibility_ = 8, lower = 9,
+                                    upper = 10;
     static constexpr std::ptrdiff_t coupling = 11;
 
     /// From a pin `far` from the centre of gravity to one `near` it, a y_G = near y + far y'.
-    [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
+    [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far,
+                                     LaneShape<V>& s) const {
         const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
         const V next = s.offset + (s.force - (x * pull) * s.offset) / (k + x * get(m, cross));
         const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         const V moment = near * s.offset + far * next;
-        s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment + (get(m, turn) * stretched) * stretched);
+        s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment +
+                                 (get(m, turn) * stretched) * stretched);
         s.stiffness = s.stiffness + (k * stretched) * stretched;
         s.force = s.force - x * (get(m, weight_a) * moment);
         s.offset = next;

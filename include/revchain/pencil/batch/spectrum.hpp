@@ -27,8 +27,8 @@ struct LaneQuotient {
 
 /// The quotient of a shape with the residual `force` at one pin, which has the mass `mass`.
 template <class V>
-[[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia, const V& force,
-                                                          const V& mass) {
+[[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia,
+                                                          const V& force, const V& mass) {
     return {stiffness, inertia, force * force * inertia / (mass * (stiffness * stiffness))};
 }
 
@@ -50,7 +50,8 @@ template <class V, class Links>
 /// The quotient of the shape from both ends to the pin where they meet best: modes low in the chain
 /// would grow upwards from rounding. `work`: 4 * size * block_lanes numbers.
 template <class V, class Links>
-[[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x, double* work) {
+[[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x,
+                                                               double* work) {
     LaneShape<V> s{1.0, 0.0};
     for (std::ptrdiff_t m = 0; m < links.size(); ++m) {
         double* const here = work + 4 * m * block_lanes;
@@ -70,8 +71,10 @@ template <class V, class Links>
         const V up = V(1.0) / V::load(here), down = V(1.0) / t.offset;
         const V mass = m == 0 ? links.lower_mass(m) : links.lower_mass(m) + links.upper_mass(m - 1);
         const LaneQuotient<V> q =
-            quotient_of(V::load(here + 3 * block_lanes) * up * up + (t.stiffness + t.earlier_stiffness) * down * down,
-                        V::load(here + 2 * block_lanes) * up * up + (t.inertia + t.earlier_inertia) * down * down,
+            quotient_of(V::load(here + 3 * block_lanes) * up * up +
+                            (t.stiffness + t.earlier_stiffness) * down * down,
+                        V::load(here + 2 * block_lanes) * up * up +
+                            (t.inertia + t.earlier_inertia) * down * down,
                         V::load(here + block_lanes) * up + t.force * down, mass);
         const auto better = q.imbalance < best.imbalance;
         best.stiffness = select(better, q.stiffness, best.stiffness);
@@ -87,8 +90,8 @@ inline constexpr double negligible_imbalance = 1e-18;
 /// Whether, by count, `i` modes lie below `low` and one more below `high`. This is `modes_below` at
 /// two points; one loop over an array of points took 1.3 times as long (rods).
 template <class V, class Links>
-[[gnu::always_inline]] inline typename V::Mask numbered(const Links& links, std::ptrdiff_t i, const V& low,
-                                                        const V& high) {
+[[gnu::always_inline]] inline typename V::Mask numbered(const Links& links, std::ptrdiff_t i,
+                                                        const V& low, const V& high) {
     V y(1.0), f(0.0), z(1.0), g(0.0);
     typename V::Mask below{}, above{};
     for (std::ptrdiff_t m = 0; m < links.size(); ++m) {
@@ -103,13 +106,15 @@ template <class V, class Links>
         }
     }
     const V huge(0x1p1000);  // false for NaN
-    return (below == typename V::Mask(i)) & (above == typename V::Mask(i + 1)) & (abs(y) < huge) & (abs(z) < huge);
+    return (below == typename V::Mask(i)) & (above == typename V::Mask(i + 1)) & (abs(y) < huge) &
+           (abs(z) < huge);
 }
 
 /// The `count` smallest mu of lanes from `lane`, as heights 1/mu; `verified` if counts prove each.
 template <class V, template <class> class LinksOf>
-[[gnu::always_inline]] inline void spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method,
-                                            std::ptrdiff_t lane, double* work, double* height, std::int64_t* verified) {
+[[gnu::always_inline]] inline void spectrum(const LaneBlock& block, std::ptrdiff_t count,
+                                            LaneMethod method, std::ptrdiff_t lane, double* work,
+                                            double* height, std::int64_t* verified) {
     using Links = LinksOf<V>;
     const Links links(block, lane, work);
     double* const found = work + block.size * Links::stored * block_lanes + lane;
@@ -127,7 +132,8 @@ template <class V, template <class> class LinksOf>
         V mu = x, h(0.0);
         typename V::Mask active(-1);
         for (int round = 0; round < 4 && any(active); ++round) {
-            const LaneQuotient<V> q = written_out ? quotient(links, mu) : twisted_quotient(links, mu, shapes);
+            const LaneQuotient<V> q =
+                written_out ? quotient(links, mu) : twisted_quotient(links, mu, shapes);
             mu = select(active, q.stiffness / q.inertia, mu);
             h = select(active, q.inertia / q.stiffness, h);
             // The quotient's error is at most the square of the residual over the relative gap.
@@ -141,7 +147,8 @@ template <class V, template <class> class LinksOf>
         const V mu = V::load(found + i * block_lanes);
         good = good & numbered<V>(links, i, mu - mu * margin, mu + mu * margin);
     }
-    for (std::size_t j = 0; j < V::size; ++j) verified[lane + static_cast<std::ptrdiff_t>(j)] = good[j];
+    for (std::size_t j = 0; j < V::size; ++j)
+        verified[lane + static_cast<std::ptrdiff_t>(j)] = good[j];
 }
 
 }  // namespace detail
@@ -165,14 +172,16 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 /// where centroids lie below their links. Preconditions: weights, lengths and centroids positive
 /// and finite, radii of gyration not negative, pendulum lengths >= centroid; 1 <= count <= size, 16
 /// for `coefficients`.
-inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work,
-                          double* height, std::int64_t* verified) {
+inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method,
+                          double* work, double* height, std::int64_t* verified) {
     simd([&](auto registers) REVCHAIN_INLINED {
         // Eight doubles to a register were slower than four (N = 10, Zen 4).
         using V = Pack<double, std::min(registers.doubles, pack_size), 4>;
-        for (std::ptrdiff_t lane = 0; lane < block_lanes; lane += static_cast<std::ptrdiff_t>(V::size)) {
+        for (std::ptrdiff_t lane = 0; lane < block_lanes;
+             lane += static_cast<std::ptrdiff_t>(V::size)) {
             if (block.centroid == nullptr)
-                detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height, verified);
+                detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height,
+                                                  verified);
             else
                 detail::spectrum<V, RigidLanes>(block, count, method, lane, work, height, verified);
         }

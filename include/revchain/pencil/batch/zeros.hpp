@@ -49,7 +49,8 @@ template <class V, class Links>
 
 /// Laguerre's step to the next of `left` zeros; from the left of all it never passes the first.
 template <class V>
-[[gnu::always_inline]] inline V laguerre_step(const V& value, const V& slope, const V& square, std::ptrdiff_t left) {
+[[gnu::always_inline]] inline V laguerre_step(const V& value, const V& slope, const V& square,
+                                              std::ptrdiff_t left) {
     const V n(static_cast<double>(left)), rest(static_cast<double>(left - 1));
     V under = rest * square;
     under = select(under < V(0.0), V(0.0), under);
@@ -71,7 +72,8 @@ template <class V>
             value = value * x + c[j];
         }
         const V n(static_cast<double>(degree)), rest(static_cast<double>(degree - 1));
-        const V step = laguerre_step(value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
+        const V step = laguerre_step(
+            value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
         x = select(active, x - step, x);
         active = active & (V(last_step) * abs(x) < abs(step));  // its error is about its cube
     }
@@ -86,7 +88,8 @@ template <class V>
 
 /// A point above the last known zero, far enough to divide that out, and by count below the next.
 template <class V, class Links>
-[[gnu::always_inline]] inline V between_zeros(const Links& links, const double* known, std::ptrdiff_t count) {
+[[gnu::always_inline]] inline V between_zeros(const Links& links, const double* known,
+                                              std::ptrdiff_t count) {
     if (count == 0) return V(0.0);
     const V last = V::load(known + (count - 1) * block_lanes);
     V ahead = last * V(0x1p-3);
@@ -106,7 +109,8 @@ template <class V, class Links>
 
 /// The next zero by the recurrence, with the `count` zeros in `known` divided out.
 template <class V, class Links>
-[[gnu::always_inline]] inline V next_zero(const Links& links, const double* known, std::ptrdiff_t count) {
+[[gnu::always_inline]] inline V next_zero(const Links& links, const double* known,
+                                          std::ptrdiff_t count) {
     const std::ptrdiff_t left = links.size() - count;
     V x = between_zeros<V>(links, known, count);
     typename V::Mask active(-1);

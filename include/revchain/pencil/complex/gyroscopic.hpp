@@ -25,7 +25,7 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
 /// A and M symmetric and positive definite, K and C symmetric; in units with B about A and M.
 template <class S>
-struct MirroredPencil {
+struct GyroscopicPencil {
     Matrix<S> A, B, M, K, C;
 };
 
@@ -37,7 +37,7 @@ struct ComplexColumns {
 
 /// Squares of the exponents s, estimates of their rounding errors, and columns x and s y.
 template <class S>
-struct MirroredModes {
+struct GyroscopicModes {
     Vector<std::complex<S>> square;
     Vector<double> error;
     ComplexColumns<S> x, y;
@@ -53,7 +53,7 @@ struct MirroredModes {
 /// backward stable; a defective s^2 spreads by the square root of rounding, and so does an s next
 /// to 0. Cost about 30 n^3, symmetric 10 n^3. Nothing if rounding leaves A or M indefinite.
 template <class S>
-std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) {
+std::optional<GyroscopicModes<S>> gyroscopic_modes(const GyroscopicPencil<S>& pencil) {
     using std::abs, std::sqrt;
     const Index n = pencil.K.rows(), k = pencil.C.rows();
     const Eigen::LLT<Matrix<S>> root(pencil.A), other(pencil.M);
@@ -67,9 +67,10 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     const Matrix<S> C = reduced(other, pencil.C, other);
     Matrix<S> Q(n + k, n + k);
     const Matrix<S> twice = S(-2) * B;
-    Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(), Matrix<S>::Identity(k, k);
+    Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(),
+        Matrix<S>::Identity(k, k);
     const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
-    MirroredModes<S> modes;
+    GyroscopicModes<S> modes;
     modes.error.resize(n + k);
     ComplexColumns<S> u{Matrix<S>(n + k, n + k), Matrix<S>::Zero(n + k, n + k)};
     if (const Eigen::LLT<Matrix<S>> factor(C); factor.info() == Eigen::Success) {
@@ -93,7 +94,8 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         const Matrix<S> parts = solver.pseudoEigenvectors();  // a pair: real, imaginary
         ComplexColumns<S> right = u, left;
         for (Index j = 0; j < n + k; ++j) {
-            const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);
+            const bool first = modes.square[j].imag() > S(0),
+                       second = modes.square[j].imag() < S(0);
             right.real.col(j) = parts.col(second ? j - 1 : j);
             if (first) right.imag.col(j) = parts.col(j + 1);
             if (second) right.imag.col(j) = -parts.col(j);
@@ -108,14 +110,17 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index j = 0; j < n + k; ++j) {
             const auto p = right.real.col(j), q = right.imag.col(j);
             const auto l = left.real.col(j), m = left.imag.col(j);
-            const S squares = (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
+            const S squares =
+                (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
             const double sizes = static_cast<double>(sqrt(squares));
-            const double overlap =
-                std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
+            const double overlap = std::hypot(static_cast<double>(p.dot(l) - q.dot(m)),
+                                              static_cast<double>(p.dot(m) + q.dot(l)));
             modes.error[j] = whole * sizes / overlap;
         }
     }
-    const auto back = [](const auto& factor, const Matrix<S>& of) { return Matrix<S>(factor.matrixU().solve(of)); };
+    const auto back = [](const auto& factor, const Matrix<S>& of) {
+        return Matrix<S>(factor.matrixU().solve(of));
+    };
     const Matrix<S> to_y = Q.bottomRows(k);
     modes.x = {back(root, u.real.topRows(n)), back(root, u.imag.topRows(n))};
     modes.y = {back(other, product(to_y, u.real)), back(other, product(to_y, u.imag))};

@@ -35,7 +35,8 @@ struct WeierstrassSteps {
 
 /// Calls f(lanes, number of lanes in use) for all of `which`.
 template <class F>
-void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance, const F& f) {
+void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
+               const F& f) {
     constexpr std::size_t L = value_lanes;
     revchain::detail::parallel_for(which.size(), L, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += L) {
@@ -80,8 +81,10 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
             const double exponent = value.exponent - under.exponent - leading.exponent;
             const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
             const std::complex<double> ratio = value.fraction / under.fraction;
-            result.step[lane[i]] = {std::ldexp(ratio.real(), shift), std::ldexp(ratio.imag(), shift)};
-            result.blur[lane[i]] = (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
+            result.step[lane[i]] = {std::ldexp(ratio.real(), shift),
+                                    std::ldexp(ratio.imag(), shift)};
+            result.blur[lane[i]] =
+                (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
         }
     });
     return result;
@@ -89,8 +92,9 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
 
 /// Moves the roots that are `meant` until they converge, by Weierstrass's steps, each divided by 1
 /// plus the sum of w_j/(x_i - x_j) over the others (Börsch-Supan); this also separates close roots.
-inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
-                   const std::vector<bool>& meant, const std::function<void(double)>& advance) {
+inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                   std::vector<ComplexWord>& roots, const std::vector<bool>& meant,
+                   const std::function<void(double)>& advance) {
     constexpr int sweeps = 60;
     std::vector<double> last(roots.size(), std::numeric_limits<double>::infinity());
     std::vector<ScaledValue> values(roots.size());
@@ -134,7 +138,8 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
             above.push_back(x);
     result.real = result.roots.size();
     if (result.real + 2 * above.size() != roots.size()) return std::nullopt;
-    for (const ComplexWord& x : above) result.roots.push_back(x), result.roots.push_back({x.real, -x.imag});
+    for (const ComplexWord& x : above)
+        result.roots.push_back(x), result.roots.push_back({x.real, -x.imag});
     return result;
 }
 
@@ -142,8 +147,9 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
 /// w_j Weierstrass's steps; where such discs are apart each holds one (Smith). Then x_j - root =
 /// w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum of r_k/(|x_j -
 /// x_k| - r_k). Returns the discs that meet others; if none, `found` has the roots.
-inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
-                                 std::vector<EnclosedRoot>& found, const std::function<void(double)>& advance) {
+inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                                 Conjugates& at, std::vector<EnclosedRoot>& found,
+                                 const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
     const std::size_t n = at.roots.size();
@@ -176,8 +182,10 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     std::vector<double> nearest(n), shares(n);
     for_lanes(heads, advance, [&](const std::size_t* lane, std::size_t count) {
         double near[value_lanes], sums[value_lanes];
-        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
-        for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
+        simd([&](auto where)
+                 REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
+        for (std::size_t i = 0; i < count; ++i)
+            nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
     });
     std::vector<bool> meets(n, false);
     bool apart = true;
@@ -185,7 +193,8 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (const std::size_t i : heads) {
         const ComplexWord& x = at.roots[i];
         const double radius = split.radius[i], size = size_of(x);
-        const bool far = nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size && radius < size / 2;
+        const bool far =
+            nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size && radius < size / 2;
         const bool alone = known[i] && far && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
         apart = apart && alone;
         meets[i] = !alone;
@@ -247,9 +256,11 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
         if (flat < 0x1p-40 || work > most_work) break;
         detail::refine(pencil, zeros, words, meets, advance);
     }
-    std::sort(result.roots.begin(), result.roots.end(), [](const EnclosedRoot& x, const EnclosedRoot& y) {
-        return std::pair(std::abs(x.value), x.value.imag()) > std::pair(std::abs(y.value), y.value.imag());
-    });
+    std::sort(result.roots.begin(), result.roots.end(),
+              [](const EnclosedRoot& x, const EnclosedRoot& y) {
+                  return std::pair(std::abs(x.value), x.value.imag()) >
+                         std::pair(std::abs(y.value), y.value.imag());
+              });
     return result;
 }
 

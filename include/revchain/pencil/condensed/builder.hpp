@@ -29,12 +29,15 @@ class CondensedPencilBuilder {
     using S = Wide<T>;
     static constexpr std::size_t degree = Block<T>::degree;
 
-    explicit CondensedPencilBuilder(const T& least_shift) : least_shift_(least_shift), mu_(T(1) / least_shift) {}
+    explicit CondensedPencilBuilder(const T& least_shift)
+        : least_shift_(least_shift), mu_(T(1) / least_shift) {}
 
     const T& least_shift() const { return least_shift_; }
 
     /// mu (mass) / (stiffness): about the square of a mode's phase across the run.
-    T phase(const Run& run) const { return mu_ * static_cast<T>(run.weight) * static_cast<T>(run.flexibility); }
+    T phase(const Run& run) const {
+        return mu_ * static_cast<T>(run.weight) * static_cast<T>(run.flexibility);
+    }
 
     /// Whether degree 6 omits less than rounding (7th term: 2/14! phase^6), for any weights.
     bool is_short(const Run& run) const { return phase(run) <= T(0.075); }
@@ -68,9 +71,11 @@ class CondensedPencilBuilder {
 
     SecondTerms second_terms(const Run& run) const {
         const auto& t = run.transfer;
-        const T by_flexibility = mu_ / static_cast<T>(run.flexibility), weight = static_cast<T>(run.weight);
+        const T by_flexibility = mu_ / static_cast<T>(run.flexibility),
+                weight = static_cast<T>(run.weight);
         if (weight == T(0)) return {};
-        return {by_flexibility * t.b[1], by_flexibility * (t.a[1] + t.d[1]) / weight, mu_ * t.c[1] / weight};
+        return {by_flexibility * t.b[1], by_flexibility * (t.a[1] + t.d[1]) / weight,
+                mu_ * t.c[1] / weight};
     }
 
     /// Adds the errors of `roundings` in the coefficients beyond the first.
@@ -94,7 +99,9 @@ class CondensedPencilBuilder {
     void add(const Run& run) {
         runs_.push_back(run);
         for (std::size_t top = runs_.size() - 1;
-             top > 0 && runs_[top - 1].links <= runs_[top].links && merge(runs_[top - 1], runs_[top]); --top)
+             top > 0 && runs_[top - 1].links <= runs_[top].links &&
+             merge(runs_[top - 1], runs_[top]);
+             --top)
             runs_.pop_back();
     }
 
@@ -123,7 +130,8 @@ class CondensedPencilBuilder {
                 const SecondTerms terms = second_terms(run);
                 if (terms.spring > T(0)) largest = std::max(largest, phase(run));
                 // `element_at` rounds its corrections seven times
-                evaluation = std::max(evaluation, (terms.spring + terms.mass) * T(7) * epsilon<T>());
+                evaluation =
+                    std::max(evaluation, (terms.spring + terms.mass) * T(7) * epsilon<T>());
             }
             pencil.blocks.push_back(block);
             stiffness_error = std::max(stiffness_error, run.stiffness_error);
@@ -142,7 +150,8 @@ class CondensedPencilBuilder {
     static T tail(const T& last, const T& before) {
         if (!(last > T(0))) return T(0);
         const T ratio = last / before;
-        return ratio < T(0.5) ? T(1.1) * last * ratio / (T(1) - ratio) : std::numeric_limits<T>::infinity();
+        return ratio < T(0.5) ? T(1.1) * last * ratio / (T(1) - ratio)
+                              : std::numeric_limits<T>::infinity();
     }
 
     template <std::size_t Kept>

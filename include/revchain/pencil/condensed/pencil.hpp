@@ -52,7 +52,8 @@ template <class S, class W>
 [[gnu::always_inline]] inline S spread(const W& x) {
     if constexpr (IsPack<S>) {
         return S(static_cast<Lane<S>>(x));
-    } else if constexpr (revchain::detail::is_double_word<S> && revchain::detail::is_double_word<W>) {
+    } else if constexpr (revchain::detail::is_double_word<S> &&
+                         revchain::detail::is_double_word<W>) {
         using N = Narrow<S>;
         return {N(x.high), N(x.low)};
     } else {
@@ -89,7 +90,8 @@ template <class S, Real T>
 std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
     std::vector<LumpedElement<S>> elements(pencil.blocks.size());
     simd([&](auto) REVCHAIN_INLINED {
-        for (std::size_t m = 0; m < elements.size(); ++m) elements[m] = element_at<S>(pencil.blocks[m], shift);
+        for (std::size_t m = 0; m < elements.size(); ++m)
+            elements[m] = element_at<S>(pencil.blocks[m], shift);
     });
     return elements;
 }
@@ -113,7 +115,8 @@ std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::ar
                 below[i] = e.spring * (hung / pivot) - e.upper;
             }
         std::array<Index, L> result;
-        for (std::size_t i = 0; i < L; ++i) result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
+        for (std::size_t i = 0; i < L; ++i)
+            result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
         return result;
     });
 }
@@ -128,7 +131,8 @@ struct CertifiedCounts {
 /// `proved` as in sturm.hpp, with fewer terms: elements change with the shift and have no cross
 /// mass. The loop of sturm.hpp would need more lines. Cost: 40 ns per block for four shifts.
 template <Real T>
-CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil,
+                                         const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
     return simd([&](auto) REVCHAIN_INLINED {
@@ -186,7 +190,8 @@ std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
         const auto forces = [&](std::size_t m) REVCHAIN_INLINED {
             const V own = static_cast<V>(elements[m].spring) + static_cast<V>(elements[m].lower);
             if (m == 0) return own;
-            return own + (static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper));
+            return own +
+                   (static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper));
         };
         return detail::twisted<S>(elements.size(), rise, sink, forces).offset;
     });
@@ -219,7 +224,8 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
             const S inertia = S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper;
             form = form + (stretch * stretch * e.spring - inertia);
             const LumpedElement<V>& f = there[m];
-            ahead += f.spring * stretched * stretched - (f.lower * lower * lower + f.upper * upper * upper);
+            ahead += f.spring * stretched * stretched -
+                     (f.lower * lower * lower + f.upper * upper * upper);
         }
         const S change = form / S((ahead - static_cast<V>(form)) / step);
         return Improved<S>{shift - change, -static_cast<V>(change)};

@@ -66,7 +66,8 @@ inline void append_spring(Transfer<V, Degree>& run, const V& flexibility, const 
 /// The transfer of `lower` followed by `upper`: the product of the two matrices, cut off at the
 /// degree of `lower`. Missing coefficients of `upper` count as 0.
 template <class V, std::size_t Degree, std::size_t Upper>
-inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transfer<V, Upper>& upper) {
+inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower,
+                                  const Transfer<V, Upper>& upper) {
     static_assert(Upper <= Degree);
     Transfer<V, Degree> run = lower;
     REVCHAIN_UNROLL

@@ -49,7 +49,8 @@ struct Follows {
 /// offset of the moved end, 1, if that is a pin of the chain, else 0: errors are relative to the
 /// largest offset of a pin. Cost: about 1.5 microseconds for each element.
 template <class Offsets>
-Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset, double end = 1) {
+Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset,
+              double end = 1) {
     using S = Wide<double>;
     using I = Interval<S>;
     const double unit = operation_error<S>();
@@ -58,7 +59,9 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
     I below(S(0.0)), earlier_pivot, earlier_square, earlier_rest;
     bool compliant = false;  // `below` is the reciprocal
     Driven result;
-    const auto two = [](const S& x, double part) { return detail::around(x, std::abs(x.high) * part); };
+    const auto two = [](const S& x, double part) {
+        return detail::around(x, std::abs(x.high) * part);
+    };
     const I height = two(at.height, 2 * unit), spin = two(at.spin, 2 * unit);
     for (std::size_t m = 0; m < n; ++m) {
         const SignedElement<S>& e = pencil.elements[m];
@@ -73,8 +76,8 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;
             // p here times p below: its sign does not depend on the small one
-            const I pair =
-                earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) - detail::rescaled(earlier_square, step);
+            const I pair = earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) -
+                           detail::rescaled(earlier_square, step);
             if (pair.negative()) ++result.negative;
             if (!pair.negative() || whole.may_vanish()) return result;
             const I force = coupling / whole;  // of all below, over the offset of the pin above

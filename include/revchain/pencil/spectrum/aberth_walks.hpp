@@ -78,7 +78,8 @@ template <bool several, class F>
         else if (i < count)
             f(std::integral_constant<std::size_t, 1>(), i);
     } else {
-        for (; i < count; i += 4 * packs_at_once) f(std::integral_constant<std::size_t, packs_at_once>(), i);
+        for (; i < count; i += 4 * packs_at_once)
+            f(std::integral_constant<std::size_t, packs_at_once>(), i);
     }
 }
 
@@ -124,18 +125,25 @@ struct OffsetAndSlope {
 /// y^T K y so far. The sums belong to the stored offsets and their differences, however rounded.
 template <bool rigid, bool tall>
 struct Walk {
-    Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0}, earlier_stiffness{0.0};
+    Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0},
+        earlier_stiffness{0.0};
 
-    [[gnu::always_inline]] Four all_inertia() const { return tall ? inertia + earlier_inertia : inertia; }
-    [[gnu::always_inline]] Four all_stiffness() const { return tall ? stiffness + earlier_stiffness : stiffness; }
+    [[gnu::always_inline]] Four all_inertia() const {
+        return tall ? inertia + earlier_inertia : inertia;
+    }
+    [[gnu::always_inline]] Four all_stiffness() const {
+        return tall ? stiffness + earlier_stiffness : stiffness;
+    }
 
-    [[gnu::always_inline]] void pass_pin(const LumpedLinks& links, std::size_t m, const Four& mu, bool up) {
+    [[gnu::always_inline]] void pass_pin(const LumpedLinks& links, std::size_t m, const Four& mu,
+                                         bool up) {
         const Four pull = Four(links.mass[m]) * (mu * offset);
         force = up ? force + pull : force - pull;
         if constexpr (!rigid) inertia += pull * offset;
     }
     /// `yield`: 1/(k + mu X).
-    [[gnu::always_inline]] void pass_link(const LumpedLinks& links, std::size_t m, const Four& yield, bool up) {
+    [[gnu::always_inline]] void pass_link(const LumpedLinks& links, std::size_t m,
+                                          const Four& yield, bool up) {
         const Four before = offset;
         Four d = yield * force;
         offset = up ? before - d : before + d;
@@ -192,7 +200,8 @@ template <bool rigid, bool tall, std::size_t P>
             here[2] = up.all_inertia();
             here[3] = up.all_stiffness();
             Four yield(links.flexibility[m]);
-            if constexpr (rigid) here[4] = yield = yield / (Four(1.0) + mu[p] * Four(links.cross_ratio[m]));
+            if constexpr (rigid)
+                here[4] = yield = yield / (Four(1.0) + mu[p] * Four(links.cross_ratio[m]));
             up.pass_link(links, m, yield, true);
             if (tall && m % leg == leg - 1) up.tidy();
         }
@@ -217,7 +226,8 @@ template <bool rigid, bool tall, std::size_t P>
             const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
             const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
             const Four square = gap * gap * Four(flexibility_above[m]);
-            const Four other = joined.square * energy, own = square * joined.energy;  // comparisons with NaN are false
+            const Four other = joined.square * energy,
+                       own = square * joined.energy;  // comparisons with NaN are false
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);
@@ -229,7 +239,8 @@ template <bool rigid, bool tall, std::size_t P>
 #pragma GCC unroll 3
     for (std::size_t p = 0; p < P; ++p) {
         const Four inertia = rigid ? mu[p] * best[p].ratio : best[p].ratio;
-        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy, best[p].scale};
+        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy,
+                   best[p].scale};
     }
     return best;
 }

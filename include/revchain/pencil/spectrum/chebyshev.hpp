@@ -81,8 +81,8 @@ template <class V>
 
 /// Value and q'/q of q = p/product of (x - known), the value up to a positive factor.
 template <class V>
-[[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known, const V& x, V& value,
-                                            V& slope) {
+[[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known,
+                                            const V& x, V& value, V& slope) {
     p.at(x, value, slope);
     slope = slope / value;
     for (const double zero : known) {
@@ -95,9 +95,11 @@ template <class V>
 /// Zeros of p besides `known` between `low` and `high`, where p/product of (x - known) has
 /// different signs: Newton's steps or halves, until a step is below `precision`.
 template <class V>
-[[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& known,
+[[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p,
+                                                          const std::vector<double>& known,
                                                           const std::vector<double>& low,
-                                                          const std::vector<double>& high, double precision) {
+                                                          const std::vector<double>& high,
+                                                          double precision) {
     std::vector<double> root(low.size());
     for (std::size_t begin = 0; begin < low.size(); begin += V::size) {
         V a = part<V>(low, begin), b = part<V>(high, begin), left, value, slope;
@@ -110,7 +112,8 @@ template <class V>
             a = select(same, x, a);
             b = select(same, b, x);
             const V newton = x - 1.0 / slope;
-            const V next = select((newton < a) | (newton > b) | ~equal(newton, newton), 0.5 * (a + b), newton);
+            const V next =
+                select((newton < a) | (newton > b) | ~equal(newton, newton), 0.5 * (a + b), newton);
             const V change = abs(next - x);
             x = next;
             if (!any(change > precision)) break;
@@ -123,7 +126,8 @@ template <class V>
 /// A point in (a, b) where q = p/product of (x - known) has the other sign than at both ends, next
 /// to a minimum of |q|; NaN if there is none. Cuts intervals into V::size + 1 at a time.
 template <class V>
-[[gnu::always_inline]] inline double between_pair(const Chebyshev& p, const std::vector<double>& known, double a,
+[[gnu::always_inline]] inline double between_pair(const Chebyshev& p,
+                                                  const std::vector<double>& known, double a,
                                                   double b) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     V x, value, slope;
@@ -148,7 +152,8 @@ template <class V>
 /// All zeros of the polynomial on [-1, 1] if there are `count`, ascending; else those found.
 template <class V>
 [[gnu::always_inline]] inline std::vector<double> zeros(const Chebyshev& p, Index count) {
-    const std::size_t points = (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
+    const std::size_t points =
+        (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
     std::vector<double> x(points), f(points), low, high;
     for (std::size_t i = 0; i < points; ++i)
         x[i] = -std::cos(static_cast<double>(i) * M_PI / static_cast<double>(points - 1));
@@ -163,7 +168,8 @@ template <class V>
             slope.store(&f[i]);
         }
         low.clear(), high.clear();
-        for (std::size_t i = 1; i < points && static_cast<Index>(root.size() + low.size()) < count; ++i) {
+        for (std::size_t i = 1; i < points && static_cast<Index>(root.size() + low.size()) < count;
+             ++i) {
             if (!(f[i - 1] < 0 && f[i] > 0)) continue;
             const double middle = between_pair<V>(p, root, x[i - 1], x[i]);
             if (std::isnan(middle)) continue;

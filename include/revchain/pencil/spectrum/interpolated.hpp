@@ -23,14 +23,15 @@ struct Candidate {
 
 /// Relative rounding error of a Rayleigh quotient: plain sums over 16 links, one or two terms each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
-    const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
+    const double skewed =
+        std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
     const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
 /// Vectors and quotients at the candidates' shifts; walks join at pins that `longest` divides.
-inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                     bool placed, std::size_t longest) {
+inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all,
+                     const std::vector<std::size_t>& which, bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
@@ -53,8 +54,8 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
 }
 
 /// Refines the quotients found to twice the digits; walks join at pins that `longest` divides.
-inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                   bool placed, std::size_t longest) {
+inline void refine(const LumpedChain& chain, std::vector<Candidate>& all,
+                   const std::vector<std::size_t>& which, bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
@@ -151,9 +152,11 @@ class Candidates {
                 const bool rough = c.residual > 4 * c.rounding;
                 if (!rough || c.residual * c.residual < 0x1p-57 * apart / starts_[i]) continue;
                 // On to the quotient, unless a vector joined at a bad pin led astray.
-                const bool near = std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
+                const bool near =
+                    std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
                 c.shift = near ? next : starts_[i];
-                (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray).push_back(i);
+                (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray)
+                    .push_back(i);
             }
             which = std::move(again);
         }
@@ -184,13 +187,15 @@ class Candidates {
                 }
                 some.push_back(i);
             }
-            refine(chain_, all_, some, round < 2, round == 1 || (round == 2 && chain_.size() < 4096) ? 1 : leg_);
+            refine(chain_, all_, some, round < 2,
+                   round == 1 || (round == 2 && chain_.size() < 4096) ? 1 : leg_);
         }
     }
 
     /// The candidates' roots as `prove` leaves them.
     template <class Count>
-    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above, const Count& count) const {
+    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above,
+                                                                 const Count& count) const {
         std::vector<ProvedRoot<double>> roots;
         std::vector<double> reach;
         for (const Candidate& c : all_) {
@@ -210,11 +215,12 @@ class Candidates {
             const Index j = begin_ + static_cast<Index>(i);
             sure[i] = counted(j, j + 1, c.root.root.high).front();
             const double bound = sure[i]->error_bound;  // relative to the exact eigenvalue
-            c.root = {sure[i]->unrounded, bound < 1 ? bound / (1 - bound) * sure[i]->eigenvalue : bound};
+            c.root = {sure[i]->unrounded,
+                      bound < 1 ? bound / (1 - bound) * sure[i]->eigenvalue : bound};
             c.residual = 0;
         }
-        const auto roots =
-            roots_between(bottom_, top_, [&](double x) { return certified_count<S, 1>(wide_, {S(x)})[0]; });
+        const auto roots = roots_between(
+            bottom_, top_, [&](double x) { return certified_count<S, 1>(wide_, {S(x)})[0]; });
         if (!roots) return std::nullopt;
         std::vector<Certified<double>> result;
         for (Index j = first; j < last; ++j) {
@@ -266,8 +272,9 @@ class Candidates {
 /// and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
-                                               Index first, Index last, Index total, double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide,
+                                               const spectrum::LumpedChain& chain, Index first,
+                                               Index last, Index total, double tolerance) {
     if (first >= last) return {};
     spectrum::Candidates<S> candidates(wide, chain, tolerance);
     if (auto found = candidates.solve(first, last, total)) return *found;
@@ -275,8 +282,8 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
 }
 
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                               double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first,
+                                               Index last, Index total, double tolerance) {
     return all_eigenvalues(wide, spectrum::lumped(wide), first, last, total, tolerance);
 }
 

@@ -89,17 +89,21 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         const double cross_ratio = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);
         const bool massless = e.weight == 0;
-        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, cross_ratio, e.weight,
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, cross_ratio,
+                               e.weight,
                                massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
-        chain.rests.push_back({static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
+        chain.rests.push_back(
+            {static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
         const LumpedLink& last = chain.links.back();
         const double shares = last.lower_share * last.upper_share;
         if (shares != 0 && last.lower_share != 0.5) {
             const double skewed = shares * std::sqrt(e.weight);
-            chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
-            chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
+            chain.skew_against_turn =
+                std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
+            chain.skew_against_stiffness =
+                std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
         chain.has_cross = chain.has_cross || x != 0;
         chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
@@ -124,17 +128,21 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         chain.flexibility_above[m] = chain.flexibility_above[m + 1] + link.flexibility;
         square += link.stiffness * chain.flexibility_above[m];
         const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
-        const double mass = std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness;
-        chain.max_mass_to_stiffness = std::max(chain.max_mass_to_stiffness, mass * link.flexibility);
+        const double mass =
+            std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness;
+        chain.max_mass_to_stiffness =
+            std::max(chain.max_mass_to_stiffness, mass * link.flexibility);
     }
     chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
     return chain;
 }
 
 /// A power of 2: links that may be walked between checks of sizes; growth stays below 2^300.
-inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift, std::size_t longest) {
+inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift,
+                                  std::size_t longest) {
     const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.max_mass_to_stiffness);
-    return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
+    return std::bit_floor(
+        std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
 }
 
 template <class V>

@@ -34,8 +34,8 @@ struct Walk {
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin
 /// `end`. Upwards a walk has passed the mass of its pin, downwards not.
 template <bool has_cross, bool up, class V>
-[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
-                                             Walk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin,
+                                             std::size_t end, Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
     for (std::size_t p = 0; p < P; ++p)
@@ -105,7 +105,8 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     // for pins without mass: y_m^2 <= Phi_m |y|_K^2
     const double most = (1 + mu * chain.largest_cross_ratio) * chain.rounding_root;
     const double force_part = has_cross ? std::sqrt(forces) : 1.0;
-    const double offset_part = has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
+    const double offset_part =
+        has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
     const double unit = epsilon<double>() / 2 + chain.data_error;
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
@@ -115,11 +116,12 @@ struct Legs {
     std::size_t leg, last, low, high;
 };
 
-inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t count, std::size_t lowest,
-                    std::size_t highest, std::size_t longest) {
+inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t count,
+                    std::size_t lowest, std::size_t highest, std::size_t longest) {
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest), last = (chain.size() - 1) / leg;
+    const std::size_t leg = stretch_length(chain, largest, longest),
+                      last = (chain.size() - 1) / leg;
     return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
 }
 
@@ -127,12 +129,14 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 /// at the pin of least residual from `lowest` to `highest` that `longest`, a power of 2, divides.
 /// Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86 ns a link.
 template <bool has_cross, class V>
-[[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
-                                             std::size_t highest, std::size_t longest, Quotient* result,
+[[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts,
+                                             std::size_t lowest, std::size_t highest,
+                                             std::size_t longest, Quotient* result,
                                              std::vector<AtPin<V>>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
-    const auto [leg, legs, low, high] = legs_of(chain, shifts, P * V::size, lowest, highest, longest);
+    const auto [leg, legs, low, high] =
+        legs_of(chain, shifts, P * V::size, lowest, highest, longest);
     scratch.resize((high - low + 1) * P);
 
     Walk<V> walk[P];
@@ -170,12 +174,15 @@ template <bool has_cross, class V>
             const V square = gap * gap * above / energy;
             const auto better = square < least[p];  // false for a NaN: no twist at a node
             least[p] = select(better, square, least[p]);
-            inertia[p] = select(better, up.inertia * scale_up + down.inertia * scale_down, inertia[p]);
+            inertia[p] =
+                select(better, up.inertia * scale_up + down.inertia * scale_down, inertia[p]);
             stiffness[p] = select(better, energy, stiffness[p]);
             twist[p] = select(better, V(static_cast<double>(begin)), twist[p]);
             if constexpr (has_cross) {
-                forces[p] = select(better, up.forces * scale_up + down.forces * scale_down, forces[p]);
-                offsets[p] = select(better, up.offsets * scale_up + down.offsets * scale_down, offsets[p]);
+                forces[p] =
+                    select(better, up.forces * scale_up + down.forces * scale_down, forces[p]);
+                offsets[p] =
+                    select(better, up.offsets * scale_up + down.offsets * scale_down, offsets[p]);
             }
         }
     }
@@ -183,12 +190,14 @@ template <bool has_cross, class V>
         const V ratio = (has_cross ? walk[p].mu * inertia[p] : inertia[p]) / stiffness[p];
         for (std::size_t i = 0; i < V::size; ++i) {
             const double energy = stiffness[p][i];
-            const double rounding =
-                vector_rounding<has_cross>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
+            const double rounding = vector_rounding<has_cross>(
+                chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
             // Terms of second order are covered by the factor 1.01 only where this is small.
-            const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
-                                                       : std::numeric_limits<double>::infinity();
-            result[p * V::size + i] = {ratio[i], residual, rounding, static_cast<std::size_t>(twist[p][i])};
+            const double residual = rounding < 0x1p-10
+                                        ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
+                                        : std::numeric_limits<double>::infinity();
+            result[p * V::size + i] = {ratio[i], residual, rounding,
+                                       static_cast<std::size_t>(twist[p][i])};
         }
     }
 }
@@ -202,36 +211,43 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
     std::vector<std::size_t> order(shifts.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     if (!places.empty())
-        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Result> result(shifts.size());
-    revchain::detail::parallel_for(shifts.size(), packs * most_doubles, [&](std::size_t begin, std::size_t end) {
-        simd([&](auto registers) REVCHAIN_INLINED {
-            constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
-            Result found[together];
-            double padded[together];
-            for (std::size_t i = begin; i < end; i += together) {
-                revchain::detail::look();
-                const std::size_t taken = std::min(together, end - i);
-                for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
-                const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
-                const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-                if (chain.has_cross)
-                    solve(registers, std::true_type(), padded, lowest, highest, found);
-                else
-                    solve(registers, std::false_type(), padded, lowest, highest, found);
-                for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
-            }
+    revchain::detail::parallel_for(
+        shifts.size(), packs * most_doubles, [&](std::size_t begin, std::size_t end) {
+            simd([&](auto registers) REVCHAIN_INLINED {
+                constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
+                Result found[together];
+                double padded[together];
+                for (std::size_t i = begin; i < end; i += together) {
+                    revchain::detail::check_interrupt();
+                    const std::size_t taken = std::min(together, end - i);
+                    for (std::size_t j = 0; j < together; ++j)
+                        padded[j] = shifts[order[i + (j < taken ? j : 0)]];
+                    const std::size_t lowest =
+                        places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
+                    const std::size_t highest =
+                        places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
+                    if (chain.has_cross)
+                        solve(registers, std::true_type(), padded, lowest, highest, found);
+                    else
+                        solve(registers, std::false_type(), padded, lowest, highest, found);
+                    for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
+                }
+            });
         });
-    });
     return result;
 }
 
-inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
+inline std::vector<Quotient> quotients_all(const LumpedChain& chain,
+                                           const std::vector<double>& shifts,
                                            const std::vector<std::size_t>& places = {},
                                            std::size_t longest = longest_leg) {
-    return in_packs<Quotient, quotient_packs>(chain, shifts, places,
-        [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
-            Quotient* found) REVCHAIN_INLINED {
+    return in_packs<Quotient, quotient_packs>(
+        chain, shifts, places,
+        [&](auto registers, auto has_cross, const double* some, std::size_t lowest,
+            std::size_t highest, Quotient* found) REVCHAIN_INLINED {
             std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
             quotients<has_cross.value>(chain, some, lowest, highest, longest, found, scratch);
         });

@@ -16,7 +16,8 @@ struct Window {
 
 /// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`; drops pieces without eigenvalues.
 template <class Cuts, class At>
-std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows, const Cuts& cuts, const At& at) {
+std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows,
+                        const Cuts& cuts, const At& at) {
     std::vector<double> shifts;
     for (const Window& w : windows)
         for (int c = 1; c <= cuts(w); ++c) shifts.push_back(at(w, c, cuts(w)));
@@ -64,7 +65,8 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     const auto at = [](const Window& w, int number, int of) {
         const double share = number / static_cast<double>(of + 1);
         const bool wide = w.upper > 4 * w.lower && w.lower > 0;
-        return wide ? w.lower * std::pow(w.upper / w.lower, share) : w.lower + (w.upper - w.lower) * share;
+        return wide ? w.lower * std::pow(w.upper / w.lower, share)
+                    : w.lower + (w.upper - w.lower) * share;
     };
     std::vector<Window> work{whole}, done;
     while (!work.empty()) {
@@ -77,7 +79,8 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
         }
         work = std::move(next);
     }
-    std::sort(done.begin(), done.end(), [](const Window& a, const Window& b) { return a.first < b.first; });
+    std::sort(done.begin(), done.end(),
+              [](const Window& a, const Window& b) { return a.first < b.first; });
     std::vector<Window> merged;
     for (const Window& w : done) {
         Window* last_one = merged.empty() ? nullptr : &merged.back();
@@ -100,7 +103,8 @@ inline std::size_t node_count(Index modes) {
 /// at its Chebyshev nodes: zeros of the interpolant of f exp(-trend), whose trend, quadratic in the
 /// shift, removes the exponential growth of f. Empty if their number is not that of the counts or,
 /// with `sure`, if one is less certain than 1/1000 of its distance to the next.
-inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n, bool sure) {
+inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n,
+                                        bool sure) {
     std::vector<double> values(n), nodes(n);
     std::vector<int> exponents(n);
     double t0 = 0, t1 = 0, t2 = 0;
@@ -115,7 +119,8 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     const int level = static_cast<int>(t0 / count);
     t1 *= 2 / count, t2 *= 2 / count;
     for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
-        values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
+        values[i] *= std::exp2((exponents[i] - level) -
+                               (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
     std::vector<double> roots;
     simd([&](auto registers) REVCHAIN_INLINED {
         // As many lanes as fill the latency of one fused multiply-add and fit in registers.
@@ -144,7 +149,9 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         return w.lower + (w.upper - w.lower) * (0.25 * number + 0.01);
     };
     for (int round = 0; round < 12 && !work.empty(); ++round) {
-        if (round > 0) work = cut(chain, work, [](const Window&) { return 3; }, quarter);
+        if (round > 0)
+            work = cut(
+                chain, work, [](const Window&) { return 3; }, quarter);
         std::vector<double> shifts;
         std::vector<std::size_t> starts;
         for (const Window& w : work) {
@@ -165,7 +172,8 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         std::vector<std::vector<double>> roots_of(work.size());
         revchain::detail::parallel_for(work.size(), 1, [&](std::size_t from, std::size_t to) {
             for (std::size_t k = from; k < to; ++k)
-                roots_of[k] = interpolated(work[k], &samples[starts[k]], node_count(work[k].size()), round < 3);
+                roots_of[k] = interpolated(work[k], &samples[starts[k]], node_count(work[k].size()),
+                                           round < 3);
         });
         for (std::size_t k = 0; k < work.size(); ++k) {
             const Window& w = work[k];
@@ -194,13 +202,15 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         history.resize(samples.size() * words);
         history.insert(history.end(), more.begin(), more.end());
         for (const Neighbours& i : placed)
-            candidates[i.number].place = place(&history[i.below * words], &history[i.above * words], chain.size());
+            candidates[i.number].place =
+                place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
     // What is left has a bracket too narrow for the interpolant: counts have to separate its zeros.
     for (const Window& w : work)
         for (Index j = w.first; j < w.last; ++j)
-            candidates[static_cast<std::size_t>(j - begin)].shift = w.lower + (w.upper - w.lower) / 2;
+            candidates[static_cast<std::size_t>(j - begin)].shift =
+                w.lower + (w.upper - w.lower) / 2;
     return true;
 }
 
