@@ -128,7 +128,9 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
 /// serve. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
 /// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
+std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain,
+                                                 LazyCounter<double>& assembled,
+                                                 const ModeRange& range,
                                                  const HeightsOptions<double>& options) {
     constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
@@ -144,7 +146,7 @@ std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, con
     result.reserve(static_cast<std::size_t>(range.count));
     if (goal < loose) {
         const auto roots =
-            refined(assemble(chain).pencil, range, chain.mode_count(), all, worst_unrounded);
+            refined(assembled.pencils().wide(), range, chain.mode_count(), all, worst_unrounded);
         if (!roots) return std::nullopt;
         for (const auto& root : *roots) result.push_back({root.root.high, root.bound(), root.root});
         return result;

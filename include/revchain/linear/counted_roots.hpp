@@ -15,11 +15,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 
-/// A root x > 0 and the relative half width of the proved interval about its rounded value.
-struct FoundRoot {
-    RigWord x{};
-    double margin = std::numeric_limits<double>::infinity();
-};
+/// A root x > 0; the error bound is relative to its rounded value.
+using FoundRoot = pencil::Certified<double>;
 
 /// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
 class CountedRoots {
@@ -83,12 +80,14 @@ class CountedRoots {
             const RigWord root = side * pencil::rayleigh_quotient(pencil_, vector, side * x);
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
-            if (pencil::root_within(in_pairs, j, given_out(x), margin)) return {x, margin};
+            if (pencil::root_within(in_pairs, j, given_out(x), margin))
+                return {static_cast<double>(x), margin, x};
         }
         // by proved counts alone, as far as they go
         const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
-        if (!found) return {guess};
-        return {found->middle(), found->reach(given_out(found->middle()))};
+        constexpr double unproved = std::numeric_limits<double>::infinity();
+        x = found ? found->middle() : guess;
+        return {static_cast<double>(x), found ? found->reach(given_out(x)) : unproved, x};
     }
 
     pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }

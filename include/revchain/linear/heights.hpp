@@ -83,37 +83,53 @@ inline constexpr Index most_in_lanes = 20000;
 /// The relative error before rounding up to which a rounded height is within 2 ulp.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
-/// Heights to 2 ulp, eight at a time; those that this does not prove, one by one. Nothing where one
-/// unit of weight does not serve, or where counts leave numbers in doubt.
+/// Roots of a range of numbers, eight at a time, of a chain's or a rig's pencil in two words and
+/// rounded. A root that this does not prove to the relative error `worst` is `alone(number, bracket)`.
+/// Nothing where the counts `certified(x)` leave numbers in doubt.
+template <bool Spins, class Certified, class Alone>
+std::optional<Heights<double>> roots_in_lanes(
+    const pencil::ElementPencil<Wide<double>, Spins>& elements,
+    const pencil::ElementPencil<double, Spins>& rounded, const Certified& certified,
+    const ModeRange& range, Index available, double guess, double worst,
+    const std::function<void(Index)>& finished, const Alone& alone) {
+    if (elements.size() > most_in_lanes) return std::nullopt;
+    const FloatingPointStateGuard quiet;
+    const auto roots = pencil::proved_range(elements, rounded, certified, range.first - 1,
+                                            range.count, available, guess, worst, finished);
+    if (!roots) return std::nullopt;
+    Heights<double> found;
+    found.reserve(roots->size());
+    for (const auto& root : *roots) {
+        if (std::isfinite(root.off)) {
+            found.push_back({root.root.high, root.bound(), root.root});
+            continue;
+        }
+        const Index j = range.first - 1 + static_cast<Index>(found.size());
+        found.push_back(
+            alone(j, pencil::bisect(rounded, j, 1, 2 * epsilon<double>(), guess).front()));
+    }
+    return found;
+}
+
+/// Heights to 2 ulp, eight at a time. Nothing where one unit of weight does not serve, or where
+/// counts leave numbers in doubt.
 REVCHAIN_LAZY
 std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
                                                 const ModeRange& range, Index available,
                                                 double guess,
                                                 const std::function<void(Index)>& finished) {
     const auto& wide = pencils.wide();
-    if (!wide.units.empty() || wide.size() > most_in_lanes) return std::nullopt;
-    const FloatingPointStateGuard quiet;
-    const auto count = [&](double height) {
-        return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0];
-    };
-    const auto roots =
-        pencil::proved_range(wide, pencils.rounded(), count, range.first - 1, range.count,
-                             available, guess, worst_unrounded, finished);
-    if (!roots) return std::nullopt;
-    Heights<double> heights;
-    heights.reserve(roots->size());
-    for (const auto& root : *roots) {
-        if (std::isfinite(root.off)) {
-            heights.push_back({root.root.high, root.bound(), root.root});
-            continue;
-        }
-        const Index j = range.first - 1 + static_cast<Index>(heights.size());
-        const auto bracket =
-            pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
-        heights.push_back(pencil::certified_eigenvalue(
-            wide, pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
-    }
-    restore_order<double>(heights);
+    const auto& rounded = pencils.rounded();
+    if (!wide.units.empty()) return std::nullopt;
+    auto heights = roots_in_lanes(
+        wide, rounded,
+        [&](double height) { return pencil::certified_count<double, 1>(rounded, {height})[0]; },
+        range, available, guess, worst_unrounded, finished,
+        [&](Index j, const pencil::Bracket<double>& bracket) {
+            const double start = pencil::between(bracket.lower, bracket.upper);
+            return pencil::certified_eigenvalue(wide, rounded, j, start);
+        });
+    if (heights) restore_order<double>(*heights);
     return heights;
 }
 

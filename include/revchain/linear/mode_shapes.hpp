@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -96,16 +98,18 @@ template <Real T>
 class ShapeFinder {
    public:
     /// `loose`: T suffices at the height given; else shapes are found in `Wide<T>` at the height
-    /// before it was rounded.
-    ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose)
-        : chain_(chain), height_(std::move(height)), loose_(loose) {}
+    /// before it was rounded. `pencils`: those of the chain, or null if they are assembled again.
+    ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose,
+                std::shared_ptr<const Pencils<T>> pencils = nullptr)
+        : chain_(chain), height_(std::move(height)), loose_(loose), pencils_(std::move(pencils)) {}
 
     /// The shapes of `count` modes from index `from` on; residuals and nodes if asked.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
         const Heights<T> height = heights(from, count);
         ModeShapes<T> shapes = room_for_shapes(chain_, count, details);
-        const Pencils<T> pencils(chain_);
+        std::optional<Pencils<T>> own;
+        const Pencils<T>& pencils = pencils_ ? *pencils_ : own.emplace(chain_);
         if constexpr (std::is_same_v<T, double>)
             if (pencils.wide().units.empty() && chain_.size() <= most_in_lanes) {
                 in_lanes(shapes, pencils, height, progress);
@@ -160,6 +164,7 @@ class ShapeFinder {
     Chain<T> chain_;
     Heights<T> height_;
     bool loose_;
+    std::shared_ptr<const Pencils<T>> pencils_;
 };
 
 }  // namespace revchain::detail

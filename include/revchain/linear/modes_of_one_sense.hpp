@@ -17,9 +17,11 @@ class ModesOfOneSense {
         if (!roots_.spectrum()) return;
         for (const pencil::EnclosedRoot& root : roots_.spectrum()->roots)
             if (root.is_real && (root.value.real() > 0) == forward_ &&
-                std::abs(root.value) > 0x1p-200)
+                std::abs(root.value) > 0x1p-200) {
+                const RigWord x = forward_ ? root.x.real : -root.x.real;
                 isolated_.push_back(
-                    {forward_ ? root.x.real : -root.x.real, root.radius / std::abs(root.value)});
+                    {static_cast<double>(x), root.radius / std::abs(root.value), x});
+            }
     }
 
     Index count() const {
@@ -52,9 +54,10 @@ class ModesOfOneSense {
         }
         std::vector<Mode> modes;
         for (const FoundRoot& root : roots) {
-            const RigWord height = quadratic ? root.x * root.x : root.x;
+            const RigWord height = quadratic ? root.unrounded * root.unrounded : root.unrounded;
             modes.push_back({std::ldexp(static_cast<double>(height), rig.units.length_exponent),
-                             (quadratic ? 2.01 : 1) * root.margin + epsilon<double>(), root.x});
+                             (quadratic ? 2.01 : 1) * root.error_bound + epsilon<double>(),
+                             root.unrounded});
         }
         return modes;
     }

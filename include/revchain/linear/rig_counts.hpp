@@ -40,7 +40,7 @@ std::optional<std::vector<FoundRoot>> roots_under_a_spring(
     const auto roots = refined(elements, range, available, all, worst_unrounded_root);
     if (!roots) return std::nullopt;
     std::vector<FoundRoot> found;
-    for (const auto& root : *roots) found.push_back({root.root, root.bound()});
+    for (const auto& root : *roots) found.push_back({root.root.high, root.bound(), root.root});
     return found;
 }
 
@@ -51,26 +51,11 @@ std::optional<std::vector<FoundRoot>> roots_in_lanes(
     const pencil::ElementPencil<RigWord, Spins>& elements, const CountedRoots& roots,
     const ModeRange& range, Index available, double guess,
     const std::function<void(Index)>& finished) {
-    if (elements.size() > most_in_lanes) return std::nullopt;
-    const FloatingPointStateGuard quiet;
-    const auto counter = pencil::rounded<double>(elements);
-    const auto certified = [&](double x) { return roots.certified(RigWord(x)); };
-    const auto proved =
-        pencil::proved_range(elements, counter, certified, range.first - 1, range.count, available,
-                             guess, worst_unrounded_root, finished);
-    if (!proved) return std::nullopt;
-    std::vector<FoundRoot> found;
-    found.reserve(proved->size());
-    for (const auto& root : *proved) {
-        const Index j = range.first - 1 + static_cast<Index>(found.size());
-        if (std::isfinite(root.off)) {
-            found.push_back({root.root, root.bound()});
-            continue;
-        }
-        const auto bracket = pencil::bisect(counter, j, 1, 2 * epsilon<double>(), guess).front();
-        found.push_back(roots.refined(j, bracket));
-    }
-    return found;
+    return roots_in_lanes(
+        elements, pencil::rounded<double>(elements),
+        [&](double x) { return roots.certified(RigWord(x)); }, range, available, guess,
+        worst_unrounded_root, finished,
+        [&](Index j, const pencil::Bracket<double>& bracket) { return roots.refined(j, bracket); });
 }
 
 }  // namespace revchain::detail

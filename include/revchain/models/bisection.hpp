@@ -36,6 +36,19 @@ Answer answered(const Chain<double>& chain,
     return answer;
 }
 
+/// The pencils of a chain: those of the question if it is about this chain, else its own.
+class Assembled {
+   public:
+    Assembled(const Chain<double>& chain, const Question& question)
+        : own_(chain), given_(question.assembled) {
+        if (given_ && !given_->is_of(chain)) given_ = nullptr;
+    }
+    revchain::detail::LazyCounter<double>& counter() { return given_ ? *given_ : own_; }
+
+   private:
+    revchain::detail::LazyCounter<double> own_, *given_;
+};
+
 /// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
 REVCHAIN_LAZY
 double goal(const Question& question) { return std::min(question.rtol, 0.5); }
@@ -77,11 +90,12 @@ struct Bisection {
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
-        revchain::detail::LazyCounter<double> assembled(chain);
         auto options = detail::options_for(question);
         if (!counts_pay(kind, question)) options.rtol.reset();
-        return detail::answered(chain, revchain::detail::heights_by_bisection(
-                                           chain, assembled, detail::range_of(question), options));
+        detail::Assembled assembled(chain, question);
+        return detail::answered(
+            chain, revchain::detail::heights_by_bisection(chain, assembled.counter(),
+                                                          detail::range_of(question), options));
     }
 
    private:

@@ -41,9 +41,10 @@ struct Aberth {
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
-        return detail::answered(
-            chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question),
-                                                       detail::options_for(question)));
+        detail::Assembled assembled(chain, question);
+        return detail::answered(chain, revchain::detail::heights_by_aberth(
+                                           chain, assembled.counter(), detail::range_of(question),
+                                           detail::options_for(question)));
     }
 };
 
@@ -70,10 +71,10 @@ struct Interpolated {
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
-        revchain::detail::LazyCounter<double> assembled(chain);
+        detail::Assembled assembled(chain, question);
         return detail::answered(chain, revchain::detail::heights_by_interpolation(
-                                           assembled, detail::range_of(question), kind.mode_count,
-                                           detail::options_for(question)));
+                                           assembled.counter(), detail::range_of(question),
+                                           kind.mode_count, detail::options_for(question)));
     }
 };
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "revchain/chain.hpp"
+#include "revchain/count.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/progress.hpp"
@@ -38,6 +38,8 @@ struct Question {
         0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
     Progress* progress = nullptr;
     bool proved = false;  ///< whether only models whose bounds are proved by counts may answer
+    /// The pencils of the chain, assembled when first needed; null if each model assembles its own.
+    revchain::detail::LazyCounter<double>* assembled = nullptr;
 
     Index last() const { return first - 1 + count; }
 };

@@ -264,10 +264,10 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
         };
         for (const auto& root :
              refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
-            set_height(result, static_cast<Index>(found.size()), static_cast<double>(root.x),
-                       pencil::bound_of_margin<RigWord>(root.margin),
+            set_height(result, static_cast<Index>(found.size()), root.eigenvalue,
+                       pencil::bound_of_margin<RigWord>(root.error_bound),
                        taut.pencil.units.length_exponent, options.rtol);
-            found.push_back(root.x);
+            found.push_back(root.unrounded);
         }
     }
     if (options.certify)

@@ -23,9 +23,10 @@ auto with_bisection(const std::tuple<Models...>& methods) {
 /// The question about a range of modes. Without a tolerance bounds have to be proved.
 REVCHAIN_LAZY
 models::Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
-                             Progress* progress = nullptr) {
+                             Progress* progress = nullptr,
+                             LazyCounter<double>* assembled = nullptr) {
     const double rtol = tolerance.value_or(0.0);
-    return {range.first, range.count, rtol, 0, progress, !(rtol > 0)};
+    return {range.first, range.count, rtol, 0, progress, !(rtol > 0), assembled};
 }
 
 /// The name of a method in `Modes::method`.
@@ -45,9 +46,11 @@ std::string_view name_of(ModesMethod method) {
 
 /// Heights by the cheapest method, or by the one asked for; by bisection where that has none.
 template <class... Models>
-models::Solution solved(const Chain<double>& chain, const ModeRange& range,
-                        const ModesOptions<double>& options, const std::tuple<Models...>& methods) {
-    const models::Question question = question_of(range, options.rtol, options.progress);
+models::Solution solved(const Chain<double>& chain, LazyCounter<double>& assembled,
+                        const ModeRange& range, const ModesOptions<double>& options,
+                        const std::tuple<Models...>& methods) {
+    const models::Question question =
+        question_of(range, options.rtol, options.progress, &assembled);
     if (options.method == ModesMethod::automatic) return solve(methods, chain, question);
     models::Solution found = models::solve_by(methods, name_of(options.method), chain, question);
     if (found.answer.found) return found;
@@ -83,7 +86,7 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain,
     const ModeRange range = chosen(chain, assembled, options);
     Modes<double> result = room_for_modes<double>(range);
     models::Solution found{{}, models::Bisection::name, Status::success};
-    if (range.count > 0) found = solved(chain, range, options, methods);
+    if (range.count > 0) found = solved(chain, assembled, range, options, methods);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0,
@@ -91,7 +94,8 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain,
     if (range.count > 0 && options.certify)
         certify(result, assembled.pencils(), chain.mode_count());
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose),
+    auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose,
+                                              assembled.kept_pencils()),
                  condense = options.method != ModesMethod::bisection,
                  first = range.first](Index from, Index count, bool details, Progress* progress) {
         if constexpr (is_among<models::Condensed, Methods>)

@@ -132,7 +132,8 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (range.count > 0 && options.certify)
         certify(result, assembled.pencils(), chain.mode_count());
     ShapesBehind::of(result) = shapes_when_read<T>(
-        ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage)), options.threads);
+        ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage), assembled.kept_pencils()),
+        options.threads);
     if (range.count > 0) advance(options.progress, 1.0);
     return result;
 }

@@ -47,13 +47,14 @@ void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
 REVCHAIN_LAZY
 bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
               const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
-    const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
-    const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
+    const RigWord height = pencil.quadratic ? root.unrounded * root.unrounded : root.unrounded;
+    const RigWord speed = rig.pace / (pencil.quadratic ? root.unrounded : sqrt(root.unrounded));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
     modes.angular_speed[j] = static_cast<double>(speed);
     // The margin bounds the root; the bound of its square or root takes in two roundings.
     const double ulp = epsilon<double>();
-    const double margin = root.margin * (1 + 4 * root.margin) + 32 * operation_error<RigWord>();
+    const double margin =
+        root.error_bound * (1 + 4 * root.error_bound) + 32 * operation_error<RigWord>();
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
     if (pencil.quadratic)
         of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
@@ -90,7 +91,7 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
         for (const FoundRoot& root : stored) {
             const auto j = static_cast<Index>(found.size());
             proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
-            found.push_back(root.x);
+            found.push_back(root.unrounded);
         }
         ShapesBehind::of(modes) = LazyModeShapes<double>(
             RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
@@ -198,8 +199,8 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
             if (options.other && count > 0)
                 for (const FoundRoot& root :
                      refined_roots(negative->roots, 0, count, start, {}, {})) {
-                    const double height = -static_cast<double>(root.x);
-                    result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
+                    const double height = -root.eigenvalue;
+                    result.other.push_back(other_height(pencil, height, root.error_bound + 1e-30));
                     proved &= std::isfinite(result.other.back().error_bound);
                 }
         }
@@ -225,8 +226,9 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
             const bool ahead = root.value.real() > 0;
             // The mode is rounded from x, which may be half an ulp from the disc's centre.
+            const RigWord x = ahead ? root.x.real : -root.x.real;
             (ahead ? forward : backward)
-                .push_back({ahead ? root.x.real : -root.x.real, bound + 1.01 * epsilon<double>()});
+                .push_back({static_cast<double>(x), bound + 1.01 * epsilon<double>(), x});
         } else if (!result.has_momentum) {
             result.other.push_back(other_height(pencil, root.value, bound));
         } else {
@@ -248,7 +250,7 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         for (Index j = 0; j < range.count; ++j) {
             const FoundRoot& root = found[static_cast<std::size_t>(range.first - 1 + j)];
             set_mode(modes, j, pencil, sense, root);
-            at.push_back(root.x);
+            at.push_back(root.unrounded);
         }
         ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
             rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
