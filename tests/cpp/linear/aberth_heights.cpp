@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/linear/aberth_heights.hpp"
 
-#include "revchain/linear/rig_counts.hpp"
+#include "revchain/linear/rig_roots.hpp"
 #include "revchain/methods.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
@@ -230,8 +230,8 @@ TEST_CASE("heights all together under a spring: nearly every rig is served", "[l
         if (!roots) continue;
         ++served;
         REQUIRE(static_cast<Index>(roots->size()) == modes);
-        for (std::size_t j = 1; j < roots->size(); ++j) CHECK((*roots)[j].x < (*roots)[j - 1].x);
-        for (const auto& root : *roots) CHECK(root.margin <= 0x1p-52 * (1 + 0x1p-20));
+        for (std::size_t j = 1; j < roots->size(); ++j) CHECK((*roots)[j].unrounded < (*roots)[j - 1].unrounded);
+        for (const auto& root : *roots) CHECK(root.error_bound <= 0x1p-52 * (1 + 0x1p-20));
     }
     CHECK(served >= 220);
 }
