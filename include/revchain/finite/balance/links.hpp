@@ -43,11 +43,55 @@ double as_double(const S& x) {
     return static_cast<double>(x);
 }
 
-/// Links in units of 2^length_exponent and 2^weight_exponent.
+/// The upper end of a chain: its topmost pin is on the axis, as known at compile time.
+struct OnAxis {
+    static constexpr bool is_symmetric() { return true; }
+    static constexpr bool yields() { return false; }
+
+    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
+    template <class F>
+    const F& miss(const F& y, const F&) const {
+        return y;
+    }
+    /// Puts the topmost pin, the last of `offset`, on its support if the position needs no load.
+    template <class S>
+    void place(std::vector<S>& offset) const {
+        offset.back() = S(0);
+    }
+};
+
+/// The links of a chain, in units of 2^length_exponent and 2^weight_exponent, and what a list of
+/// shapes asks of them. `RiggedLinks` has the same functions for a rig.
 template <class S>
 struct Links {
     std::vector<Link<S>> links;
     ChainUnits units;
+
+    static OnAxis upper_end() { return {}; }
+    /// The postures of links where all hang, or stand as in the rig.
+    std::vector<Posture> postures() const {
+        return std::vector<Posture>(links.size(), Posture::hangs);
+    }
+    /// Whether shapes with all links standing exist; without a spring nothing would bear the load.
+    static bool may_all_stand() { return false; }
+    /// Whether the tangent of link m falls as its load grows.
+    static bool turned(std::size_t) { return false; }
+    /// The links whose balance is swept, in intervals.
+    template <class T>
+    EnclosedLinks<T> swept() const;
+    /// The weight that hangs on each upper pin.
+    std::vector<double> hung() const {
+        std::vector<double> weights;
+        double total = 0;
+        for (const Link<S>& link : links)
+            weights.push_back(total += as_double(link.moment + link.rest));
+        return weights;
+    }
+    /// The weight of the chain itself.
+    double weight() const { return hung().back(); }
+    /// Adds the parts of the support to the numbers of a shape.
+    template <class Shape, class Found>
+    void add_support(Shape&, const S&, const Found&) const {}
 };
 
 /// The links of a chain, for T = double each number to 1e-28 unless W h + a S cancels.
@@ -109,6 +153,11 @@ Interval<T> enclosed(const S& x) {
 template <class T, class S>
 EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
+}
+template <class S>
+template <class T>
+EnclosedLinks<T> Links<S>::swept() const {
+    return enclosed<T>(links);
 }
 
 /// Whether the inclination of this tangent has sine 1 and cosine 1/|tangent| to every digit.

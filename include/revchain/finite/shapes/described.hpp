@@ -28,10 +28,10 @@ double beyond(double angle, bool backwards) {
     return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
 }
 
-/// A shape from the offsets of its pins, without error bound. `hung`: weights on upper pins.
-template <class Shape = SteadyShape>
-Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found,
-                const std::vector<double>& hung, double total_weight) {
+/// A shape of a chain or a rig from the offsets of its pins, without error bound.
+template <class Shape = SteadyShape, class AnyLinks>
+Shape described(const AnyLinks& chain, const Fine& height, const Balanced<Fine>& found) {
+    const std::vector<double> hung = chain.hung();
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
     const auto length = [&](const Fine& x) {
@@ -76,20 +76,13 @@ Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fin
             inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = worst_moment / (total_weight * reach);
+    shape.residual = worst_moment / (chain.weight() * reach);
     shape.conical_height = length(height);
     shape.moment_of_inertia =
         weight(std::ldexp(as_double(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (Fine(2) * height)));
+    chain.add_support(shape, height, found);
     return shape;
-}
-template <class Shape = SteadyShape>
-Shape described(const Links<Fine>& chain, const Fine& height, const Balanced<Fine>& found) {
-    std::vector<double> hung;
-    double total = 0;
-    for (const Link<Fine>& link : chain.links)
-        hung.push_back(total += as_double(link.moment + link.rest));
-    return described<Shape>(chain, height, found, hung, total);
 }
 
 }  // namespace finite

@@ -33,6 +33,41 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height,
     return ((reach + Interval<T>(beyond.high)) / height).high;
 }
 
+/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
+template <class T>
+Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
+                               const SupportEnd<Interval<T>>& support) {
+    Interval<T> moving = support.carriage;
+    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
+    return Interval<T>(T(1)) - support.compliance * moving;
+}
+
+/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
+/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
+/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
+/// there is no bound: then as if they were 1e-6 apart.
+template <class T>
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
+                   const SupportEnd<Interval<T>>& support) {
+    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
+    for (const Link<Interval<T>>& link : links) {
+        reach = reach + Interval<T>(link.length.size());
+        if (!support.firm)
+            drawn = drawn +
+                    support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
+        moving = moving + link.moment + link.rest;
+    }
+    if (!support.firm) {
+        const Interval<T> left = left_to_the_spring(links, support);
+        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
+    }
+    const Interval<T> turning = links[0].length * links[0].cross;
+    const Interval<T> far =
+        (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
+        (height * links[0].pull);
+    return far.high;
+}
+
 /// Whether each link but the lowest has one inclination under its load; always if l <= a.
 template <class T>
 bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
@@ -41,9 +76,13 @@ bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     });
 }
 
-REVCHAIN_LAZY
-bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
-    return single_valued(enclosed<double>(links.links), height);
+/// Whether all links hang, each at one inclination.
+template <class AnyLinks>
+bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& height) {
+    const auto postures = links.postures();
+    for (std::size_t m = 0; m < postures.size(); ++m)
+        if (postures[m] == Posture::stands || links.turned(m)) return false;
+    return single_valued(links.template swept<double>(), height);
 }
 
 /// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
@@ -86,18 +125,18 @@ template <class AnyLinks>
 Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
                         long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
-    const auto narrow = swept_links<double>(chain);
+    const auto narrow = chain.template swept<double>();
     const Interval<double> lambda = enclosed<double>(height);
-    const auto support = enclosed<double>(support_of(chain));
+    const auto support = enclosed<double>(chain.upper_end());
     const Isolation<double> first =
         isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
-    const auto wide = swept_links<Far>(chain);
+    const auto wide = chain.template swept<Far>();
     const Span height_wide = enclosed<Far>(height);
-    const auto support_wide = enclosed<Far>(support_of(chain));
+    const auto support_wide = enclosed<Far>(chain.upper_end());
     for (const Bracket<double>& open : joined(first.undecided)) {
         const auto again =
             isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
@@ -123,7 +162,7 @@ template <class AnyLinks>
 std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height,
                                        const Bracket<Far>& bracket) {
     const std::vector<Link<Fine>>& links = chain.links;
-    const auto support = support_of(chain);
+    const auto support = chain.upper_end();
     Fine low = bracket.low.word(), high = bracket.high.word();
     const auto falls_short = [&](const Fine& t) {
         return support_offset(links, height, t, support) < Fine(0);
@@ -198,12 +237,12 @@ template <class AnyLinks>
 std::optional<ProvedShape> finished_by_tangents(const AnyLinks& chain, const Fine& height,
                                                 const Bracket<Far>& bracket,
                                                 const Bracket<Far>& part) {
-    const auto links = swept_links<Far>(chain);
+    const auto links = chain.template swept<Far>();
     const auto lambda = enclosed<Far>(height);
-    const auto support = enclosed<Far>(support_of(chain));
+    const auto support = enclosed<Far>(chain.upper_end());
     TangentBox<Far> near;
     support_offset(links, lambda, Span(part.low, part.high), support, &near);
-    const WholeBalance balance(links, lambda, posture_of(chain), support);
+    const WholeBalance balance(links, lambda, chain.postures(), support);
     auto found = proved_shape(chain, height, balance, near);
     if (!found) return std::nullopt;
     const Far tangent = abs(Far(tangent_in(found->shape, chain.links, 0)));
@@ -239,7 +278,7 @@ template <class Means, class AnyLinks, class Result>
 void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
-    const auto support = enclosed<Far>(support_of(links));
+    const auto support = enclosed<Far>(links.upper_end());
     if (auto found = finished(links, height, bracket)) {
         Shape& shape = result.shapes.emplace_back(
             verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
@@ -271,7 +310,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
 template <class Means, class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget,
                        Result& result) {
-    const auto narrow = swept_links<Far>(links);
+    const auto narrow = links.template swept<Far>();
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
@@ -329,8 +368,8 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
     Result result;
     // slightly beyond: an almost horizontal link is at the bound, to rounding
     const double last =
-        1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
-                                !options.hanging_only, enclosed<double>(support_of(links)));
+        1.01 * farthest_tangent(links.template swept<double>(), enclosed<double>(scaled),
+                                !options.hanging_only, enclosed<double>(links.upper_end()));
     if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back(
             {0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});

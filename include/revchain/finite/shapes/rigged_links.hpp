@@ -11,7 +11,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
 ///
 /// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
-/// the opposite inclination obeys the same equations: `swept_links` returns that.
+/// the opposite inclination obeys the same equations: `swept` returns that.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
@@ -20,7 +20,22 @@ struct RiggedLinks : Links<Fine> {
     Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
     double total_weight = 0;  ///< of the chain
 
+    const SupportEnd<Fine>& upper_end() const { return support; }
+    const std::vector<Posture>& postures() const { return posture; }
+    static bool may_all_stand() { return true; }
     bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
+    template <class T>
+    EnclosedLinks<T> swept() const;
+    std::vector<double> hung() const {
+        std::vector<double> weights;
+        for (const detail::RigLink& link : given) weights.push_back(as_double(link.hung));
+        return weights;
+    }
+    double weight() const { return total_weight; }
+    /// Half waves count the support; the energy includes the spring's and - n H cos of the
+    /// inclinations, the moment of inertia the carriage's.
+    template <class Shape, class Found>
+    void add_support(Shape& shape, const Fine& height, const Found& found) const;
     /// Converts tangents of swept links to those of given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
@@ -37,77 +52,30 @@ Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
     return {detail::down(static_cast<T>(pull.low)), detail::up(static_cast<T>(pull.high))};
 }
 
-inline const SupportEnd<Fine>& support_of(const RiggedLinks& rig) { return rig.support; }
-inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
-REVCHAIN_LAZY
-bool may_all_stand(const RiggedLinks&) { return true; }
-
 template <class T>
-EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
-    EnclosedLinks<T> result = enclosed<T>(rig.links);
+EnclosedLinks<T> RiggedLinks::swept() const {
+    EnclosedLinks<T> result = enclosed<T>(links);
     for (std::size_t m = 0; m < result.size(); ++m) {
-        result[m].pull = effective_tension<T>(rig.given[m], rig.speed);
-        if (rig.turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
+        result[m].pull = effective_tension<T>(given[m], speed);
+        if (turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
     }
     return result;
 }
 
-/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
-template <class T>
-Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
-                               const SupportEnd<Interval<T>>& support) {
-    Interval<T> moving = support.carriage;
-    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
-    return Interval<T>(T(1)) - support.compliance * moving;
-}
-
-/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
-/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
-/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
-/// there is no bound: then as if they were 1e-6 apart.
-template <class T>
-T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
-                   const SupportEnd<Interval<T>>& support) {
-    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
-    for (const Link<Interval<T>>& link : links) {
-        reach = reach + Interval<T>(link.length.size());
-        if (!support.firm)
-            drawn = drawn +
-                    support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
-        moving = moving + link.moment + link.rest;
-    }
-    if (!support.firm) {
-        const Interval<T> left = left_to_the_spring(links, support);
-        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
-    }
-    const Interval<T> turning = links[0].length * links[0].cross;
-    const Interval<T> far =
-        (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
-        (height * links[0].pull);
-    return far.high;
-}
-
-/// A shape of a rig from the offsets of its pins. Half waves count the support; the energy includes
-/// the spring's and - n H cos of inclinations, the moment of inertia the carriage's.
-template <class Shape = SteadyShape>
-Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>& found) {
-    std::vector<double> hung;
-    for (const detail::RigLink& link : rig.given) hung.push_back(as_double(link.hung));
-    Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
+template <class Shape, class Found>
+void RiggedLinks::add_support(Shape& shape, const Fine& height, const Found& found) const {
     const Fine top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))
         if (y != 0) last = y;
     if (as_double(top) * last < 0) ++shape.half_waves;
-    const SupportEnd<Fine>& support = rig.support;
     const Fine drawn = top - support.radius,
-               inertia = rig.axial_moment + (support.firm ? Fine(0) : support.carriage * top * top);
+               inertia = axial_moment + (support.firm ? Fine(0) : support.carriage * top * top);
     Fine energy = -inertia / (Fine(2) * height);
     if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (Fine(2) * height);
-    const int weight = rig.units.weight_exponent, length = rig.units.length_exponent;
-    shape.moment_of_inertia += std::ldexp(as_double(inertia), weight + 2 * length);
-    shape.effective_energy += std::ldexp(as_double(energy), weight + length);
-    return shape;
+    const int of_weight = units.weight_exponent, of_length = units.length_exponent;
+    shape.moment_of_inertia += std::ldexp(as_double(inertia), of_weight + 2 * of_length);
+    shape.effective_energy += std::ldexp(as_double(energy), of_weight + of_length);
 }
 
 /// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,

@@ -98,7 +98,7 @@ std::optional<ProvedShape> proved_shape(const AnyLinks& chain, const Fine& heigh
     }
     ProvedShape result;
     result.condition = *condition;
-    result.shape = finite::balance(links, height, offset, balance.posture(), support_of(chain));
+    result.shape = finite::balance(links, height, offset, balance.posture(), chain.upper_end());
     if (!result.shape.converged || !agrees(links, result.shape, *box, offset)) {
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
@@ -126,9 +126,9 @@ void search_posture(const AnyLinks& chain, const Fine& height, const std::vector
         result.open.push_back({posture[0], 0.0, last});
         return;
     }
-    const auto narrow = swept_links<double>(chain);
-    const auto wide = swept_links<Far>(chain);
-    const auto support = support_of(chain);
+    const auto narrow = chain.template swept<double>();
+    const auto wide = chain.template swept<Far>();
+    const auto support = chain.upper_end();
     PostureSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
     auto choice = first.first_choice();
     do {
@@ -159,14 +159,14 @@ SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& heig
     const std::size_t n = chain.links.size();
     SeveralInclinations result;
     std::vector<Posture> posture =
-        hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
+        hanging_only ? chain.postures() : std::vector<Posture>(n, Posture::hangs);
     const auto next = [&] {
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;
-        return m < n &&
-               (may_all_stand(chain) || std::any_of(posture.begin(), posture.end(),
-                                                    [](Posture p) { return p == Posture::hangs; }));
+        return m < n && (chain.may_all_stand() ||
+                         std::any_of(posture.begin(), posture.end(),
+                                     [](Posture p) { return p == Posture::hangs; }));
     };
     do {
         search_posture(chain, height, posture, last, budget, result);

@@ -22,13 +22,6 @@ SteadyShapes steady_shapes(const Chain<double>& chain, const Fine& height,
 }
 
 REVCHAIN_LAZY
-bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
-    for (std::size_t m = 0; m < rig.links.size(); ++m)
-        if (rig.posture[m] == Posture::stands || rig.turned(m)) return false;
-    return single_valued(swept_links<double>(rig), height);
-}
-
-REVCHAIN_LAZY
 SteadyShape mirror_image(SteadyShape shape) {
     const auto turn = [](Vector<double>& x) {
         for (double& value : x) value = value == std::numbers::pi ? value : 0 - value;
@@ -69,13 +62,12 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     }
     RiggedLinks links = rigged_links(rig, height, speed);
     const Fine lambda = ldexp(height, -links.units.length_exponent);
-    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda),
+    const double last = farthest_tangent(links.swept<double>(), enclosed<double>(lambda),
                                          !options.hanging_only, enclosed<double>(links.support));
     result = listed<SteadyShapes, Means>(links, lambda, options);
     const bool unbounded =
         !links.support.firm &&
-        left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support))
-            .may_vanish();
+        left_to_the_spring(links.swept<double>(), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;
         const double beyond = std::atan(last);

@@ -239,7 +239,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
                      const Fine& height, const Span& within, Balanced<Fine> found,
                      bool height_is_given) {
     std::vector<Fine>& y = found.offset;
-    const auto support = enclosed<Far>(support_of(chain));
+    const auto support = enclosed<Far>(chain.upper_end());
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
     if (height_is_given && std::isfinite(proved.inclination_error)) {
