@@ -78,7 +78,7 @@ struct Links {
     static bool turned(std::size_t) { return false; }
     /// The links whose balance is swept, in intervals.
     template <class T>
-    EnclosedLinks<T> swept() const;
+    EnclosedLinks<T> links_for_sweep() const;
     /// The weight that hangs on each upper pin.
     std::vector<double> hung() const {
         std::vector<double> weights;
@@ -156,7 +156,7 @@ EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
 }
 template <class S>
 template <class T>
-EnclosedLinks<T> Links<S>::swept() const {
+EnclosedLinks<T> Links<S>::links_for_sweep() const {
     return enclosed<T>(links);
 }
 

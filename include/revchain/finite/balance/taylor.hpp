@@ -166,7 +166,7 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
 template <class S>
 struct KeptMomentum {
     std::vector<S> spin;
-    S speed;
+    S pace;
 };
 
 /// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that
@@ -194,8 +194,8 @@ class CellSweep {
                                      const KeptMomentum<Interval<Lane<T>>>* kept = nullptr)
         : cell_(cell), height_(height), centre_height_(centre_height), kept_(kept) {
         if constexpr (spins) {
-            const I speed = spread(kept->speed);
-            speed_ = speed / sqrt(height), centre_speed_ = speed / sqrt(centre_height);
+            const I pace = spread(kept->pace);
+            speed_ = pace / sqrt(height), centre_speed_ = pace / sqrt(centre_height);
         }
         start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
         for (std::size_t m = 1; m < links.size(); ++m)

@@ -22,7 +22,7 @@ template <class S>
 struct BranchLinks {
     std::vector<Link<S>> links;  ///< `pull` without what flywheels add
     std::vector<S> spin{};       ///< momentum over length, signed as `pull`; empty if all are 0
-    S speed{0.0};                ///< n sqrt(lambda), signed
+    S pace{0.0};                 ///< n sqrt(lambda), signed
     S radius{0.0};               ///< of the support
     bool spring = false;
     bool plain = true;  ///< a chain: all pulls are positive, and the support is firm in the axis
@@ -38,7 +38,7 @@ struct BranchLinks {
     /// n at a height; 0 without flywheels.
     S speed_at(const S& height) const {
         using std::sqrt;
-        return spin.empty() ? S(0.0) : S(speed / sqrt(height));
+        return spin.empty() ? S(0.0) : S(pace / sqrt(height));
     }
     S pull(std::size_t m, const S& n) const {
         return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]);
@@ -65,7 +65,7 @@ REVCHAIN_LAZY
 BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
     BranchLinks<double> to(rounded<double>(from.links));
     for (const Fine& x : from.spin) to.spin.push_back(as_double(x));
-    to.speed = as_double(from.speed), to.radius = as_double(from.radius);
+    to.pace = as_double(from.pace), to.radius = as_double(from.radius);
     to.spring = from.spring, to.plain = from.plain;
     return to;
 }
@@ -97,7 +97,7 @@ struct BranchSystem {
             bearing = link.hung;
         }
         const S root = sqrt(ldexp(S(gravity), -units.length_exponent));
-        links.speed = direction == Rotation::forward ? root : -root, links.plain = false;
+        links.pace = direction == Rotation::forward ? root : -root, links.plain = false;
         const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
         const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
         const Support& support = of.support();

@@ -110,7 +110,7 @@ class RigQuestions {
     std::string not_provable(double lowest) const {
         if (!known_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
-        if (!single_valued(system->rigged_at(Fine(lowest)).swept<double>(),
+        if (!single_valued(system->rigged_at(Fine(lowest)).links_for_sweep<double>(),
                            Interval<double>(lowest)))
             return "links hang at several inclinations";
         return "";

@@ -82,7 +82,7 @@ bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& hei
     const auto postures = links.postures();
     for (std::size_t m = 0; m < postures.size(); ++m)
         if (postures[m] == Posture::stands || links.turned(m)) return false;
-    return single_valued(links.template swept<double>(), height);
+    return single_valued(links.template links_for_sweep<double>(), height);
 }
 
 /// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
@@ -125,7 +125,7 @@ template <class AnyLinks>
 Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
                         long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
-    const auto narrow = chain.template swept<double>();
+    const auto narrow = chain.template links_for_sweep<double>();
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(chain.upper_end());
     const Isolation<double> first =
@@ -134,7 +134,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
-    const auto wide = chain.template swept<Far>();
+    const auto wide = chain.template links_for_sweep<Far>();
     const Span height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(chain.upper_end());
     for (const Bracket<double>& open : joined(first.undecided)) {
@@ -237,7 +237,7 @@ template <class AnyLinks>
 std::optional<ProvedShape> finished_by_tangents(const AnyLinks& chain, const Fine& height,
                                                 const Bracket<Far>& bracket,
                                                 const Bracket<Far>& part) {
-    const auto links = chain.template swept<Far>();
+    const auto links = chain.template links_for_sweep<Far>();
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(chain.upper_end());
     TangentBox<Far> near;
@@ -310,7 +310,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
 template <class Means, class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget,
                        Result& result) {
-    const auto narrow = links.template swept<Far>();
+    const auto narrow = links.template links_for_sweep<Far>();
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
@@ -354,7 +354,7 @@ template <int = 0>
 }
 
 template <class Result>
-void sort(Result& found) {
+void conclude(Result& found) {
     const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
     const auto before = [&](const auto& x, const auto& y) { return order(x) < order(y); };
     std::sort(found.shapes.begin(), found.shapes.end(), before);
@@ -368,7 +368,7 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
     Result result;
     // slightly beyond: an almost horizontal link is at the bound, to rounding
     const double last =
-        1.01 * farthest_tangent(links.template swept<double>(), enclosed<double>(scaled),
+        1.01 * farthest_tangent(links.template links_for_sweep<double>(), enclosed<double>(scaled),
                                 !options.hanging_only, enclosed<double>(links.upper_end()));
     if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back(
@@ -382,7 +382,7 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
     else
         throw_not_thorough("steady_shapes",
                            std::ldexp(as_double(scaled), links.units.length_exponent));
-    sort(result);
+    conclude(result);
     return result;
 }
 

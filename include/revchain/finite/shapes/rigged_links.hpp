@@ -11,7 +11,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
 ///
 /// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
-/// the opposite inclination obeys the same equations: `swept` returns that.
+/// the opposite inclination obeys the same equations: `links_for_sweep` returns that.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
@@ -25,7 +25,7 @@ struct RiggedLinks : Links<Fine> {
     static bool may_all_stand() { return true; }
     bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
     template <class T>
-    EnclosedLinks<T> swept() const;
+    EnclosedLinks<T> links_for_sweep() const;
     std::vector<double> hung() const {
         std::vector<double> weights;
         for (const detail::RigLink& link : given) weights.push_back(as_double(link.hung));
@@ -53,7 +53,7 @@ Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
 }
 
 template <class T>
-EnclosedLinks<T> RiggedLinks::swept() const {
+EnclosedLinks<T> RiggedLinks::links_for_sweep() const {
     EnclosedLinks<T> result = enclosed<T>(links);
     for (std::size_t m = 0; m < result.size(); ++m) {
         result[m].pull = effective_tension<T>(given[m], speed);

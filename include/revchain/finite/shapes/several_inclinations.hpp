@@ -126,8 +126,8 @@ void search_posture(const AnyLinks& chain, const Fine& height, const std::vector
         result.open.push_back({posture[0], 0.0, last});
         return;
     }
-    const auto narrow = chain.template swept<double>();
-    const auto wide = chain.template swept<Far>();
+    const auto narrow = chain.template links_for_sweep<double>();
+    const auto wide = chain.template links_for_sweep<Far>();
     const auto support = chain.upper_end();
     PostureSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
     auto choice = first.first_choice();

@@ -62,12 +62,12 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     }
     RiggedLinks links = rigged_links(rig, height, speed);
     const Fine lambda = ldexp(height, -links.units.length_exponent);
-    const double last = farthest_tangent(links.swept<double>(), enclosed<double>(lambda),
+    const double last = farthest_tangent(links.links_for_sweep<double>(), enclosed<double>(lambda),
                                          !options.hanging_only, enclosed<double>(links.support));
     result = listed<SteadyShapes, Means>(links, lambda, options);
     const bool unbounded =
         !links.support.firm &&
-        left_to_the_spring(links.swept<double>(), enclosed<double>(links.support)).may_vanish();
+        left_to_the_spring(links.links_for_sweep<double>(), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;
         const double beyond = std::atan(last);
@@ -94,7 +94,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     for (const InclinationRange& range : other.undecided)
         result.undecided.push_back({-range.high, -range.low});
     result.cells += other.cells;
-    sort(result);
+    conclude(result);
     return result;
 }
 

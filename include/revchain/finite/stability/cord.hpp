@@ -117,8 +117,8 @@ class DisturbedCord {
         d.offset = -sine_.cwiseQuotient(scale);
         if (shape_.is_held) {
             d.ends << X.row(m).transpose(), Z.row(m).transpose();
-            const Matrix<double> out = beside(Matrix<double>(Y.row(m).transpose()));
-            d.keep(beside(d.ends), out);
+            const Matrix<double> out = complement(Matrix<double>(Y.row(m).transpose()));
+            d.keep(complement(d.ends), out);
             d.offset = (out.transpose() * d.offset).eval();
         }
         return d;

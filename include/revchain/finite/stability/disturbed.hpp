@@ -24,13 +24,13 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// An orthonormal basis of the complement of the columns.
 template <class S>
-Matrix<S> beside(const Matrix<S>& columns) {
+Matrix<S> complement(const Matrix<S>& columns) {
     const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
     return whole.rightCols(columns.rows() - columns.cols());
 }
 
 template <class S>
-Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
+Matrix<S> congruent(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));
 }
 
@@ -145,19 +145,19 @@ struct DisturbedIn {
     /// Restricts q to the columns of Q and b to those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
         for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane})
-            *of = within(*of, Q);
+            *of = congruent(*of, Q);
         for (Matrix<S>* of : {&coupling, &drag_coupling})
             *of = pencil::transposed_product(Q, pencil::product(*of, Y));
         for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across})
-            *of = within(*of, Y);
+            *of = congruent(*of, Y);
     }
 
     /// Keeps the lower end fixed; on a spring it may move across the axis.
     void hold_lower_end(bool yields) {
         const Index count = offset.size();
-        if (yields) return keep(beside(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
-        const Matrix<S> held = beside(Matrix<S>(lower_end));
-        keep(beside(ends), held);
+        if (yields) return keep(complement(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
+        const Matrix<S> held = complement(Matrix<S>(lower_end));
+        keep(complement(ends), held);
         offset = (held.transpose() * offset).eval();
     }
 

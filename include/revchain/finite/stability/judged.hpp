@@ -61,8 +61,8 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     Matrix<S> beside_shape = others;
     if (rotates) {
         const Vector<S> momentum = d.mass * d.offset;
-        others = beside(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
-        beside_shape = beside(Matrix<S>(d.offset));
+        others = complement(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
+        beside_shape = complement(Matrix<S>(d.offset));
         turning = sqrt(S(d.offset.dot(momentum)));
         b = d.coupling * d.offset / turning;
         in_plane += pencil::product<S>(S(4) * b, b.transpose());
@@ -70,8 +70,8 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         in_plane -= d.turned;
     }
     const pencil::GyroscopicPencil<S> forms{d.inertia, pencil::product(d.coupling, others),
-                                            within(d.mass, others), in_plane,
-                                            within(d.out_of_plane, others)};
+                                            congruent(d.mass, others), in_plane,
+                                            congruent(d.out_of_plane, others)};
     const auto found = pencil::gyroscopic_modes(forms);
     if (!found) return std::nullopt;
     const pencil::GyroscopicModes<S>& modes = *found;
@@ -169,7 +169,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         return Matrix<double>(A.template cast<double>());
     };
     const Matrix<double> inside = narrow(in_plane),
-                         across = narrow(within(d.out_of_plane, beside_shape));
+                         across = narrow(congruent(d.out_of_plane, beside_shape));
     const Verdict by_squares = verdict_by(square, error, modes.is_symmetric);
     const EnergySigns signs = energy_signs(inside, across, d.ends.rows());
     result.negative_directions = signs.negative;
@@ -292,8 +292,8 @@ Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     if (!free) {
         in_plane -= d.turned;
     } else if (d.turns_freely) {
-        const Matrix<double> others = beside(Matrix<double>(d.offset));
-        across = within(d.out_of_plane, others);
+        const Matrix<double> others = complement(Matrix<double>(d.offset));
+        across = congruent(d.out_of_plane, others);
     } else {
         across = d.out_of_plane;
     }
