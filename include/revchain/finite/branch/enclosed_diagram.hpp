@@ -25,7 +25,7 @@ class EnclosedDiagram {
         links_ = enclosed<double>(std::vector<Link<Fine>>(
             from.links.begin(), from.links.begin() + static_cast<std::ptrdiff_t>(from.bodies())));
         for (const Fine& spin : from.spin) kept_.spin.push_back(enclosed<double>(spin));
-        kept_.speed = enclosed<double>(from.speed);
+        kept_.pace = enclosed<double>(from.pace);
         radius_ = enclosed<double>(side < 0 ? -from.radius : from.radius);
         if (!from.spring) return;
         firm_ = false;
@@ -88,7 +88,7 @@ class EnclosedDiagram {
     EnclosedLinks<double> links_at(const Interval<double>& height) const {
         EnclosedLinks<double> result = links_;
         if (kept_.spin.empty()) return result;
-        const Interval<double> speed = kept_.speed / sqrt(height);
+        const Interval<double> speed = kept_.pace / sqrt(height);
         for (std::size_t m = 0; m < size(); ++m)
             result[m].pull = result[m].pull + speed * kept_.spin[m];
         return result;
