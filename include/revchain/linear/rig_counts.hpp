@@ -8,14 +8,14 @@
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 
-/// The part of `rig_modes` that finds several roots side by side.
+/// This header has the part of `rig_modes` that finds several roots side by side.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The relative error before rounding up to which a root counts as proved.
+/// The largest relative error before rounding for which a root counts as proved.
 inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double>::epsilon();
 
-/// The heights of a chain under a support that yields, all found together; nothing for other rigs,
-/// for a few of many modes, and where one is not proved. `elements` is the rig's pencil.
+/// Returns the heights of a chain under a support that yields, found together. The result is empty
+/// for other rigs, for a few of many modes, and if a proof fails. `elements` is the rig's pencil.
 REVCHAIN_LAZY
 std::optional<std::vector<FoundRoot>> roots_under_a_spring(
     const Rig& rig, const pencil::ElementPencil<RigWord>& elements, const ModeRange& range,
@@ -44,8 +44,9 @@ std::optional<std::vector<FoundRoot>> roots_under_a_spring(
     return found;
 }
 
-/// The roots of a range of numbers, from 1, eight at a time, to an ulp of the rounded result;
-/// nothing where not proved. K > 0, no mass is negative. `elements` is the pencil of `roots`.
+/// Returns the roots of a range of numbers, from 1, eight at a time, to an ulp of the rounded
+/// result, or nothing if a proof fails. Preconditions: K > 0, masses >= 0. `elements` is the pencil
+/// of `roots`.
 template <bool Spins>
 std::optional<std::vector<FoundRoot>> roots_in_lanes(
     const pencil::ElementPencil<RigWord, Spins>& elements, const CountedRoots& roots,

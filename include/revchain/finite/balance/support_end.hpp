@@ -8,32 +8,33 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The upper end of a chain: its topmost pin is on the axis, as known at compile time.
+/// The upper end of a chain whose topmost pin is on the axis, as known at compile time.
 struct OnAxis {
     static constexpr bool is_symmetric() { return true; }
     static constexpr bool yields() { return false; }
 
-    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
+    /// Returns the distance of the topmost pin from its support. The pin has offset y, and `sum` is
+    /// lambda times the pull there.
     template <class F>
     const F& miss(const F& y, const F&) const {
         return y;
     }
-    /// Puts the topmost pin, the last of `offset`, on its support if the position needs no load.
+    /// Puts the topmost pin, the last of `offset`, on its support if the support is firm.
     template <class S>
     void place(std::vector<S>& offset) const {
         offset.back() = S(0);
     }
 };
 
-/// The upper end of a rig. A spring of stiffness E holds the topmost pin, in a carriage of weight
-/// W, to a point at radius b that turns with the rig; a firm support holds it there:
+/// The upper end of a rig. The topmost pin is in a carriage of weight W. A spring of stiffness E,
+/// or a firm support, holds the carriage to a point at radius b that turns with the rig:
 ///     y = b + (H + W y)/(lambda E),
 /// with H/lambda the pull of the chain. Unless b = 0 there is no straight shape and no symmetry.
 template <class S>
 struct SupportEnd {
     S radius;        ///< b, of any sign; a double
     S compliance;    ///< 1/(lambda E); 0 if firm
-    S stiffness;     ///< lambda E, if it yields
+    S stiffness;     ///< lambda E, if the support yields
     S carriage;      ///< W; a double, 0 if firm
     bool symmetric;  ///< b = 0
     bool firm;
@@ -54,8 +55,8 @@ struct SupportEnd {
 template <class End>
 inline constexpr bool is_support = !std::is_same_v<End, OnAxis>;
 
-/// The sweep of a chain asks these functions for its support, for the posture in which all links
-/// hang, and whether all links may stand (never: nothing would bear the load). See `RiggedLinks`.
+/// The sweep of a chain calls these functions. They return its support, the posture of hanging
+/// links, and whether all links may stand (never: no link would bear the load). See `RiggedLinks`.
 REVCHAIN_LAZY
 OnAxis support_of(const Links<Fine>&) { return {}; }
 REVCHAIN_LAZY

@@ -7,18 +7,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a, H
-/// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
+/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a,
+/// with H the momentum of flywheels. `moment`, `rest` and `cross` are of the moving weights.
 ///
-/// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
-/// the opposite inclination obeys the same equations: `swept_links` returns that.
+/// With a negative pull the tangent decreases as the load grows. A link of length -a and pull
+/// -sigma at the opposite inclination obeys the same equations: `swept_links` returns that link.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
     Fine speed{0.0};  ///< n, signed; 0 without momentum
     SupportEnd<Fine> support{};
     Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
-    double total_weight = 0;  ///< of the chain
+    double total_weight = 0;  ///< total weight of the chain
 
     bool turned(std::size_t m) const { return links[m].pull < Fine(0); }
     /// Converts tangents of swept links to those of given ones, or back.
@@ -29,7 +29,7 @@ struct RiggedLinks : Links<Fine> {
     }
 };
 
-/// sigma + n H/a, which may cancel: enclosed in double-double first.
+/// Returns sigma + n H/a. It may cancel, so it is enclosed in double-double first.
 template <class T>
 Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
     if (link.spin == Fine(0)) return enclosed<T>(link.tension);
@@ -52,7 +52,7 @@ EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
     return result;
 }
 
-/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
+/// Returns 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness for its pin.
 template <class T>
 Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
                                const SupportEnd<Interval<T>>& support) {
@@ -61,10 +61,10 @@ Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
     return Interval<T>(T(1)) - support.compliance * moving;
 }
 
-/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
-/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
-/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
-/// there is no bound: then as if they were 1e-6 apart.
+/// Returns an upper bound for the tangent of the lowest link of a rig in either posture, from
+/// lambda pull t + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda
+/// E))/|1 - W/(lambda E)| from the axis, the others at most the links' reach from it. If lambda E
+/// is W, to rounding, there is no bound. The result is then as if they were 1e-6 apart.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
                    const SupportEnd<Interval<T>>& support) {
@@ -87,8 +87,8 @@ T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, boo
     return far.high;
 }
 
-/// A shape of a rig from the offsets of its pins. Half waves count the support; the energy includes
-/// the spring's and - n H cos of inclinations, the moment of inertia the carriage's.
+/// Returns a shape of a rig from the offsets of its pins. Half waves count the support. The energy
+/// includes the spring's and - n H cos of inclinations, the moment of inertia the carriage's.
 template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>& found) {
     std::vector<double> hung;
@@ -110,8 +110,8 @@ Shape described(const RiggedLinks& rig, const Fine& height, const Balanced<Fine>
     return shape;
 }
 
-/// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,
-/// or the moment of the moving weight of the lowest link, cannot be told from 0.
+/// Returns a rig at a height and a speed in its own units. Throws InvalidArgument if an effective
+/// tension, or the moment of the moving weight of the lowest link, cannot be distinguished from 0.
 REVCHAIN_LAZY
 RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;

@@ -38,7 +38,7 @@ SteadyShape mirror_image(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes, each unique within its error bound, are the same.
+/// Returns true if two shapes, each unique within its error bound, are the same.
 REVCHAIN_LAZY
 bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
@@ -50,7 +50,7 @@ bool same(const SteadyShape& x, const SteadyShape& y) {
     return true;
 }
 
-/// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
+/// Returns all shapes of a rig; off the axis, for both signs of the lowest link's tangent.
 template <class Means>
 SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                            const RigShapesOptions& options, Means means) {
@@ -93,7 +93,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirror_image(std::move(shape));
-        // shapes with a link near the axis are found from both sides: boxes reach beyond tangent 0
+        // shapes with an almost vertical lowest link are found twice: boxes reach beyond tangent 0
         const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
         if (std::none_of(result.shapes.begin(), end,
                          [&](const SteadyShape& known) { return same(known, shape); }))
@@ -106,7 +106,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     return result;
 }
 
-/// Whether the speed is given as a conical height.
+/// Returns true if the speed is given as a conical height.
 template <class Options>
 bool height_is_given(const Options& options) {
     detail::require_one_speed("steady_shapes", options);
