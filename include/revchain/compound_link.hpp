@@ -42,8 +42,8 @@ struct CompoundLink {
             static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation; it and h are
-    /// exchanged for a link hung by its centre of oscillation, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. If a link is
+    /// hung by its centre of oscillation, k^2/h and h are exchanged, §6.
     T square_over_centroid() const {
         return static_cast<T>(detail::squares_over_centroid(*this).value());
     }

@@ -16,12 +16,13 @@ struct SpringOnTop {
     double stiffness, carriage;
 };
 
-/// A chain as lumped pins and springs in double, in `chain.units()`. False unless all links are
-/// plummets, or all have 0 <= h <= a and 0 < (rho/a)^2 < p q (p = h/a, q = 1 - p). Lumped masses
-/// are W p and W q, and X = W (p q - r). Roundings: S one (compensated), p one, q two, k and 1/k
-/// two with plummets, else four; the others: docs/theory/spectrum.md, "Small chains", 1. A support
-/// on a spring is one more link, with the mass of the carriage at its lower pin. With plummets and
-/// no carriage it joins the top thread: 1/k has three roundings, k four.
+/// Computes a chain as lumped pins and springs in double, in `chain.units()`. Returns false unless
+/// all links are plummets, or all have 0 <= h <= a and 0 < (rho/a)^2 < p q (p = h/a, q = 1 - p).
+/// With r = (rho/a)^2, lumped masses are W p and W q, and X = W (p q - r). Roundings: S one
+/// (compensated), p one, q two, k and 1/k two with plummets, else four; the others:
+/// docs/theory/spectrum.md, "Small chains", 1. A support on a spring is one more link, with the
+/// mass of the carriage at its lower pin. With plummets and no carriage it joins the top thread:
+/// 1/k has three roundings, k four.
 REVCHAIN_LAZY
 bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
           const std::optional<SpringOnTop>& top = std::nullopt) {
@@ -36,7 +37,7 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
             chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
 
     CompensatedSum<double> hung;
-    double mass_above = 0;  // of the upper pin of the link below
+    double mass_above = 0;  // mass of the link below at its upper pin
     double trace = 0, greatest = 0;
     double worst_cross = 1, worst_centroid = 0;
     double stiffness_below = 0;
@@ -102,7 +103,7 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     return fit && worst_cross < 0x1p20;
 }
 
-/// A range of the roots in `all`, each to the relative error `worst`; nothing if one is not proved.
+/// Returns a range of the roots in `all`, to the relative error `worst`; nothing if a proof fails.
 REVCHAIN_LAZY
 pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
                                     const ModeRange& range, Index modes,
@@ -124,8 +125,8 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
     return roots;
 }
 
-/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not
-/// serve. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
+/// Does stage 1 of `modes` for small chains, or returns nothing if `pencil::aberth_spectrum`
+/// cannot. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
 /// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
 REVCHAIN_LAZY
 std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain,

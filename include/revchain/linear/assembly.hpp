@@ -11,8 +11,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The small-amplitude pencil of a chain in `Wide<T>`: weights in units of 2^units.weight_exponent
-/// (and of the pencil's own units), heights in units of 2^units.length_exponent.
+/// The small-amplitude pencil of a chain in `Wide<T>`. Weights are in units of
+/// 2^units.weight_exponent (and of the pencil's own units), heights in units of
+/// 2^units.length_exponent.
 template <Real T>
 struct AssembledChain {
     pencil::ElementPencil<Wide<T>> pencil;
@@ -25,7 +26,7 @@ namespace detail {
 template <Real S, class E>
 void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled,
                       const E& shortest) {
-    // S_m is a partial weight and up to a segment; other entries take at most six operations.
+    // S_m is a partial weight plus up to a segment of weights. Others take at most six operations.
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
     pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
@@ -33,10 +34,10 @@ void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& can
     pencil.stiffness_underflow = Limits::min() * Limits::epsilon() * E(4) / shortest;
 }
 
-/// The numbers of a link, or of several side by side; `below` is the weight hung below it.
+/// The numbers of a link, or of several in lanes; `below` is the weight hung below it.
 template <class S>
 struct LinkEntries {
-    S moment, carried;  ///< W h/a, and with what hangs below
+    S moment, carried;  ///< W h/a, without and with the weight below
     S stiffness, lower, upper, cross, turning;
 };
 template <class S, class W>
@@ -52,15 +53,15 @@ template <class S, class W>
             r * weight};
 }
 
-/// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a
-/// time: 15 ns a link, 7 ns for plummets, where one by one takes 150 ns.
+/// Does `assemble` for a chain in one unit whose centroids are not above their pins, several links
+/// at a time. Cost: 15 ns a link, 7 ns for plummets; one link at a time takes 150 ns.
 template <class Where>
 [[gnu::always_inline]] inline void assemble_in_packs(Where, const Chain<double>& chain,
                                                      AssembledChain<double>& result) {
     using V = Pack<double, Where::doubles, lanes_at_once / Where::doubles>;
     using Words = DoubleWord<V>;
     using Numbers = std::array<double, V::size>;
-    // In two steps: a power of two that scales the largest numbers to 1 may itself be subnormal.
+    // Two steps are used: a power of two that scales the largest numbers to 1 may be subnormal.
     struct Scale {
         double first, second;
         explicit Scale(int exponent)
@@ -125,12 +126,12 @@ template <class Where>
 
 }  // namespace detail
 
-/// Elements of a chain, Greenhill (1908) §8 with sec delta = 1. With p = h/a, q = (a - h)/a and r =
-/// rho^2/a^2: stiffness k = (W p + S)/a, and the mass of a rigid body about its two pins, A = W
-/// (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the relative
-/// `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256 links,
-/// more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice, units
-/// are upper pins' weights within 2^(max_exponent/8). Cost O(N).
+/// Returns the elements of a chain, Greenhill (1908) §8 with sec delta = 1. Let p = h/a, q = (a -
+/// h)/a and r = rho^2/a^2. The stiffness is k = (W p + S)/a. The mass of a rigid body about its two
+/// pins is A = W (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the
+/// relative `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256
+/// links, more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice,
+/// units are upper pins' weights within 2^(max_exponent/8). Cost O(N).
 template <Real T>
 AssembledChain<T> assemble(const Chain<T>& chain) {
     using std::abs, std::frexp, std::ldexp;

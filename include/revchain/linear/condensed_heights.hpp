@@ -7,16 +7,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Whether condensing pays: long chains of which few modes are wanted. Otherwise one mode by
-/// bisection costs less than the blocks of all (flat: within 20 % from 150 to 400 links).
+/// Returns true if condensing pays: for few modes of long chains. Otherwise one mode by bisection
+/// costs less than the blocks of all (flat: within 20 % from 150 to 400 links).
 template <Real T>
 bool condensation_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
-/// The height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few per
-/// cent: from uniform rods with the weights of pieces of the chain or, for more modes than those
-/// have, from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
+/// Returns the height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few
+/// per cent. It is that of uniform rods with the weights of pieces of the chain. For more modes
+/// than those rods have it is from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
 template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
@@ -49,8 +49,8 @@ T estimated_height(const Chain<T>& chain, Index number) {
     return per_phase * per_phase / T(9.8696);
 }
 
-/// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), each proved by two
-/// counts to lie within `margin` of what is returned; nothing where a proof fails.
+/// Returns eigenvalues of up to four neighbouring brackets, number `first` on (from 0), or nothing.
+/// Two counts prove each to lie within `margin` of the returned value.
 template <class T>
 std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pencil, Index first,
                                            const std::vector<pencil::Bracket<T>>& brackets,
@@ -59,7 +59,7 @@ std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pen
     using P = DoubleWord<V>;
     V start, number;
     for (std::size_t lane = 0; lane < pack_size; ++lane) {
-        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last fills up
+        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // repeats the last
         start.set(lane, pencil::between(brackets[j].lower, brackets[j].upper));
         number.set(lane, static_cast<T>(first + 1 + static_cast<Index>(j)));
     }
@@ -85,10 +85,11 @@ struct CondensedHeights {
     CondensedChain<T> condensed;
 };
 
-/// Stage 1 of `modes` for a few slow modes of a long chain; nothing where the bound misses the
-/// tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts in T, two
-/// Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound includes what
-/// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: condensing and 20 us a mode.
+/// Does stage 1 of `modes` for a few slow modes of a long chain. The result is empty if the bound
+/// exceeds the tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts
+/// in T, two Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound
+/// includes the error of condensing, 1.8 ulp: docs/theory/blocks.md. Cost: that of condensing, and
+/// 20 us a mode.
 template <std::floating_point T>
 std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain,
                                                            const ModeRange& range,
@@ -126,7 +127,7 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
         for (std::size_t done = begin; done < end && proved; done += pack_size) {
             const std::size_t count = std::min(pack_size, end - done);
             auto found = refined(pencil, first, rough, done, margin);
-            if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
+            if (!found) {  // neighbours may be too close for steps from 1e-3
                 const Index number = first + static_cast<Index>(done);
                 found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)),
                                 0, margin);

@@ -24,7 +24,7 @@ Index ModeCounter<T>::above(const Wide<T>& height, const T& rough) const {
 
 namespace detail {
 
-/// The counter of a chain and its pencils, assembled when first needed. The chain must outlive it.
+/// The counter of a chain and its pencils, assembled at first use. The chain must outlive it.
 template <Real T>
 class LazyCounter {
    public:

@@ -10,7 +10,7 @@
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// Roots of a `RigPencil` that are all real and that one count numbers, one by one.
+/// This header has roots of a `RigPencil` that are all real and that one count numbers, one by one.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
@@ -18,7 +18,8 @@ using RigWord = Wide<double>;
 /// A root x > 0; the error bound is relative to its rounded value.
 using FoundRoot = pencil::Certified<double>;
 
-/// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
+/// Roots x > 0 of Q(side x), 0 the largest: base + sign (number of negative eigenvalues of Q)
+/// exceed x.
 class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign,
@@ -47,8 +48,9 @@ class CountedRoots {
         Index count = 0;
         bool proved = false;
     };
-    /// The number of roots: counted at 0 where M is not singular; else at the least x from 1e-120
-    /// of the length on where rounding leaves no doubt, and proved only there.
+    /// Returns the number of roots. It is counted at 0 if M is not singular. Otherwise it is
+    /// counted at the least x from 1e-120 of the length on without doubt from rounding, and proved
+    /// only at that start.
     Available available() const {
         if (const auto count = certified(RigWord(0.0)); count.proved) return {count.above, true};
         const int start = pencil_.quadratic ? -200 : -400;
@@ -58,7 +60,7 @@ class CountedRoots {
         return {std::max<Index>(0, certified(std::ldexp(1.0, start)).above), false};
     }
 
-    /// Brackets of the roots from number `first` on, by counts in double; see `bisect`.
+    /// Returns brackets of the roots from number `first` on, by counts in double; see `bisect`.
     std::vector<pencil::Bracket<double>> brackets(
         Index first, Index count, double start, const std::function<void(Index)>& finished) const {
         const Counter counter{pencil::rounded<double>(pencil_), base_, sign_,
@@ -66,7 +68,8 @@ class CountedRoots {
         return pencil::bisect(counter, first, count, 2 * epsilon<double>(), start, finished);
     }
 
-    /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
+    /// Returns root number j from its bracket: by a vector in two words, its quotient and two
+    /// counts.
     FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
@@ -83,7 +86,7 @@ class CountedRoots {
             if (pencil::root_within(in_pairs, j, given_out(x), margin))
                 return {static_cast<double>(x), margin, x};
         }
-        // by proved counts alone, as far as they go
+        // The last resort is proved counts alone.
         const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
         constexpr double unproved = std::numeric_limits<double>::infinity();
         x = found ? found->middle() : guess;
@@ -92,7 +95,7 @@ class CountedRoots {
 
     pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
 
-    /// The y with Q y = 0 at a root.
+    /// Returns the vector y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
         return pencil::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
     }
@@ -106,7 +109,7 @@ class CountedRoots {
         return result;
     }
 
-    /// The x of the rounded result: of a speed where there is momentum, else of a height.
+    /// Returns x after rounding of the result: of a speed if there is momentum, else of a height.
     RigWord given_out(const RigWord& x) const {
         return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x))
                                  : RigWord(static_cast<double>(x));
@@ -118,13 +121,13 @@ class CountedRoots {
     int side_;
 };
 
-/// The least root that is searched for; the largest is its reciprocal.
+/// Returns the least root that is searched for; the largest is its reciprocal.
 REVCHAIN_LAZY
 RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// The number of roots above x, by the proved counts `count(x)`. A root within 2^20 roundings of x
-/// counts as equal to it; x is limited to `least_root` and its reciprocal. Throws InvalidArgument
-/// where the number is not proved; `place` and `value` are for the message.
+/// Returns the number of roots above x, by the proved counts `count(x)`. A root within 2^20
+/// roundings of x counts as equal to it; x is limited to `least_root` and its reciprocal. Throws
+/// InvalidArgument if the number is not proved; `place` and `value` are for the message.
 template <class Count>
 Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value,
                    const Count& count) {
@@ -146,7 +149,7 @@ struct CountedSense {
     CountedRoots roots;
     CountedRoots::Available available;
 
-    /// `count`: the proved number of roots, or nothing where it has to be counted.
+    /// `count` is the proved number of roots, or nothing if it must be counted.
     CountedSense(CountedRoots counted, std::optional<Index> count)
         : roots(std::move(counted)),
           available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
@@ -159,9 +162,10 @@ struct CountedSense {
     }
 };
 
-/// Heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above h are
-/// negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are these and those
-/// of K. Just above h = 0 hK - M is negative where there is inertia, else it has the signs of K.
+/// Returns the heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above
+/// h are negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are those
+/// heights and the negative eigenvalues of K. Just above h = 0, hK - M is negative on motions with
+/// inertia, and has the signs of K on the others.
 REVCHAIN_LAZY
 CountedSense counted_heights(const RigPencil& rig) {
     const Index before = rig.stiffness_positive ? 0 : rig.not_positive;
@@ -172,7 +176,7 @@ CountedSense counted_heights(const RigPencil& rig) {
     return {CountedRoots(rig.pencil, rig.pace, -before, 1, 1), count};
 }
 
-/// The roots from number `first` on; `bracketed` and `finished` receive the number done.
+/// Returns roots from number `first` on. `bracketed` and `finished` receive the number done.
 REVCHAIN_LAZY
 std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count,
                                      double guess, const std::function<void(Index)>& bracketed,

@@ -12,13 +12,13 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using pencil::Driving;
 
-/// A chain, or a rig, as the elements from its free end to the moved end.
+/// A chain or rig as the elements from its free end to the moved end.
 struct DrivenChain {
-    pencil::SignedPencil<Wide<double>> pencil;  ///< L is height k + spin s, of the drives
+    pencil::SignedPencil<Wide<double>> pencil;  ///< the stiffness L is height k + spin s of a drive
     ChainUnits units;
-    bool turning = false;  ///< whether a stiffness depends on the speed
-    Index standing = 0;    ///< elements that stand: their negative pivots are no modes
-    Index idle = 0;        ///< lowest links left out: without weight, spin and inertia
+    bool turning = false;  ///< true if a stiffness depends on the speed
+    Index standing = 0;    ///< number of standing elements: their negative pivots are no modes
+    Index idle = 0;        ///< number of omitted lowest links: without weight, spin and inertia
     double end = 1;        ///< 1 if the moved end is a pin, 0 if it is the far end of a spring
 };
 
@@ -63,9 +63,9 @@ DrivenChain driven_chain(const Rig& rig) {
     return result;
 }
 
-/// `driven_lanes` for any number of drives, with sharper bounds where its own is not negligible.
+/// Does `driven_lanes` for any number of drives, with sharper bounds if its own are not negligible.
 /// Calls `put(row, which, offset)` and then `take(row, found)` for each drive, on several threads.
-/// `can_turn`: whether links may have spin, as in rigs; without, half as much is compiled.
+/// `can_turn` says if links may have spin, as in rigs; without spin half as much is compiled.
 template <bool can_turn, class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at,
                      const pencil::DrivenPins& pins, const Put& put, const Take& take,

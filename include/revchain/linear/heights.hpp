@@ -15,7 +15,7 @@
 #include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound.
+/// This header has stage 1 of `modes`: heights of a range of modes, each with its proved bound.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// A height in the units of the chain's pencils, with a proved relative bound.
@@ -26,20 +26,20 @@ using Height = pencil::Certified<T>;
 template <Real T>
 using Heights = std::vector<Height<T>>;
 
-/// Accuracy and progress of the first stage; the range of modes is passed beside them.
+/// Accuracy and progress of the first stage. The range of modes is a separate argument.
 template <Real T>
 struct HeightsOptions {
-    std::optional<T> rtol{};  ///< absent: as accurate as T allows
+    std::optional<T> rtol{};  ///< if absent: as accurate as T allows
     Progress* progress = nullptr;
 };
 
-/// Whether T suffices: counts in T are proved down to about an ulp for each link.
+/// Returns true if T suffices: counts in T are proved down to about an ulp for each link.
 template <Real T>
 bool is_loose(const Chain<T>& chain, const HeightsOptions<T>& options) {
     return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
 }
 
-/// Exchanges heights in the wrong order (closer than their bounds); both get the larger bound.
+/// Exchanges heights in the wrong order (closer than their bounds). Both get the larger bound.
 template <Real T>
 void restore_order(Heights<T>& heights) {
     for (std::size_t j = 1; j < heights.size(); ++j)
@@ -50,9 +50,10 @@ void restore_order(Heights<T>& heights) {
         }
 }
 
-/// Heights number `range` to within `goal` (relative) by bisection on the plain pencil, each proved
-/// by two counts. Nothing without such a pencil, or where one is in doubt: for a `goal` below about
-/// 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24 ns a proof.
+/// Returns heights number `range` to within `goal` (relative) by bisection on the plain pencil,
+/// each proved by two counts. The result is empty without such a pencil or if a proof fails, for a
+/// `goal` below about 8 ulp for each link. Cost a link: 5 ns, 7 ns for three bits and 8 modes, 24
+/// ns a proof.
 REVCHAIN_LAZY
 std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range,
                                              double goal,
@@ -78,9 +79,9 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     return result;
 }
 
-/// The largest number of elements whose modes are found eight at a time: 450 bytes of scratch each.
+/// The largest number of elements for finding modes eight at a time: 450 bytes of scratch each.
 inline constexpr Index most_in_lanes = 20000;
-/// The relative error before rounding up to which a rounded height is within 2 ulp.
+/// The largest relative error before rounding for which a rounded height is within 2 ulp.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
 /// Roots of a range of numbers, eight at a time, of a chain's or a rig's pencil in two words and
@@ -133,7 +134,7 @@ std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils,
     return heights;
 }
 
-/// Stage 1 of `modes` for every valid chain, to `options.rtol`; `range` is not empty.
+/// Does stage 1 of `modes` for every valid chain, to `options.rtol`. `range` must not be empty.
 template <Real T>
 Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled,
                                 const ModeRange& range, const HeightsOptions<T>& options) {

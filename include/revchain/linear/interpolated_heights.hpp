@@ -10,7 +10,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Heights of many modes; nothing where this cannot be done. Cost: as `pencil::all_eigenvalues`.
+/// Returns heights of many modes, or nothing on failure. Cost: as `pencil::all_eigenvalues`.
 REVCHAIN_LAZY
 std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled,
                                                         const ModeRange& range, Index mode_count,

@@ -20,13 +20,13 @@ struct ModeShapes {
     std::vector<Vector<T>> nodes;  ///< k lists, or none
 };
 
-/// Shapes, residuals and nodes, computed when first asked for; copies and threads share them.
+/// Shapes, residuals and nodes, computed at first use. Copies and threads share them.
 template <Real T>
 class LazyModeShapes {
    public:
     LazyModeShapes() = default;
     /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has
-    /// index `first` in the result. Without `details` it may leave residuals and nodes out.
+    /// index `first` in the result. Without `details` it may omit residuals and nodes.
     using Find =
         std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
     explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) {
@@ -56,7 +56,7 @@ class LazyModeShapes {
     ModeShapes<T> some(Index first, Index count, bool details, Progress* progress) const {
         return state().find(first, count, details, progress);
     }
-    /// An owner of what was returned by reference.
+    /// Returns an owner of everything that was returned by reference.
     std::shared_ptr<const void> owner() const { return state_; }
 
    private:
@@ -76,8 +76,7 @@ class LazyModeShapes {
         if (!(details ? state.has_details : state.has_offsets)) {
             ModeShapes<T> found = state.find(0, count, details, progress);
             state.has_details = details || found.residual.size() == count;
-            // Offsets that are known may be in use.
-            // Offsets that are there already may be read by another thread.
+            // Known offsets are not replaced, because another thread may read them.
             if (!state.has_offsets) state.known.offset = std::move(found.offset);
             state.known.residual = std::move(found.residual),
             state.known.nodes = std::move(found.nodes);
@@ -92,7 +91,7 @@ class LazyModeShapes {
     std::shared_ptr<State> state_;
 };
 
-/// Reaches the shapes behind the accessors of a result.
+/// Gives access to the shapes behind the accessors of a result.
 struct ShapesBehind {
     template <class Result>
     static auto& of(Result& result) {

@@ -12,10 +12,10 @@
 #include "revchain/numeric/large_memory.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 
-/// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
+/// This header has stage 2 of `modes`: shapes, residuals and nodes of modes of known heights.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Distances of the lower pins of links from the free end, along the chain.
+/// Returns distances of the lower pins of links from the free end, along the chain.
 template <Real T>
 std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
     std::vector<Wide<T>> places;
@@ -26,7 +26,7 @@ std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
     return places;
 }
 
-/// Distances of the crossings from the free end, along the chain; `places` are its `pin_places`.
+/// Returns distances of crossings from the free end along the chain; `places` is its `pin_places`.
 template <Real T>
 Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
                 const std::vector<pencil::Crossing<T>>& crossings) {
@@ -48,7 +48,7 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, if there is room, its nodes and residual; `height` scaled.
+/// Stores the shape of mode `j` and, if there is room, nodes and residual. `height` is scaled.
 template <Real T, Real S>
 void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
                const pencil::ElementPencil<S>& pencil, const T& height,
@@ -59,10 +59,10 @@ void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
     shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, pin_places(chain), vector.crossings);
 }
 
-/// Shapes of the modes of `shapes`, `pencil::shape_lanes` at a time, and residuals if there is
-/// room. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a
-/// mode's root, `alone(j)` finds a shape that lanes cannot, and `take(j, found, lane)` receives the
-/// others.
+/// Finds shapes of the modes of `shapes`, `pencil::shape_lanes` at a time, and residuals if there
+/// is room. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a
+/// mode's root. `alone(j)` finds a shape that lanes cannot find. `take(j, found, lane)` receives
+/// the others.
 template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
 void shapes_by_lanes(ModeShapes<T>& shapes,
                      const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
@@ -87,7 +87,7 @@ void shapes_by_lanes(ModeShapes<T>& shapes,
             } else {
                 alone(j);
             }
-            advance(progress, 1.0);  // may be cancelled
+            advance(progress, 1.0);  // may throw Cancelled
         }
     };
     pencil::for_lanes<T>(count, pencil.elements.size(), find);
@@ -103,7 +103,7 @@ class ShapeFinder {
                 std::shared_ptr<const Pencils<T>> pencils = nullptr)
         : chain_(chain), height_(std::move(height)), loose_(loose), pencils_(std::move(pencils)) {}
 
-    /// The shapes of `count` modes from index `from` on; residuals and nodes if asked.
+    /// Returns shapes of `count` modes from index `from` on, with residuals and nodes if `details`.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
         if (count == 0) return room_for_shapes(chain_, 0);
         const Heights<T> height = heights(from, count);
@@ -118,7 +118,7 @@ class ShapeFinder {
         parallel_for(count, 1, [&](Index start, Index end) {
             for (Index j = start; j < end; ++j) {
                 alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
-                advance(progress, 1.0);  // may be cancelled
+                advance(progress, 1.0);  // may throw Cancelled
             }
         });
         return shapes;

@@ -39,7 +39,7 @@ class ModesOfOneSense {
         double error_bound;     ///< relative
         RigWord root;
     };
-    /// `many` modes from number `first` on, from 1 for the slowest.
+    /// Returns `many` modes from number `first` on, from 1 for the slowest.
     std::vector<Mode> found(Index first, Index many) const {
         const RigPencil& rig = roots_.rig();
         const bool quadratic = rig.pencil.quadratic;
@@ -61,7 +61,7 @@ class ModesOfOneSense {
         }
         return modes;
     }
-    /// Offsets of the pins of a mode, free end first.
+    /// Returns offsets of the pins of a mode, free end first.
     Vector<double> shape(const Mode& mode) const {
         const RigPencil& rig = roots_.rig();
         auto pencil = forward_ ? rig.pencil : rig.pencil.reversed();

@@ -3,11 +3,11 @@
 
 #include "revchain/linear/heights.hpp"
 
-/// One mode of a chain by counts alone. It compiles in a third of the time of `modes`, which has
-/// every method, and costs the same for a chain of a few hundred links.
+/// This header computes one mode of a chain by counts alone. It compiles in a third of the time of
+/// `modes`, which has every method, and costs the same for a chain of a few hundred links.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
+/// Returns the eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
 template <Real T>
 pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide,
                                   const Wide<T>& height) {
@@ -18,14 +18,14 @@ pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide,
     return rounded;
 }
 
-/// Conical height and offsets of the pins, as `modes` gives them.
+/// Conical height and offsets of the pins, as `modes` returns them.
 template <Real T>
 struct OneMode {
     T conical_height;
-    Vector<T> shape;  ///< (N + 1), free end first; empty unless asked for
+    Vector<T> shape;  ///< (N + 1), free end first; empty unless requested
 };
 
-/// Mode number `mode` of the chain. Precondition: 1 <= mode <= chain.mode_count().
+/// Returns mode number `mode` of the chain. Precondition: 1 <= mode <= chain.mode_count().
 template <Real T>
 OneMode<T> one_mode(const Chain<T>& chain, Index mode, bool with_shape = true) {
     using std::ldexp;

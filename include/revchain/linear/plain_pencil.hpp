@@ -8,9 +8,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// `assemble` in double alone, for loose tolerances, at a twentieth of its cost: 5 ns a link. Every
-/// entry is within `entry_error`, 3e-14 (less for fewer than 256 links), of exact functions of the
-/// data. Nothing if weights need several units, a centroid is above its pin, or units are extreme.
+/// Does `assemble` in double alone, for loose tolerances, at a twentieth of its cost: 5 ns a link.
+/// Every entry is within `entry_error`, 3e-14 (less for fewer than 256 links), of exact functions
+/// of the data. The result is empty if weights need several units, a centroid is above its pin, or
+/// units are extreme.
 template <std::same_as<double> T>
 std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     const ChainUnits units = chain.units();
@@ -36,7 +37,7 @@ std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
         below += weight;
         shortest = std::min(shortest, length);
     }
-    // Sums of up to a segment of weights, and at most eight operations: quotients, products, sums.
+    // Entries have sums of up to a segment of weights, and at most eight other operations.
     const Index sums = std::min(chain.size(), detail::segment_size);
     pencil.entry_error = epsilon<T>() / T(2) * T(1.01) * T(sums + 10);
     pencil.stiffness_underflow = std::numeric_limits<T>::min() * epsilon<T>() * T(4) / shortest;

@@ -13,18 +13,18 @@ struct MasslessForm {
     Index size = 0;       ///< independent motions: M has at least this many zero eigenvalues
     Index negative = 0;   ///< negative eigenvalues of the form
     Index zero = 0;       ///< zero eigenvalues of the form
-    bool certain = true;  ///< whether rounding leaves no doubt of any sign
+    bool certain = true;  ///< true if every sign is certain
 };
 
-/// The small-amplitude theory of a rig as elements: for each link stiffness sign (tension + n
-/// spin)/length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
-/// that yields: a massless spring, the carriage at its lower pin. Weights in units of
-/// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
-/// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
-/// if it is firm, the lowest link.
+/// The small-amplitude theory of a rig as elements. Each link has the stiffness sign
+/// (tension + n spin)/length, with sign -1 if it stands, and the mass [lower cross; cross upper].
+/// On top is a support that yields: a massless spring, with the carriage at its lower pin. Weights
+/// are in units of 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight,
+/// inertia or momentum are omitted. If the lower end is held, too, the ground of the pencil is its
+/// spring or, if it is firm, the lowest link.
 ///
-/// Steady motion is Q y = 0: without momentum Q = lambda K - M and x = lambda; with momentum Q =
-/// x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+/// Steady motion is Q y = 0. Without momentum Q = lambda K - M and x = lambda. With momentum
+/// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;
@@ -36,7 +36,7 @@ struct RigPencil {
     Index neutral = 0;        ///< of these, elements whose stiffness is certainly 0
     bool mass_not_negative;   ///< every mass is certainly positive or 0: M >= 0
     MasslessForm massless;    ///< K, or with momentum G, on the motions without inertia
-    Index idle = 0;           ///< lowest pins left out: of links left out, or a firm end
+    Index idle = 0;           ///< omitted lowest pins: of omitted links, or a firm end
 };
 
 namespace detail {
@@ -62,8 +62,9 @@ HeldPins held_by(const Rig& rig, Index m) {
     return h == 0 ? HeldPins::upper : h == link.length ? HeldPins::lower : HeldPins::one;
 }
 
-/// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
-/// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
+/// Returns signs of the sum of c (y_m - y_{m+1})^2 on the motions without inertia, eliminated by
+/// intervals. c is an element's stiffness or, in a quadratic family, its spin. `free`: the lowest
+/// pin moves.
 REVCHAIN_LAZY
 MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
                            const std::vector<HeldPins>& held, bool free) {
@@ -86,8 +87,8 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
         else
             form.certain = form.certain && pivot.positive();
     };
-    I below;  // the form of all pins passed, carried to this one
-    // Nearly always every pin has inertia, and there is no such motion.
+    I below;  // the form of all lower pins, carried to this one
+    // In most cases every pin has inertia, and there is no such motion.
     bool at_liberty = free, plain = true;
     for (const HeldPins each : held) {
         const bool unheld = each == HeldPins::nothing || each == HeldPins::upper;
@@ -105,7 +106,7 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
             below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
             continue;
         }
-        I carried = c;  // to the upper pin, where the lower one does not move
+        I carried = c;  // to the upper pin, if the lower one does not move
         if (free && (held[m] == HeldPins::nothing || held[m] == HeldPins::upper)) {
             const I pivot = sum(below, c);
             eliminate(pivot);
@@ -118,7 +119,7 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
     return form;
 }
 
-/// Whether a mass with these errors is certainly positive or 0.
+/// Returns true if a mass with these errors is certainly positive or 0.
 REVCHAIN_LAZY
 bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
@@ -136,7 +137,7 @@ bool is_not_negative(const RigElement& e) {
 
 }  // namespace detail
 
-/// The elements of a rig's links, lowest first, with the signs of those that stand.
+/// Returns the elements of a rig's links, lowest first, with the signs of those that stand.
 REVCHAIN_LAZY
 std::vector<RigElement> rig_elements(const Rig& rig) {
     std::vector<RigElement> elements;
@@ -152,7 +153,7 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
             elements.push_back(rig_element(links[static_cast<std::size_t>(m)], rig.stands(m)));
         return elements;
     }
-    // Links are as in a chain, but for momentum.
+    // Links are as in a chain, except for momentum.
     using S = Wide<double>;
     const AssembledChain<double> assembled = assemble(rig.chain());
     for (const auto& e : assembled.pencil.elements)
@@ -168,8 +169,8 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
     return elements;
 }
 
-/// The pencil of a rig, or with `lower_end` of one whose lower end is held too: then no link
-/// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
+/// Returns the pencil of a rig, or with `lower_end` of one whose lower end is held, too: then no
+/// link stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
 /// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
 /// range.
 REVCHAIN_LAZY

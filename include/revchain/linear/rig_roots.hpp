@@ -11,7 +11,7 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/spectrum.hpp"
 
-/// The roots of a rig's pencil in each sense of rotation, by number.
+/// This header has the roots of a rig's pencil in each sense of rotation, by number.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 /// The relative error before rounding up to which a root counts as proved.
@@ -76,8 +76,9 @@ std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     return CountedSense(CountedRoots(rig.pencil, rig.pace, falling - size, 1, -1), count);
 }
 
-/// Speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form Q is
-/// negative where there is inertia; elsewhere it has the signs of G and, where G is 0, is positive.
+/// Returns speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form
+/// Q is negative where there is inertia; elsewhere it has the signs of G, and is positive where G
+/// is 0.
 REVCHAIN_LAZY
 CountedSense counted_speeds(const RigPencil& rig, bool forward) {
     const MasslessForm& form = rig.massless;
@@ -93,7 +94,7 @@ inline constexpr Index most_isolated = 20'000;
 class RigRoots {
    public:
     /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements
-    /// whose roots have to be isolated. `advance(share)` as in `complex_spectrum`.
+    /// whose roots must be isolated. `advance(share)` is as in `complex_spectrum`.
     RigRoots(std::string_view place, const Rig& rig, double gravity,
              const std::function<void(double)>& advance)
         : rig_(rig_pencil(rig, gravity)), gravity_(gravity) {
@@ -112,18 +113,19 @@ class RigRoots {
                           "fluid that turns with them) is solved for at most " +
                               std::to_string(most_isolated) + " links and supports that yield",
                           rig_.pencil.size());
-        // A massless coordinate has a root x = 0, and two where no momentum acts on it.
+        // A massless coordinate has one root x = 0, and two if no momentum acts on it.
         const Index zeros = rig_.massless.size + (quadratic ? rig_.massless.zero : 0);
         spectrum_ = pencil::complex_spectrum(rig_.pencil, zeros, advance);
     }
 
     const RigPencil& rig() const { return rig_; }
     bool has_momentum() const { return rig_.pencil.quadratic; }
-    /// Counted senses, with momentum backward second; empty where roots are isolated or none exist.
+    /// Returns counted senses, backward second (with momentum); none if roots are isolated or
+    /// absent.
     const std::vector<CountedSense>& senses() const { return senses_; }
     const std::optional<pencil::ComplexSpectrum>& spectrum() const { return spectrum_; }
 
-    /// x of a conical height, or of a speed; the sign of a speed tells the sense.
+    /// These return x of a conical height, or of a speed. The sign of a speed only gives the sense.
     RigWord at_height(double height) const {
         const RigWord scaled(std::ldexp(height, -rig_.units.length_exponent));
         return has_momentum() ? sqrt(scaled) : scaled;
@@ -134,12 +136,12 @@ class RigRoots {
         return RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
     }
 
-    /// The number of modes of a sense with a larger x, where `proved`.
+    /// Returns the number of modes of a sense with a larger x, if `proved`.
     pencil::CertifiedCount count(const RigWord& x, bool forward) const {
         return spectrum_ ? isolated(x, forward) : senses_[forward ? 0 : 1].roots.certified(x);
     }
 
-    /// The number of modes of a sense with a larger x, see `number_above`.
+    /// Returns the number of modes of a sense with a larger x, see `number_above`.
     Index above(const RigWord& x, bool forward, std::string_view place, double value) const {
         if (rig_.pencil.size() == 0) return 0;
         if (!spectrum_) return senses_[forward ? 0 : 1].above(x, place, value);
@@ -148,7 +150,7 @@ class RigRoots {
     }
 
    private:
-    /// Counts discs beyond x, and that of x if det Q changes sign between x and its end.
+    /// Counts discs beyond x, and the disc around x if det Q changes sign between x and its end.
     pencil::CertifiedCount isolated(const RigWord& x, bool forward) const {
         pencil::CertifiedCount result{0, spectrum_->proved};
         if (!result.proved) return result;

@@ -5,7 +5,8 @@
 #include "revchain/models/model.hpp"
 #include "revchain/numeric/compiled.hpp"
 
-/// Bisection on counts as a model, the last of every list, and what the numerical models share.
+/// Bisection on counts as a model, the last of every list, and functions that numerical models
+/// share.
 namespace revchain::inline REVCHAIN_BUILD::models {
 
 namespace detail {
@@ -18,7 +19,8 @@ revchain::detail::HeightsOptions<double> options_for(const Question& question) {
 REVCHAIN_LAZY
 ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
-/// The heights that a method found, as an answer. Where it found none, no other method does the work.
+/// Returns the heights that a method found as an answer. If it found none, the answer is
+/// `Answer::none()`; no other method is tried here.
 REVCHAIN_LAZY
 Answer answered(const Chain<double>& chain,
                 const std::optional<revchain::detail::Heights<double>>& found) {
@@ -53,8 +55,9 @@ class Assembled {
 REVCHAIN_LAZY
 double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
-/// Seconds of bisection without double words: passes over all links for each digit, of `pass` seconds a link, and one
-/// proof for each mode. To begin a pass costs as much as six links.
+/// Predicts the seconds of bisection without double words. It makes passes over all links for each
+/// digit, at `pass` seconds a link, and one proof for each mode. Starting a pass costs as much as
+/// six links.
 REVCHAIN_LAZY
 double loose_cost(double links, double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
@@ -64,8 +67,9 @@ double loose_cost(double links, double rtol, Index count, double pass) {
 }
 }  // namespace detail
 
-/// Counts until every mode has an interval of its own. Then, where the tolerance makes that cheaper, more counts; else
-/// Rayleigh quotients of eight shapes at a time, to 2 ulp. Any chain, any modes.
+/// Bisection by counts, for any chain and any modes. Counts give every mode an interval of its own.
+/// Then more counts follow if the tolerance makes that cheaper, else Rayleigh quotients of eight
+/// shapes at a time, to 2 ulp.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
     static constexpr bool is_proved = true;
@@ -100,7 +104,8 @@ struct Bisection {
 
    private:
     static constexpr Index most_in_lanes = revchain::detail::most_in_lanes;
-    /// Whether counts in double prove the tolerance, of nearly all chains, and cost less than full accuracy does.
+    /// Returns true if counts in double prove the tolerance for nearly all chains and cost less
+    /// than full accuracy.
     static bool counts_pay(const ChainKind& kind, const Question& question) {
         return question.rtol >
                    4096 * std::numeric_limits<double>::epsilon() * detail::real(kind.size) &&

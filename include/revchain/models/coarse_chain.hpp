@@ -14,11 +14,12 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 using revchain::detail::zero_of_j0;
 
-/// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
-/// would without inertia. That lowers every conical height, and by no more than the largest height that a group has
-/// between held pins (pencil/grouped.hpp). All heights are proved to lie between the coarse ones and the coarse ones
-/// plus that height. Groups are as long as the tolerance permits: short at the free end, long above. Heights of the
-/// coarse chain are found by bisection and proved by two counts. Cost: 17 ns a link, and the coarse chain.
+/// Merges groups of neighbouring links. Each group becomes one equivalent link that hangs between
+/// its two pins as the links would without inertia. This lowers every conical height, by at most
+/// the largest height that a group has between held pins (pencil/grouped.hpp). All heights are
+/// proved to lie between the coarse ones and the coarse ones plus that largest height. Groups are
+/// as long as the tolerance permits: short at the free end, long above. Heights of the coarse chain
+/// are found by bisection and proved by two counts. Cost: 17 ns a link, and the coarse chain.
 struct CoarseChain {
     static constexpr std::string_view name = "coarse chain";
 
@@ -31,7 +32,7 @@ struct CoarseChain {
             return Fit::no("as many groups as links, for that tolerance");
         return {};
     }
-    /// The tolerance asked for, which unlike links may need groups of one link to meet.
+    /// Returns the requested tolerance. Unequal links may need groups of one link to meet it.
     double error_bound(const ChainKind&, const Question& question) const {
         return detail::goal(question);
     }
@@ -77,8 +78,8 @@ struct CoarseChain {
     }
 
    private:
-    /// Estimate of the least height asked for, from the phase of a wave from end to end. Under a heavy tip the first
-    /// mode has no wave.
+    /// Returns an estimate of the least requested height, from the phase of a wave from end to end.
+    /// With a heavy tip the first mode has no wave.
     static double last_height(const ChainKind& kind, const Question& question) {
         const Index last = question.last();
         const bool heavy_tip = kind.tip_share > 0.5;
@@ -89,8 +90,8 @@ struct CoarseChain {
             (heavy_tip && last > 1 ? std::numbers::pi * detail::real(last - 1) : zero_of_j0(last));
         return last == 1 ? std::max(kind.tilt, wave * wave) : wave * wave;
     }
-    /// Estimate of the number of groups. A group of phase x has a height of x^2/6 between held ends at most, which may
-    /// be 1.2 rtol of the least height.
+    /// Returns an estimate of the number of groups. A group of phase x has a height of at most
+    /// x^2/6 between held ends. That height may be 1.2 rtol of the least height.
     static double groups(const ChainKind& kind, const Question& question) {
         const double spread =
             1.2 * std::max(detail::goal(question), 1e-30) * last_height(kind, question);

@@ -12,10 +12,11 @@ namespace revchain::inline REVCHAIN_BUILD::models {
 
 using revchain::detail::zero_of_j0;
 
-/// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). The error bound follows
-/// from the limit of N links, with J = J_1(j). For plummets it is (1/2)/N and the terms of order 1/N^2. For rods
-/// (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, is subtracted, and a bound of order log N/N^4 remains
-/// (straight_links.hpp). Measured: tests/cpp/models/models.cpp, tapered.cpp. Cost: 5 ns a mode, 30 for rods.
+/// Heights in the limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4
+/// (9), (10). The error bound follows from the limit of N links, with J = J_1(j). For plummets it
+/// is (1/2)/N and the terms of order 1/N^2. For rods (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4,
+/// is subtracted, and a bound of order log N/N^4 remains (straight_links.hpp). Measured:
+/// tests/cpp/models/models.cpp, tapered.cpp. Cost: 5 ns a mode, 30 ns for rods.
 struct ContinuousChain {
     static constexpr std::string_view name = "continuous chain";
 

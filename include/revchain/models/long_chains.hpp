@@ -7,8 +7,8 @@
 /// The method for a few of the slowest modes of a long chain, as a model. Its bounds are proved.
 namespace revchain::inline REVCHAIN_BUILD::models {
 
-/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that weigh next
-/// to nothing beside what hangs below them join one by one.
+/// Condenses the chain to blocks first, for some of the slowest modes of a long chain, to 2 ulp.
+/// Links that weigh almost nothing beside the weight below them are added one by one.
 struct Condensed {
     static constexpr std::string_view name = "condensed";
     static constexpr bool is_proved = true;
@@ -22,8 +22,8 @@ struct Condensed {
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count),
                      skipped = detail::real(question.first - 1);
-        // Long pendulums are not condensed. Light links above leave little to condense. Light links below, and modes of
-        // high number, have short waves, so there are many blocks.
+        // Long pendulums are not condensed. Light links above leave little to condense. Light links
+        // below and modes of high number have short waves, which need many blocks.
         const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
         return 3e-5 + 1.7e-9 * detail::real(kind.size) +
                detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums +

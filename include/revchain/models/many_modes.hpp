@@ -8,9 +8,10 @@
 /// The methods for many modes at once, as models. Their bounds are proved.
 namespace revchain::inline REVCHAIN_BUILD::models {
 
-/// All modes of a small chain at once in SIMD lanes, for plummets and for links whose pendulum length is less than
-/// their length. Other chains, and those for which 1e-14 or the tolerance cannot be proved, are refused at once. The
-/// predicted bound holds for most chains; with looser tolerances, up to 3e-11 was proved for links far apart.
+/// All modes of a small chain at once in SIMD lanes, for plummets and for links whose pendulum
+/// length is less than their length. Other chains, and those for which 1e-14 or the tolerance
+/// cannot be proved, are refused at once. The predicted bound holds for most chains; with looser
+/// tolerances, up to 3e-11 was proved for links far apart.
 struct Aberth {
     static constexpr std::string_view name = "aberth";
     static constexpr bool is_proved = true;
@@ -21,8 +22,9 @@ struct Aberth {
         if (!kind.short_pendulums)
             return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        // Limits measured with one heavy tip and with weights graded from the tip up, where numbers leave the range of
-        // double. For chains of few links, trying costs less time than predicting that.
+        // Limits measured with one heavy tip and with weights graded from the tip up, where numbers
+        // leave the range of double. For chains of few links, trying costs less time than
+        // predicting that.
         if (kind.equal || kind.size < ChainKind::least_sampled) return {};
         const double n = detail::real(kind.size);
         const bool far_apart = kind.point_masses ? kind.range > 19.5 || n * kind.range > 790
@@ -48,8 +50,8 @@ struct Aberth {
     }
 };
 
-/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. As for `Aberth`, the predicted
-/// bound holds for most chains.
+/// Interpolates the characteristic polynomial, for many modes, to the last digit or 1e-14. As for
+/// `Aberth`, the predicted bound holds for most chains.
 struct Interpolated {
     static constexpr std::string_view name = "interpolated";
     static constexpr bool is_proved = true;

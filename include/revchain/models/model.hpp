@@ -29,13 +29,14 @@ namespace models {
 
 using revchain::detail::segment_size;
 
-/// The modes whose conical heights are wanted, and the relative tolerance of each height; 0: full accuracy.
+/// The modes whose conical heights are requested, and the relative tolerance of each height; 0
+/// means full accuracy.
 struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
     Index count = 1;
     double rtol = 0;
     double inclination =
-        0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
+        0;  ///< rad, below pi/2: of the lowest link of the shape that grows out of the mode
     Progress* progress = nullptr;
     bool proved = false;  ///< whether only models whose bounds are proved by counts may answer
     /// The pencils of the chain, assembled when first needed; null if each model assembles its own.
@@ -50,8 +51,9 @@ struct Answer {
     Vector<double> error_bound;
     bool found = true;  ///< false where the model turned out to have no answer
     Vector<double>
-        conical_height_low{};  ///< exact heights minus `conical_height`; empty where they are not known
-    /// The heights before they were rounded, in units of 2^length_exponent of the chain: for shapes; may be empty.
+        conical_height_low{};  ///< exact heights minus `conical_height`; empty if not known
+    /// The heights before they were rounded, in units of 2^length_exponent of the chain: for
+    /// shapes; may be empty.
     std::vector<Wide<double>> unrounded{};
 
     static Answer none() { return {{}, {}, false}; }
@@ -61,8 +63,8 @@ struct Answer {
     }
 };
 
-/// The properties of a chain from which a model is chosen. Cost O(log N), or O(N) where equal links are stored one by
-/// one, because they are compared.
+/// The properties of a chain from which a model is chosen. Cost O(log N), or O(N) if equal links
+/// are stored one by one, because they are compared.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -72,21 +74,23 @@ struct ChainKind {
     double length = 0;            ///< of the whole chain
     std::optional<double> taper;  ///< `Chain::taper`
     // The next five are read from a sample of the links.
-    bool centroids_below = true;   ///< none lies above its pin
-    bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
-    bool point_masses = true;      ///< all are plummets
+    bool centroids_below = true;  ///< none lies above its pin
+    bool short_pendulums =
+        false;  ///< all plummets, or each pendulum shorter than its link, and no plummet
+    bool point_masses = true;  ///< all are plummets
     double long_pendulums =
         0;  ///< share of links whose pendulum is longer than they, or whose centroid is above
     bool negative_pins =
-        false;  ///< two neighbours carry so much weight beyond their pin that less than 0 is on it
-    // The rest is 0 for equal links, and for fewer unlike links than `least_sampled`.
+        false;  ///< two neighbours have so much weight beyond their common pin that the pin's share
+                ///< is negative
+    // The rest is 0 for equal links, and for fewer unequal links than `least_sampled`.
     static constexpr Index least_sampled = 24;
     double growth =
-        0;  ///< log2 of the weight of the upper half of at least 256 links over that of the lower half
+        0;  ///< log2 of the upper half's weight over the lower half's, from 256 links on
     Index light =
-        0;  ///< number of links at the top that weigh less than about 2e-14 of the weight below them
-    /// Phase of a wave of conical height 1 in each of up to 32 stretches of the chain, lowest first: the integral of
-    /// sqrt(dW ds / S), S the weight below.
+        0;  ///< number of links at the top that weigh less than about 2e-14 of what is below
+    /// Phase of a wave of conical height 1 in each of up to 32 stretches of the chain, lowest
+    /// first: the integral of sqrt(dW ds / S), S the weight below.
     std::array<double, 32> phase{};
     Index stretches = 0;
     double links_per_stretch = 0;
@@ -104,7 +108,8 @@ struct ChainKind {
                            [&](const V& x) { return x == numbers[0]; });
     }
 
-    /// Reads one link of equal ones, all of up to 100 unlike links, and a sample spread over a longer chain.
+    /// Reads one link if all are equal, all of up to 100 unequal links, else a sample spread over
+    /// the chain.
     void look_at_links(const Chain<double>& chain) {
         const Index looked_at = equal ? 1 : size <= 100 ? size : 32;
         bool points = true, shorter = true;
@@ -125,8 +130,8 @@ struct ChainKind {
         short_pendulums = points || shorter, point_masses = points;
         long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
     }
-    /// Samples the weights along the chain. Up to 255 links are all read. For longer chains weights come from the
-    /// stored sums, and lengths are taken as spread evenly.
+    /// Samples the weights along the chain. All links are read if there are at most 255. For longer
+    /// chains weights come from the stored sums, and lengths are taken as equal.
     void look_at_stretches(const Chain<double>& chain) {
         const revchain::detail::FloatingPointStateGuard quiet;  // ratios may be infinite
         const bool few = size < segment_size;
@@ -162,7 +167,8 @@ struct ChainKind {
         range = std::log2(greatest_pull) - exponents / static_cast<double>(stretches);
         tilt = inertia / stiffness * length * length;
     }
-    /// Searches the stored sums as if links grew lighter upwards.
+    /// Returns the number of light links at the top. The search in the stored sums assumes that
+    /// links become lighter upwards.
     static Index light_links(const Chain<double>& chain) {
         const auto& below = chain.partial_weights();
         if (below.size() < 3) return 0;
@@ -209,7 +215,7 @@ double real(Index x) { return static_cast<double>(x); }
 inline constexpr double full_accuracy = 2.001 * std::numeric_limits<double>::epsilon();
 }  // namespace detail
 
-/// A height and what bounds its relative error.
+/// A height and a bound of its relative error.
 struct BoundedHeight {
     double height, error_bound;
 };
@@ -225,9 +231,9 @@ Answer answer_of_each(const Question& question, const F& enclosed) {
     return answer;
 }
 
-/// One theory or method. `applies` says whether it can answer a question. Before anything is computed, `error_bound`
-/// bounds the relative errors of all heights asked for, and `cost` predicts the time in seconds. `solve` returns the
-/// answer with the bounds reached.
+/// One theory or method. `applies` says whether it can answer a question. Before anything is
+/// computed, `error_bound` bounds the relative errors of all requested heights, and `cost` predicts
+/// the time in seconds. `solve` returns the answer with the bounds reached.
 template <class M>
 concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind,
                          const Question& question) {
@@ -238,7 +244,7 @@ concept Model = requires(const M& model, const Chain<double>& chain, const Chain
     { model.solve(chain, kind, question) } -> std::same_as<Answer>;
 };
 
-/// Whether a model belongs to the theory of small inclinations: `M::is_linear`, or true where a model does not say.
+/// Whether a model belongs to the theory of small inclinations: `M::is_linear`, or true without it.
 template <class M>
 constexpr bool is_linear() {
     return !requires { requires !M::is_linear; };
@@ -250,12 +256,14 @@ constexpr bool is_proved() {
     return requires { requires M::is_proved; };
 }
 
-/// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no
-/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as
-/// they reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the
-/// lowest leans most in the slowest modes: up to number 1.15 sqrt(N) of plummets, 1.6 sqrt(N) of rods as the linear
-/// theory has it, and no more than a third of them; here up to sqrt(N), found so up to 80 degrees
-/// (tests/cpp/models/models.cpp). Infinite of others.
+/// Returns a bound on the error of the theory of small inclinations if the lowest link has the
+/// inclination of the question. It is 1/cos - 1 if no link leans more than the lowest. Reason:
+/// offsets of a shape are those of a mode of the straight chain with links as long as they reach
+/// down (`transferred_to_axis`). Lengthening a link as a whole lowers no height. Among equal links
+/// the lowest leans most in the slowest modes. In linear theory these are the modes up to number
+/// 1.15 sqrt(N) for plummets and 1.6 sqrt(N) for rods, and at most a third of all. This function
+/// uses sqrt(N), checked up to 80 degrees (tests/cpp/models/models.cpp). The result is infinite for
+/// other modes and chains.
 REVCHAIN_LAZY
 double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
     if (!(question.inclination > 0)) return 0;

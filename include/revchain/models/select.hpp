@@ -27,8 +27,9 @@ namespace models {
 
 using revchain::detail::throw_invalid;
 
-/// The choice of `select`: `model` is an index into `estimates`, past the last where none applies. Where
-/// `meets_tolerance` is false, no model within the budget meets it, and this is the most accurate.
+/// The choice of `select`: `model` is an index into `estimates`, past the last if none applies. If
+/// `meets_tolerance` is false, no model within the budget meets the tolerance. `model` is then the
+/// most accurate within the budget, or else the cheapest.
 template <std::size_t N>
 struct Choice {
     std::array<Estimate, N> estimates;
@@ -61,7 +62,7 @@ void check(const ChainKind& kind, const Question& question) {
                       question.inclination);
 }
 
-/// The tolerance to be kept: the one asked for, or full accuracy.
+/// Returns the tolerance to meet: the requested one, or full accuracy.
 REVCHAIN_LAZY
 double kept_tolerance(const Question& question) {
     return question.rtol > 0 ? question.rtol : full_accuracy;
@@ -90,7 +91,8 @@ std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& m
         models);
 }
 
-/// The cheapest model, of those not `out`, that keeps the tolerance, else the most accurate, the cheaper of equals.
+/// Returns the cheapest model that meets the tolerance, of those not `out`. If none does, returns
+/// the most accurate one, the cheaper of equals.
 template <std::size_t N>
 std::optional<std::size_t> best(const std::array<Estimate, N>& estimates,
                                 const std::array<bool, N>& out, double rtol, double budget) {
@@ -108,8 +110,8 @@ std::optional<std::size_t> best(const std::array<Estimate, N>& estimates,
     return chosen;
 }
 
-/// The answer of one model, its bounds widened by what the model itself does not know: digits lost to numbers below the
-/// normal ones, and inclinations.
+/// Returns the answer of one model. Its bounds are widened for effects that the model does not
+/// include: digits lost in subnormal numbers, and inclinations.
 template <Model M>
 Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind,
                  const Question& question) {
@@ -141,10 +143,11 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 
 }  // namespace detail
 
-/// Chooses the cheapest model whose bound keeps the tolerance. With a `time_budget` in seconds it must be within that
-/// too; if none is, the choice is the most accurate within the budget, or else the cheapest. Cost: 0.2 microseconds; no
-/// link is read. Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a budget
-/// that is not positive.
+/// Chooses the cheapest model whose bound meets the tolerance. With a `time_budget` in seconds, its
+/// time must be within the budget too. If there is no such model, the choice is the most accurate
+/// within the budget, or else the cheapest. Cost: 0.2 microseconds; no link is read.
+/// Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a
+/// budget that is not positive.
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind,
                                  const Question& question,
@@ -156,7 +159,7 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     const double budget = time_budget.value_or(infinity);
     auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {},
                                                   detail::kept_tolerance(question), budget);
-    if (!chosen)  // no model is within the budget: the cheapest one
+    if (!chosen)  // no model is within the budget
         chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
     choice.meets_tolerance =
@@ -171,10 +174,11 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     return select(models, ChainKind(chain), question, time_budget);
 }
 
-/// The heights asked for, by the model chosen. Where a model turns out to have no answer, or a worse bound than
-/// predicted and asked for, the next best is tried. The status is `tolerance_not_met` where no model within the budget
-/// keeps the tolerance; the bounds are then the best available. There are no heights where no model applies, as for
-/// unlike links without inertia at an inclination, and where none of the list has an answer.
+/// Returns the requested heights by the chosen model. If that model has no answer, or a bound worse
+/// than predicted and requested, the next best is tried. The status is `tolerance_not_met` if no
+/// model within the budget meets the tolerance; the bounds are then the best available. There are
+/// no heights if no model applies, as for unequal links without inertia at an inclination, or if no
+/// model of the list has an answer.
 template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
                const Question& question, std::optional<double> time_budget = std::nullopt) {
@@ -202,8 +206,9 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
     return best;
 }
 
-/// The heights by the model of that name, whatever others would cost. There are no heights where it does not apply or
-/// finds no answer. The status is then `tolerance_not_met`, as it is where the bound exceeds the tolerance.
+/// Returns the heights by the model of that name, whatever others would cost. There are no heights
+/// if it does not apply or finds no answer. The status is then `tolerance_not_met`, as it is if the
+/// bound exceeds the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
 Solution solve_by(const std::tuple<Models...>& models, std::string_view model,

@@ -8,10 +8,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// One step of a walk along a curve by its arc, from `step`, at most `longest`. `attempt(step)`
-/// predicts along the direction, corrects across it and takes the point; it returns the factor for
-/// the next step, or nothing where the corrector fails or the point may lie on another curve. Then
-/// the share `less` of the step is tried. Returns false if no step above 1e-9 succeeds.
+/// Makes one step of a walk along a curve by arc length: of length `step`, at most `longest`.
+/// `attempt(step)` predicts along the direction, corrects across it and accepts the point. It
+/// returns the factor for the next step, or nothing if the corrector fails or the point may lie on
+/// another curve. Then the share `less` of the step is tried. Returns false if no step above 1e-9
+/// succeeds.
 template <class Attempt>
 bool arc_step(double& step, double longest, double less, const Attempt& attempt) {
     check_interrupt();

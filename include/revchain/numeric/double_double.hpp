@@ -9,21 +9,21 @@
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// Two doubles as a scalar of 106 bits: `Chain<DoubleDouble>`, `modes`, ... to about 32 digits.
-/// DoubleWord<double> is the arithmetic that certifies answers in double, with sizes, errors and
-/// weights in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
-/// DoubleDouble are DoubleDouble, and bounds grow with the number of links. Accuracy of one
-/// operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31.
-/// Exponents are those of double; the second word is lost below 1e-292.
+/// DoubleWord<double> is the arithmetic that certifies results in double, with sizes, errors and
+/// weights in double (`Narrow`). In a DoubleDouble all of these have two words: its `Wide` and
+/// `Narrow` are DoubleDouble, and bounds grow with the number of links. Accuracy of one operation:
+/// that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31. Exponents are those
+/// of double. The second word is lost below 1e-292.
 class DoubleDouble {
    public:
     constexpr DoubleDouble() = default;
-    /// Exact for every built-in number but a long double of more than 106 bits.
+    /// Converts a built-in number, exactly unless it is a long double of more than 106 bits.
     template <class Number>
     requires std::is_arithmetic_v<Number>
     constexpr DoubleDouble(Number x)
         : word_(split(x)) {}  // NOLINT(google-explicit-constructor): like a built-in number
     constexpr explicit DoubleDouble(const DoubleWord<double>& word) : word_(word) {}
-    /// high + low, in any order of size.
+    /// Makes high + low, in any order of size.
     constexpr DoubleDouble(double high, double low) : word_(two_sum(high, low)) {}
 
     constexpr double high() const { return word_.high; }
@@ -68,7 +68,7 @@ class DoubleDouble {
         return DoubleDouble(frexp(x.word_, exponent));
     }
     friend bool isfinite(const DoubleDouble& x) { return isfinite(x.word_); }
-    /// The leading double: enough for messages.
+    /// Writes the leading double, which is enough for messages.
     friend std::ostream& operator<<(std::ostream& out, const DoubleDouble& x) {
         const std::streamsize asked = out.precision(std::numeric_limits<double>::max_digits10);
         out << x.word_.high;

@@ -10,8 +10,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Nodes and weights of Gauss's rule with n points on 0 ... 1, exact to degree 2 n - 1 (Newton's
-/// method).
+/// Returns nodes and weights of Gauss's rule with n points on 0 ... 1, exact to degree 2 n - 1
+/// (Newton's method).
 inline std::vector<std::pair<double, double>> gauss_rule(int n) {
     std::vector<std::pair<double, double>> rule;
     for (int i = 0; i < n; ++i) {

@@ -8,8 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A product or quotient as a fraction times a power of two: no intermediate result leaves the
-/// range. Accuracy: half an ulp for each factor after the first, and for each sum.
+/// A product or quotient as a fraction times a power of two, so no intermediate result overflows or
+/// underflows. Accuracy: half an ulp for each factor after the first, and for each sum.
 template <Real T>
 struct Product {
     T fraction = T(1);

@@ -24,13 +24,13 @@ namespace revchain::inline REVCHAIN_BUILD {
 using Index = Eigen::Index;
 
 namespace detail {
-/// pi to the last digit of T; libc++ 14 has that of double for long double.
+/// The number pi to the last digit of T; libc++ 14 has the value of double for long double.
 template <class T>
 inline constexpr T pi = std::numbers::pi_v<T>;
 template <>
 inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;
 
-// The functions of a scalar besides its operators, found in std or next to the type.
+// These functions of a scalar, besides its operators, are found in std or next to the type.
 using std::abs, std::frexp, std::isfinite, std::ldexp, std::sqrt;
 template <class T>
 concept HasRealFunctions = requires(T x, int* exponent) {
@@ -59,7 +59,7 @@ concept Real =
     T(0.5);
 };
 
-// Results hold the next two, which get their memory from `malloc` whatever the compiler's flags.
+// Results hold the next two types, whose memory comes from `malloc`, whatever the compiler's flags.
 // How Eigen allocates other matrices depends on the instruction set.
 
 /// A column of numbers.
@@ -70,11 +70,11 @@ using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 template <class T>
 using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
-/// A square matrix, inside the library only.
+/// A square matrix, used only inside the library.
 template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// The distance from 1 to the next number, 2^-52 for double. An "ulp" is a relative `epsilon`.
+/// Returns the gap from 1 to the next number, 2^-52 for double. An "ulp" is a relative `epsilon`.
 template <Real T>
 inline T epsilon() {
     return std::numeric_limits<T>::epsilon();

@@ -10,14 +10,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A wrong call (in Python: ValueError). The message has function, rule and value:
-/// "revchain::Chain: links[2]: length must be positive, got -0.5". The arguments are unchanged.
+/// The exception for a wrong call (in Python: ValueError). Its message has function, rule and
+/// value: "revchain::Chain: links[2]: length must be positive, got -0.5". Arguments are unchanged.
 class InvalidArgument : public std::invalid_argument {
    public:
     using std::invalid_argument::invalid_argument;
 };
 
-/// The caller asked a running computation to stop. (In Python: revchain.Cancelled.)
+/// The exception if the caller stopped a running computation. (In Python: revchain.Cancelled.)
 class Cancelled : public std::runtime_error {
    public:
     using std::runtime_error::runtime_error;
@@ -25,8 +25,8 @@ class Cancelled : public std::runtime_error {
 
 /// The outcome of a computation.
 enum class Status {
-    success,            ///< a proved bound meets the tolerance asked for
-    tolerance_not_met,  ///< it does not; `error_bound` says what was reached
+    success,            ///< a proved bound meets the requested tolerance
+    tolerance_not_met,  ///< no proved bound meets it; `error_bound` is the bound reached
 };
 
 inline std::string_view to_string(Status status) {
@@ -44,7 +44,7 @@ template <class T>
         return text.str();
     };
     using Limits = std::numeric_limits<T>;
-    // The fewest digits that give the same number when read back.
+    // These are the fewest digits that give the same number when read back.
     if constexpr (std::is_floating_point_v<T>)
         for (int digits = 6; digits < Limits::max_digits10; ++digits) {
             T back{};
@@ -74,7 +74,7 @@ template <class T>
     throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
 }
 
-/// Throws InvalidArgument unless every value is finite and `good`; names and values in pairs.
+/// Throws InvalidArgument unless every value is finite and `good`. Names and values are in pairs.
 template <class Good, Real T, class... Rest>
 void require(const Good& good, std::string_view rule, std::string_view function,
              std::string_view name, const T& value, const Rest&... rest) {
@@ -83,7 +83,7 @@ void require(const Good& good, std::string_view rule, std::string_view function,
     if constexpr (sizeof...(rest) > 0) require(good, rule, function, rest...);
 }
 
-/// Throw InvalidArgument unless every value is finite and as the name says; arguments as above.
+/// These throw InvalidArgument unless every value is finite and as the name says (same arguments).
 template <class... Pairs>
 void require_finite(std::string_view function, const Pairs&... pairs) {
     require([](const auto&) { return true; }, "finite", function, pairs...);

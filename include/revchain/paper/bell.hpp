@@ -6,10 +6,10 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// G(r) = h1 r^2 - [(m + 1) l1 - m l2 - a2] r - (m + 1) a2 = 0 gives the ratios of inclinations of
-/// the modes: §8 (14) with lambda = l1 + a2/r, the moment of the clapper about its pin. With f the
-/// ratio of the weights, a2 (m + 1) = f h2 + a2 and a2 m l2 = f (h2^2 + rho2^2). Lengths are in the
-/// chain's unit.
+/// The zeros of G(r) = h1 r^2 - [(m + 1) l1 - m l2 - a2] r - (m + 1) a2 are the ratios of
+/// inclinations of the modes. G is §8 (14) with lambda = l1 + a2/r, from the moment of the clapper
+/// about its pin. With f the ratio of the weights, a2 (m + 1) = f h2 + a2 and a2 m l2 = f (h2^2 +
+/// rho2^2). Lengths are in the chain's unit.
 template <Real T>
 struct BellNumbers {
     using S = Wide<T>;
@@ -40,7 +40,8 @@ struct BellNumbers {
     }
 };
 
-/// The root of a x^2 + b x + c = 0 nearest to x0 among those for which `may` is true; NaN where there is none.
+/// Returns the root of a x^2 + b x + c = 0 nearest to x0 among those for which `may` is true, or
+/// NaN.
 template <class S, class May>
 S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) {
     using std::abs, std::sqrt;

@@ -23,9 +23,9 @@ inline CarriageState BufferImpact::Phase::at(double t) const {
     return s;
 }
 
-/// The first time after 0, at most `end`, at which the front carriage returns to 0 from the side
-/// `sign`, else infinity. No return is missed: each step is the time in which the largest
-/// acceleration would bring it there.
+/// Returns the first time after 0, at most `end`, at which the front carriage returns to 0 from the
+/// side `sign`; infinity if there is none. No return is missed, because each step is the time in
+/// which the largest acceleration would bring it there.
 inline double BufferImpact::Phase::first_zero(double sign, double end, long& steps) const {
     constexpr long most_steps = 10'000'000;
     double largest = 0, t = 0;
@@ -80,8 +80,8 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
     detail::require_positive("BufferImpact", "front mass", front, "rear mass", rear,
                              "buffer stiffness", given.buffer_stiffness, "coupling stiffness",
                              given.coupling_stiffness, "speed", given.speed);
-    // Frequencies and ratios in contact: two plummets with g = 1, on threads as long as the
-    // deflections of the springs under the weights they carry, §2 (7).
+    // Frequencies and ratios in contact are those of two plummets with g = 1, on threads as long as
+    // the deflections of the springs under the weights they carry, §2 (7).
     const double l1 = rear / given.coupling_stiffness, l2 = (front + rear) / given.buffer_stiffness;
     detail::require_positive("BufferImpact", "rear mass over coupling stiffness", l1,
                              "masses over buffer stiffness", l2);
@@ -121,7 +121,8 @@ inline void BufferImpact::find_blows() {
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
-        // It returns while it swings farther than it drifts, or within a period without drift.
+        // It can return only while it swings farther than it drifts or, without drift, within a
+        // period.
         const double reach = std::hypot(free.cosine[0], free.sine[0]) + free.centre;
         const double until =
             free.drift < 0 ? std::max(0.0, reach / -free.drift) : 7 / free.frequency[0];

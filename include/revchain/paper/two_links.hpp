@@ -31,7 +31,7 @@ std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const 
     return {larger, rest / larger};
 }
 
-/// These roots for numbers whose products may overflow or underflow.
+/// Roots of the same equation for numbers whose products may overflow or underflow.
 template <Real T>
 std::array<T, 2> coupled_roots(std::string_view place, const T& p, const T& q,
                                const Product<Wide<T>>& coupling, const Product<Wide<T>>& rest) {
@@ -73,8 +73,8 @@ std::array<T, 2> hung_link(std::string_view place, std::string_view name, const 
                          squares_over_centroid(link).times(thread));
 }
 
-/// With m = W2 h2/(W1 a2), §8 (14) is (lambda sec d1 - l1)(lambda sec d2 - p) = c,  p = (m l2 + a2)/(m + 1),
-/// c = a2 h1/(m + 1). Lengths are times `unit`, a power of two.
+/// With m = W2 h2/(W1 a2), §8 (14) is (lambda sec d1 - l1)(lambda sec d2 - p) = c, p = (m l2 +
+/// a2)/(m + 1), c = a2 h1/(m + 1). Lengths are times `unit`, a power of two.
 template <Real T>
 struct JointedNumbers {
     T unit;

@@ -41,16 +41,16 @@ struct Pair {
     T height;
     S upper = l2;  ///< a2, between the pins of the upper link
 
-    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights: the form with the
-    /// smaller terms.
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights. Of two forms the one
+    /// with the smaller terms is used.
     S characteristic() const {
         using std::abs;
         const S one(1), p = (one - l1) * (one - l2), q = share * l1 * l2, r = other * l1 * l2,
                         rest = l1 + l2 - one;
         return abs(p) + q < r + abs(rest) ? p - q : r - rest;
     }
-    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm (`direction` 1)
-    /// or falls, `rest` = arm (sec d2 - 1), and arm sec d2 = l2 (arm + joint), joint = +- s l1.
+    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm (`direction`
+    /// 1) or falls, `rest` = arm (sec d2 - 1), and arm sec d2 = l2 (arm + joint), joint = +- s l1.
     std::pair<S, S> balance(int direction, const S& joint, const S& arm, const S& versed,
                             const S& rest) const {
         const S cosine1 = S(1) / (S(1) + versed),
@@ -167,8 +167,9 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
         const auto [x, versed] = zero_within(width, low, high, S(sign), at);
         shapes.push_back(pair.shape(-1, S(first + x), versed, S(rises * x)));
     };
-    // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and
-    // Q = B - s l1 = x + s l1/(l2 - 1). The bracket has its maximum at Q : P = (r^2 s)^(1/4), a zero on either side.
+    // F turns where 1 - l1/P^3 - r^2 s l1/Q^3 = 0, r = a2/l2, P = l1 - B = 1 + versed and Q = B - s
+    // l1 = x + s l1/(l2 - 1). The bracket has its maximum at Q : P = (r^2 s)^(1/4), a zero on
+    // either side.
     const S both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
     const S root = sqrt(sqrt(pair.share) * ratio), top_p = both / (S(1) + root),
             top_q = root * top_p;
@@ -210,7 +211,7 @@ std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     return shapes;
 }
 
-/// A pair of links. Throws InvalidArgument where cubes of lengths over the height overflow.
+/// Returns a pair of links. Throws InvalidArgument if cubes of lengths over the height overflow.
 template <Real T>
 Pair<T> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper,
                 const Wide<T>& share, const Wide<T>& other, const T& height) {

@@ -8,29 +8,29 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// An eigenvalue with a relative error bound that two counts prove; infinite if nothing is proved.
+/// An eigenvalue and its relative error bound, proved by two counts; infinite if there is no proof.
 template <Real T>
 struct Certified {
     T eigenvalue{};
     T error_bound = std::numeric_limits<T>::infinity();
-    Wide<T> unrounded{};  ///< the eigenvector is computed here
+    Wide<T> unrounded{};  ///< the value before rounding, at which the eigenvector is computed
 };
 
-/// Whether counts at both ends of an interval prove that it holds eigenvalue number `j`.
+/// Returns true if counts at both ends of an interval prove that it holds eigenvalue number `j`.
 inline bool bracketed(const std::array<CertifiedCount, 2>& count, Index j) {
     return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
 }
 
-/// Whether root number `j` (from 0, descending) is proved to lie within a relative `margin` of
-/// `centre`; `count(two shifts)` returns certified counts of the roots above them.
+/// Returns true if root number `j` (from 0, descending) is proved to lie within a relative `margin`
+/// of `centre`. `count(two shifts)` returns certified counts of the roots above them.
 template <Real S, class Count>
 bool root_within(const Count& count, Index j, const S& centre, const Narrow<S>& margin) {
     const S reach = centre * S(margin);
     return bracketed(count(std::array<S, 2>{centre - reach, centre + reach}), j);
 }
 
-/// Whether eigenvalue number `j` of the exact pencil is proved to lie within a relative `margin` of
-/// `eigenvalue`. Cost: one pass of two shifts in S.
+/// Returns true if eigenvalue number `j` of the exact pencil is proved to lie within a relative
+/// `margin` of `eigenvalue`. Cost: one pass of two shifts in S.
 template <Real S, Real T>
 bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue,
                  const Narrow<S>& margin) {
@@ -40,7 +40,8 @@ bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue,
     return root_within(count, j, S(static_cast<Narrow<S>>(eigenvalue)), margin);
 }
 
-/// The error bound for `lies_within`, relative to the exact eigenvalue, with all roundings.
+/// Returns the bound that `lies_within` proves, relative to the exact eigenvalue, with all
+/// roundings.
 template <Real S, Real T>
 T bound_of_margin(const T& margin) {
     return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) +
@@ -51,7 +52,7 @@ template <Real S>
 struct ProvedInterval {
     S lower, upper;
     S middle() const { return lower + (upper - lower) / S(Narrow<S>(2)); }
-    /// The largest distance of the root from `x`, relative to the root.
+    /// Returns the largest possible distance of the root from `x`, relative to the root.
     Narrow<S> reach(const S& x) const {
         using M = Narrow<S>;
         const M worst = std::max(static_cast<M>(x - lower), static_cast<M>(upper - x));
@@ -59,8 +60,8 @@ struct ProvedInterval {
     }
 };
 
-/// A proved interval of eigenvalue number `j`, `finest` wide (relative) or as narrow as S allows;
-/// nothing if none is proved. `count(two shifts)`: certified counts. Cost: about 60 calls.
+/// Returns a proved interval of eigenvalue number `j`, or nothing. Its relative width is `finest`,
+/// or the least possible in S. `count(two shifts)` returns certified counts. Cost: about 60 calls.
 template <Real S, class Count>
 std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess,
                                                  const Narrow<S>& finest) {
@@ -91,8 +92,8 @@ std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, co
     return ProvedInterval<S>{lower, upper};
 }
 
-/// Bisection by proved counts alone, for use where a faster certificate fails. The bound is
-/// infinite if 1/2 is not proved (seen where weights span 1e37 and lengths 1e23 together).
+/// Returns eigenvalue number `j` by proved counts alone, for use if a faster certificate fails. The
+/// bound is infinite if 1/2 is not proved (seen where weights span 1e37 and lengths 1e23 together).
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;
@@ -110,13 +111,14 @@ Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& 
     return result;
 }
 
-/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` nearer to it than to any
-/// other: the Rayleigh quotient in S of the vector in T, proved by two counts, else counts alone.
+/// Returns eigenvalue number `j` (from 0, descending) to 2 ulp. `start` must be nearer to it than
+/// to any other. The result is the Rayleigh quotient in S of the vector in T, proved by two counts.
+/// If that fails, proved counts alone find it.
 template <Real S, Real T>
 Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded,
                                   Index j, const T& start) {
-    // Mostly one round, at most two: the quotient's error is the square of the vector's. If S is T,
-    // rounding limits the proof: the margin then grows by factors of 2.
+    // One or two rounds suffice: the quotient's error is the square of the vector's. If S is T,
+    // rounding limits the proof, and the margin grows by factors of 2.
     T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // at most 2 ulp with roundings
     T eigenvalue = start;
     S fine(static_cast<Narrow<S>>(start));

@@ -4,10 +4,10 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// One pencil at several x, one in each lane: stiffnesses, and residual forces in twice the digits.
+/// This header has one pencil's stiffnesses at several x, and residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Whether all elements are point masses at their lower pins.
+/// Returns true if all elements are point masses at their lower pins.
 template <class S, bool Spins>
 bool is_lumped(const ElementPencil<S, Spins>& pencil) {
     for (const auto& e : pencil.elements)
@@ -17,7 +17,7 @@ bool is_lumped(const ElementPencil<S, Spins>& pencil) {
 
 namespace detail {
 
-/// high + low, unevaluated, for sums and products whose low parts need only T's own digits.
+/// An unevaluated sum high + low, for sums and products whose low parts need only T's own digits.
 template <class V>
 struct Pair {
     V high{}, low{};
@@ -41,13 +41,13 @@ template <class V>
     return {s.high, s.low + (x.low + y.low)};
 }
 
-/// Whether every element is a point mass at its lower pin; loops are compiled for each case.
+/// `lumped`: every element is a point mass at its lower pin. Loops are compiled for each case.
 template <bool Lumped>
 struct Terms {
     static constexpr bool lumped = Lumped;
 };
 
-/// An element rounded to T, as loops in lanes take it.
+/// Returns an element rounded to T, for loops in lanes.
 template <bool Spins, class T>
 [[gnu::always_inline]] inline Element<T, Spins> high_part(const Element<DoubleWord<T>, Spins>& e) {
     Element<T, Spins> high{e.stiffness.high, e.lower.high,   e.upper.high,
@@ -56,9 +56,10 @@ template <bool Spins, class T>
     return high;
 }
 
-/// Residual forces L(x) y - M y at the pins but the held one, from the free end up. `take(m, force,
-/// size, offset, stretch)` receives, for pin m: the force, if `sized` the sum of the sizes of its
-/// terms, the pin's offset, and that offset minus the next one's.
+/// Computes residual forces L(x) y - M y at all pins but the held one, from the free end up.
+/// `take(m, force, size, offset, stretch)` receives, for pin m, the force and the pin's offset.
+/// `size` is the sum of the sizes of the force's terms, if `sized`. `stretch` is the offset minus
+/// the next one.
 template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset,
           class Take>
 [[gnu::always_inline]] inline void forces_left(Terms,
@@ -105,7 +106,7 @@ template <bool fused, bool sized, class V, class Terms, bool Spins, class T, cla
     }
 }
 
-/// x as a pair, or x^2 and x.
+/// Returns the factors as pairs: x and 0, or x^2 and x.
 template <bool fused, bool Spins, class V>
 [[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(const V& x, const V& low) {
     if constexpr (Spins) {

@@ -10,20 +10,20 @@
 #include "revchain/pencil/bisection.hpp"
 #include "revchain/pencil/twisted_lanes.hpp"
 
-/// Roots (heights or, with spins, x) of several modes from Rayleigh quotients of twisted vectors.
+/// Roots (heights, or x with spins) of several modes, by Rayleigh quotients of twisted vectors.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 template <std::floating_point T>
 struct QuotientsInLanes {
-    std::array<T, shape_lanes> start;             ///< given: nearly right
-    std::array<DoubleWord<T>, shape_lanes> root;  ///< y^T Q(x) y = 0, y the vector at `start`
+    std::array<T, shape_lanes> start;             ///< input: approximate roots
+    std::array<DoubleWord<T>, shape_lanes> root;  ///< y^T Q(x) y = 0, with y the vector at `start`
     std::array<T, shape_lanes> reach;             ///< proved distance of an exact root from it
     std::array<T, shape_lanes> blur;              ///< error of `root` as the quotient's root
 };
 
 namespace detail {
 
-/// x with x^2 k + x s = m, for k and m positive.
+/// Returns the root x of x^2 k + x s = m, for k and m positive.
 template <std::floating_point T>
 T positive_root(const T& k, const T& s, const T& m) {
     using std::sqrt;
@@ -43,7 +43,7 @@ template <class Where, class Terms, bool Spins, class T>
     const std::size_t n = pencil.elements.size();
     for (std::size_t j = 0; j < count; ++j)
         roots[j] = between(brackets[j].lower, brackets[j].upper);
-    // The root in each lane; when one is done, the next takes its lane.
+    // `root` is the number of the root in each lane. A finished lane takes the next root.
     std::array<std::size_t, L> root;
     std::array<int, L> rounds{};
     std::array<bool, L> busy{};
@@ -79,7 +79,8 @@ template <class Where, class Terms, bool Spins, class T>
             const bool exceeds =
                 static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
             (exceeds ? bracket.lower : bracket.upper) = at;
-            // A step squares the error, times a factor of the pin: two at one pin predict the next.
+            // A step squares the error, times a factor of the pin. Two at one pin predict the next
+            // step.
             const T step = abs(quotient - at), shrunk = step / step_before[i];
             const bool same_pin = rounds[i] > 0 && joined.pin[i] == pin_before[i];
             bool done =
@@ -117,7 +118,7 @@ template <class Where, class Terms, bool Spins, class T>
             const auto& e = pencil.elements[m];
             const V k(e.stiffness.high);
             V error = V(unit) * sizes + V(T(2) * u) * abs(force);
-            if constexpr (!Terms::lumped) {  // error of |X| + 2 c, at both pins
+            if constexpr (!Terms::lumped) {  // the error of |X| + 2 c, at both pins
                 const V of_link = V(T(2) * unit * e.turning.high) * (abs(offset) + abs(stretch));
                 error += turned + of_link;
                 turned = of_link;
@@ -138,7 +139,7 @@ template <class Where, class Terms, bool Spins, class T>
             work_size += abs(offset * force);
             work_error += abs(offset) * error;
         });
-    // Each sum has lost less than 2^-20 of itself, `work` less than n + 16 roundings of its terms.
+    // Each sum has an error below 2^-20 of itself, `work` below n + 16 roundings of its terms.
     const T slack = T(1) + T(0x1p-20), terms_added = T(pencil.elements.size() + 16);
     for (std::size_t i = 0; i < L; ++i) {
         using std::abs, std::sqrt;
@@ -161,9 +162,9 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// Roots to eleven digits or more from brackets of the roots number `first`, `first` + 1, ... (from
-/// 0, descending): inverse iteration with Rayleigh quotients, limited to brackets by its counts.
-/// Cost: 2.5 ns a link, root and round; three rounds from a factor of two, two from three per cent.
+/// Returns roots to eleven digits or more from brackets of the roots number `first`, `first` + 1,
+/// ... (from 0, descending): inverse iteration with Rayleigh quotients; counts keep it inside the
+/// brackets. Cost: 2.5 ns a link, root and round; 3 rounds from a factor of 2, 2 from 3 per cent.
 template <std::floating_point T, bool Spins>
 std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
                           Index first, std::vector<Bracket<T>> brackets) {
@@ -188,8 +189,8 @@ std::vector<T> approached(const ElementPencil<DoubleWord<T>, Spins>& pencil, boo
     return roots;
 }
 
-/// Better roots from `quotients.start`; NaN or infinite where numbers leave the range of T.
-/// Preconditions: as `shapes_in_lanes`, K > 0, no mass negative. Cost: 6 ns a link and root.
+/// Computes better roots from `quotients.start`; they are NaN or infinite where T overflows or
+/// underflows. Preconditions: as `shapes_in_lanes`; K > 0; masses >= 0. Cost: 6 ns a link and root.
 template <std::floating_point T, bool Spins>
 void quotients_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
                         ShapesInLanes<T>& shapes, QuotientsInLanes<T>& quotients) {

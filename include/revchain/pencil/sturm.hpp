@@ -9,14 +9,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Shifts in one pass over the elements. The recursion waits for one division an element; eight
-/// shifts fill that wait: in packs they cost what one costs, 7 ns a link.
+/// The number of shifts in one pass over the elements. The recursion waits for one division an
+/// element. Eight shifts fill that wait: in packs they cost as much as one shift, 7 ns a link.
 inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
-/// Carries the dynamic stiffness D of all below a pin up the elements, at several shifts, and
-/// counts negative pivots. `Carry` is the method, with or without an error bound.
+/// Carries the dynamic stiffness D of everything below a pin up the elements, at several shifts,
+/// and counts negative pivots. `Carry` is the method, with or without an error bound.
 template <class Carry, class Pencil, class X, std::size_t L>
 [[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil,
                                               const std::array<X, L>& shifts) {
@@ -38,7 +38,7 @@ template <class Carry, class Pencil, class X, std::size_t L>
     return state;
 }
 
-/// D and the number of negative pivots, at one shift or at each of a pack.
+/// The stiffness D and the number of negative pivots, at one shift or at each shift of a pack.
 template <class V>
 struct Counted {
     V below{};
@@ -56,7 +56,7 @@ struct Counted {
     }
 };
 
-/// Without a bound. `InUnits`: weights are in several units; else loops need only registers.
+/// The method without an error bound. Loops need only registers, unless `InUnits` (several units).
 template <class Pencil, class V, bool InUnits>
 struct PlainCarry {
     using Shift = Factors<V>;
@@ -83,15 +83,16 @@ struct PlainCarry {
 
 }  // namespace detail
 
-/// For each shift x the number of negative eigenvalues of Q(x): for a hanging chain that of
-/// eigenvalues above x. Sylvester's law of inertia on the dynamic stiffness D of everything below a
-/// pin, carried up the chain (equation (1) of docs/theory/counts.md):
+/// Returns, for each shift x, the number of negative eigenvalues of Q(x). For a hanging chain it is
+/// the number of eigenvalues above x. The method is Sylvester's law of inertia on the dynamic
+/// stiffness D of everything below a pin, carried up the chain (equation (1) of
+/// docs/theory/counts.md):
 ///
 ///     p = D + L - A,    D' = [ (L - B) D - (L - c) W ] / p,    negative p are counted.
 ///
-/// Precondition for hanging chains: shifts positive. Cost: one pass, O(N). Accuracy: exact for a
-/// pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp for
-/// each link above; for a proof see `certified_count`.
+/// Precondition for hanging chains: shifts are positive. Cost: one pass, O(N). Accuracy: exact for
+/// a pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp
+/// for each link above. For a proof use `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
 std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil,
                                  const std::array<T, L>& shifts) {
@@ -120,7 +121,7 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
     }
 }
 
-/// A count; if `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
+/// A count. If `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
 struct CertifiedCount {
     Index above = 0;
     bool proved = false;
@@ -128,7 +129,7 @@ struct CertifiedCount {
 
 namespace detail {
 
-/// D below a pin at one shift, its error bound, and the negative pivots.
+/// The stiffness D below a pin at one shift, its error bound, and the number of negative pivots.
 template <Real S>
 struct BoundedStiffness {
     using M = Narrow<S>;  // magnitudes and errors
@@ -136,7 +137,7 @@ struct BoundedStiffness {
     M error{};
     CertifiedCount count{0, true};
 
-    /// Twice the least pivot: more than what underflows.
+    /// Returns twice the least pivot, which exceeds the loss by underflow.
     static M tiny() { return M(2) * least_pivot<M>(); }
     void change_unit(int step) {
         using std::ldexp;
@@ -148,9 +149,10 @@ struct BoundedStiffness {
 template <class Pencil>
 class BoundedCarry;
 
-/// For elements of a hanging chain: small relative errors, no negative mass or stiffness. The bound
-/// follows the exact derivative dD'/dD = ((L + X)/p)^2, without which it would grow exponentially
-/// along the chain. D is carried by the one of equations (1) and (2) that has the smaller bound.
+/// The method with a bound for a hanging chain: small relative errors, no negative mass or
+/// stiffness. The bound uses the exact derivative dD'/dD = ((L + X)/p)^2; without it the bound
+/// would grow exponentially along the chain. D is carried by the equation, (1) or (2), with the
+/// smaller bound.
 template <Real S>
 class BoundedCarry<ElementPencil<S>> {
    public:
@@ -159,7 +161,7 @@ class BoundedCarry<ElementPencil<S>> {
     static constexpr bool in_units = true;
     struct Shift {
         S x;
-        M underflow;  // of a pivot
+        M underflow;  // the underflow of a pivot
     };
     struct Sizes {
         M lower, upper, turning, cross;
@@ -182,8 +184,8 @@ class BoundedCarry<ElementPencil<S>> {
     [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
                                            State& at) const {
         using std::abs;
-        const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
-        const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
+        const M inflate = M(1) + M(24) * epsilon<M>();  // the rounding of the bound itself
+        const M slack = M(1) + M(4) * epsilon<M>();     // the error of rounded magnitudes
         const S stiffness = shift.x * e.stiffness;
         const S pivot = at.below + (stiffness - e.lower);
         const M size = abs(static_cast<M>(at.below));
@@ -191,7 +193,7 @@ class BoundedCarry<ElementPencil<S>> {
         const M pivot_error = local_ * (k + of.lower + size) + shift.underflow;
         const M least = abs(static_cast<M>(pivot)) * (M(1) - M(2) * epsilon<M>()) - pivot_error;
         const M least_with_below = least - at.error * inflate;
-        // Written so that a NaN anywhere withdraws the proof.
+        // The comparison is written so that any NaN withdraws the proof.
         at.count.proved = at.count.proved && least_with_below > M(0);
         at.count.above += pivot < S(M(0)) ? 1 : 0;
 
@@ -200,7 +202,7 @@ class BoundedCarry<ElementPencil<S>> {
         const M gain = abs(static_cast<M>(coupling)) * slack + coupling_error;
         const M inverse = M(1) / least;
         const M push = gain * inverse;
-        // Quotients first: the products of small weights would underflow.
+        // Quotients come first: the products of small weights would underflow.
         const M by_weight =
             local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
         const M by_coupling =
@@ -222,14 +224,14 @@ class BoundedCarry<ElementPencil<S>> {
     static M tiny() { return State::tiny(); }
     static M unit() { return operation_error<S>(); }
 
-    M local_;  // stiffness times weight has both their errors
+    M local_;  // stiffness times weight has the errors of both
     M stiffness_underflow_;
 };
 
-/// For elements of any sign, each with its own error bounds. D' = L - B - (L + X)^2/p has the
-/// slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and 1 - q = (D - A
-/// - X)/p; the roundings of numerator, p and quotient are added. It proves as much of a hanging
-/// chain as the other form, in 1.4 times the time (in double 4 times).
+/// The method for elements of any sign, each with its own error bounds. D' = L - B - (L + X)^2/p
+/// has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X. Here q = (L + X)/p and 1 - q
+/// = (D - A - X)/p. The roundings of numerator, p and quotient are added. For a hanging chain it
+/// proves as much as the other form, in 1.4 times the time (4 times in double).
 template <Real S>
 class BoundedCarry<SignedPencil<S>> {
    public:
@@ -274,7 +276,7 @@ class BoundedCarry<SignedPencil<S>> {
                                            const Shift& shift, State& at) const {
         using std::abs;
         const M u = operation_error<S>();
-        const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
+        const M inflate = M(1) + M(64) * epsilon<M>();  // the rounding of the bound itself
         const M tiny = State::tiny();
         const ElementError<M>& off = e.error;
         const S L = e.stiffness_at(shift.x);
@@ -286,13 +288,13 @@ class BoundedCarry<SignedPencil<S>> {
                 p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
         const M p_rounding = M(3) * u * (D_size + L_size + of.lower);
         const M least = p_size - inflate * (at.error + L_error + off.lower + p_rounding);
-        // Written so that a NaN anywhere withdraws the proof.
+        // The comparison is written so that any NaN withdraws the proof.
         at.count.proved = at.count.proved && least > tiny;
         at.count.above += p < S(M(0)) ? 1 : 0;
 
         const S pivot = abs(p) < S(tiny) ? S(tiny) : p;
         const S next = propagate_in_one_unit(e, L, at.below, e.upper, pivot);
-        if (at.count.proved) {  // else the bound is of no use
+        if (at.count.proved) {  // the bound is needed only for a proof
             const M C_size = size_of(L + e.cross) + L_error + off.cross;
             const M q = C_size / least;
             const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
@@ -320,10 +322,10 @@ class BoundedCarry<SignedPencil<S>> {
 
 }  // namespace detail
 
-/// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on
-/// the error of D from rounding and from the entries: `proved` if no pivot's sign is in doubt. S is
-/// usually wider than the scalar of the answer. Cost O(N): two shifts take 140 ns a link in double
-/// words, 20 ns in double. Derivation: docs/theory/counts.md, "Proved counts".
+/// Returns the number of negative eigenvalues of the exact Q at each exact shift. A running bound
+/// covers the error of D from rounding and from the entries. `proved` is true if every pivot's sign
+/// is certain. S is usually wider than the scalar of the result. Cost O(N): two shifts take 140 ns
+/// a link in double words, 20 ns in double. Derivation: docs/theory/counts.md, "Proved counts".
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {

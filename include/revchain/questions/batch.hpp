@@ -27,8 +27,8 @@ void check(const ChainBatch<T>& batch, const BatchOptions& options) {
             count);
 }
 
-/// Finds all heights. With `looking`, checks every chain just before it is needed, while it is in
-/// the cache, and returns false as soon as one is not ordinary.
+/// Computes all heights. If `looking` is true, it also checks every chain just before use, while it
+/// is in the cache, and returns false as soon as a chain is not ordinary.
 template <Real T>
 bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptions& options,
              bool looking, Table<T>& heights) {

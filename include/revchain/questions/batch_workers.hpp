@@ -9,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// One chain by itself, by `modes`: any valid chain, every height proved.
+/// Computes the heights of one chain by `modes`. The chain may be any valid one; every height is
+/// proved.
 template <Real T>
 void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& heights) {
     using std::sqrt;
@@ -25,7 +26,8 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
 template <class T>
 inline constexpr bool fits_lanes = std::is_same_v<T, double> || std::is_same_v<T, float>;
 
-/// Chains of a batch, `block_lanes` at a time, or one by one in scalars that do not fit the lanes.
+/// Solves chains of a batch, `block_lanes` at a time, or one by one if the scalar does not fit the
+/// lanes.
 template <Real T>
 class BatchWorker {
    public:
@@ -49,7 +51,7 @@ class BatchWorker {
         }
     }
 
-    /// Solves the chains that are waiting, and those that could not be proved at once.
+    /// Solves the waiting chains, then again those whose heights could not be proved at first.
     void finish(Progress* progress) {
         if constexpr (fits_lanes<T>) {
             solve(first_method());
@@ -91,7 +93,8 @@ class BatchWorker {
             *to = static_cast<double>(*from);
     }
 
-    /// Empty lanes get a copy of the first chain; their results are not read.
+    /// Solves the waiting chains. Empty lanes get a copy of the first chain; their results are not
+    /// read.
     void solve(pencil::LaneMethod method) {
         if (waiting_ == 0) return;
         const Index column = batch_.size * pencil::block_lanes;

@@ -14,7 +14,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// Seconds with the unit that suits them.
+/// Returns a time as text in s, ms, us or ns.
 REVCHAIN_LAZY
 std::string time_text(double seconds) {
     using Unit = std::pair<const char*, double>;

@@ -12,7 +12,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The conical height of the speed asked for; 0 without gravity.
+/// Returns the conical height of the requested speed; 0 without gravity.
 template <class Options>
 Wide<double> height_asked(const HeldBy& by, const Options& options) {
     constexpr std::string_view place = "steady_shapes";
@@ -46,7 +46,7 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
     return height;
 }
 
-/// The conical height times the upper tension; without gravity, tension over speed squared.
+/// Returns the conical height times the upper tension; without gravity, tension over speed squared.
 REVCHAIN_LAZY
 Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                   const std::optional<double>& angular_speed) {
@@ -56,7 +56,8 @@ Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
     return product;
 }
 
-/// The supports at a speed; without gravity stiffnesses are divided by the square of the speed.
+/// Returns the supports at a speed. Without gravity, stiffnesses are divided by the square of the
+/// speed.
 REVCHAIN_LAZY
 finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                  const std::optional<double>& angular_speed) {
@@ -88,7 +89,8 @@ struct TautChain {
     }
 
    private:
-    /// Without gravity stiffnesses are those of masses, as tensions are.
+    /// Without gravity, weights stand for masses: stiffnesses are divided by `gravity`, as tensions
+    /// are.
     static Support end(const HeldBy& by, Support support, double gravity) {
         if (by.weightless && !support.is_firm())
             support.stiffness = support.stiffness / Wide<double>(gravity);
@@ -101,7 +103,7 @@ struct TautChain {
     }
 };
 
-/// The span, for questions about shapes at every speed.
+/// Returns the span, for questions about shapes at all speeds.
 REVCHAIN_LAZY
 double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
@@ -124,7 +126,7 @@ std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOpt
     return {span, finite::lowest_height(place, options)};
 }
 
-/// `at_height(span, height)` and `of_tension(span, tension)` return the shape asked for, if any.
+/// `at_height(span, height)` and `of_tension(span, tension)` return the requested shape, if any.
 template <class AtHeight, class OfTension>
 auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHeight& at_height,
                 const OfTension& of_tension) {
@@ -177,9 +179,10 @@ std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
     const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
-    std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
+    std::vector<HeldShape> last;  // a branch that returns ends where another would begin
     const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
-    const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
+    const int gap = supports.plain() ? 1 : 4;  // with arms or springs a branch may end although the
+                                               // next exists
     for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
         auto branch =
             finite::held_branch(held.system(), supports, span, least, mode, options.max_step);

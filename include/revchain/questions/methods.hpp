@@ -14,13 +14,13 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-/// The methods given, and bisection, which always answers.
+/// Returns the given methods and bisection, which always answers.
 template <class... Models>
 auto with_bisection(const std::tuple<Models...>& methods) {
     return std::tuple_cat(methods, std::tuple<models::Bisection>());
 }
 
-/// The question about a range of modes. Without a tolerance bounds have to be proved.
+/// Returns the question about a range of modes. Without a tolerance, bounds must be proved.
 REVCHAIN_LAZY
 models::Question question_of(const ModeRange& range, const std::optional<double>& tolerance,
                              Progress* progress = nullptr,
@@ -44,7 +44,7 @@ std::string_view name_of(ModesMethod method) {
     }
 }
 
-/// Heights by the cheapest method, or by the one asked for; by bisection where that has none.
+/// Returns heights by the cheapest method or the requested one; by bisection if that has no answer.
 template <class... Models>
 models::Solution solved(const Chain<double>& chain, LazyCounter<double>& assembled,
                         const ModeRange& range, const ModesOptions<double>& options,
@@ -57,7 +57,7 @@ models::Solution solved(const Chain<double>& chain, LazyCounter<double>& assembl
     return models::solve_by(methods, models::Bisection::name, chain, question);
 }
 
-/// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
+/// Returns heights in the units of the chain's pencils, as `ShapeFinder` takes them.
 REVCHAIN_LAZY
 std::vector<Height<double>> heights_in_units(const Chain<double>& chain,
                                              const models::Answer& answer) {
@@ -78,7 +78,7 @@ inline constexpr bool is_among = false;
 template <class Model, class... Models>
 inline constexpr bool is_among<Model, std::tuple<Models...>> = (std::same_as<Model, Models> || ...);
 
-/// Modes of a chain of doubles by any of the methods.
+/// Computes modes of a chain of doubles by any of the methods.
 template <class Methods>
 Modes<double> modes_by(const Methods& methods, const Chain<double>& chain,
                        const ModesOptions<double>& options) {

@@ -6,10 +6,10 @@
 
 #include "revchain/count.hpp"
 
-/// Which modes the options of a question mean.
+/// The range of modes that the options of a question select.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Modes found where no count is given and there are as many.
+/// The number of modes found if no count is given; fewer if the chain has fewer.
 inline constexpr Index default_count = 10;
 
 template <class Options>
@@ -20,7 +20,7 @@ void check(const Options& options) {
         throw_invalid("modes", "rtol must not be negative or NaN", rtol);
 }
 
-/// The modes whose numbers are asked for, of `all` there are.
+/// Returns the modes that the options request by number; `all` is the number of modes.
 template <class Options>
 ModeRange numbered_range(Index all, const Options& options) {
     const std::string of = std::to_string(all) + " modes of this chain";
@@ -39,8 +39,8 @@ ModeRange numbered_range(Index all, const Options& options) {
     return {options.first, count};
 }
 
-/// The numbers of the modes asked for, of `all` there are. For a window, `above(height)` counts the
-/// modes above a height and `below(speed)` those slower than a speed.
+/// Returns the mode numbers that the options request; `all` is the number of modes. For a window,
+/// `above(height)` counts the modes above a height and `below(speed)` those slower than a speed.
 template <class Options, class Above, class Below>
 ModeRange chosen(Index all, const Options& options, const Above& above, const Below& below) {
     const bool numbered = options.first != 1 || options.count.has_value();

@@ -29,8 +29,9 @@ Modes<T> room_for_modes(const ModeRange& range) {
     return result;
 }
 
-/// Stores height number `j`, given in units of 2^exponent. The bound takes up what is lost where the
-/// height leaves the normal range of T. A bound beyond the tolerance asked is `tolerance_not_met`.
+/// Stores height number `j`, given in units of 2^exponent. The bound is widened if the height
+/// leaves the normal range of T and loses digits. If the bound exceeds the requested tolerance, the
+/// status becomes `tolerance_not_met`.
 template <Real T>
 void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent,
                 const std::optional<T>& rtol) {
@@ -53,7 +54,8 @@ void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
     });
 }
 
-/// Shapes that `find(first, count, details, progress)` finds on so many threads when they are read.
+/// Returns shapes that `find(first, count, details, progress)` computes on `threads` threads when
+/// read.
 template <Real T, class Find>
 LazyModeShapes<T> shapes_when_read(Find find, Index threads) {
     return LazyModeShapes<T>([find = std::move(find), threads](Index first, Index count,
@@ -63,8 +65,9 @@ LazyModeShapes<T> shapes_when_read(Find find, Index threads) {
     });
 }
 
-/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half
-/// an ulp of float to the bound. `in_double(wide, asked)` returns the modes in double.
+/// Computes modes of a chain of floats in double, which suffices for a million links, and rounds
+/// them. Rounding adds half an ulp of float to the bound. `in_double(wide, asked)` returns the
+/// modes in double.
 template <std::same_as<float> T, class InDouble>
 Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options,
                          const InDouble& in_double) {
@@ -114,7 +117,7 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options,
     return result;
 }
 
-/// By bisection in T itself.
+/// Computes modes by bisection in the scalar T itself.
 template <Real T>
 Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) {
     LazyCounter<T> assembled(chain);
@@ -138,7 +141,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     return result;
 }
 
-/// Modes of a chain of any scalar, those of doubles and floats by `in_double(chain, options)`.
+/// Computes modes of a chain of any scalar; for doubles and floats by `in_double(chain, options)`.
 template <Real T, class InDouble>
 Modes<T> modes_through(const InDouble& in_double, const Chain<T>& chain,
                        const ModesOptions<T>& options) {
@@ -157,7 +160,8 @@ Modes<T> modes_through(const InDouble& in_double, const Chain<T>& chain,
 }
 
 #if defined(REVCHAIN_COMPILED)
-/// Modes by the cheapest of all methods. The library has it, so that its users need not compile them.
+/// Computes modes by the cheapest method. The library contains it, so users need not compile the
+/// methods.
 Modes<double> modes_by_all_methods(const Chain<double>& chain, const ModesOptions<double>& options);
 #endif
 

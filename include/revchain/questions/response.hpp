@@ -11,7 +11,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// Heights and speeds in the units of a chain.
+/// Returns heights and speeds in the units of a chain.
 template <class Carried>
 std::vector<Driving> drives(const Carried& carried, const ResponseOptions& options) {
     using S = Wide<double>;
@@ -38,7 +38,7 @@ std::vector<Driving> drives(const Carried& carried, const ResponseOptions& optio
     return result;
 }
 
-/// The source of each offset asked for.
+/// The source of each requested offset.
 struct PinsAsked {
     std::vector<Index> asked;
     pencil::DrivenPins wanted;
@@ -46,7 +46,7 @@ struct PinsAsked {
     std::vector<Index> carried_columns;       ///< of the moved end itself
 };
 
-/// The pins asked for. A pin of an idle link moves with the lowest other pin.
+/// Returns the requested pins. A pin of an idle link moves with the lowest pin of the other links.
 REVCHAIN_LAZY
 PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.pencil.elements.size();

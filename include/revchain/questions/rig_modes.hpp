@@ -13,7 +13,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The mode numbers asked for; fewer, or none, where there are not as many.
+/// Returns the requested mode numbers; fewer, or none, if fewer modes are available.
 REVCHAIN_LAZY
 ModeRange numbered(const RigModesOptions& options, Index available) {
     const Index count = options.count.value_or(default_count);
@@ -22,7 +22,7 @@ ModeRange numbered(const RigModesOptions& options, Index available) {
     return {options.first, std::clamp<Index>(available - options.first + 1, 0, count)};
 }
 
-/// The mode numbers of one sense that numbers or a window ask for.
+/// Returns the mode numbers of one sense that the options request by numbers or a window.
 REVCHAIN_LAZY
 ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
                  Index available) {
@@ -119,7 +119,7 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
     return proved;
 }
 
-/// The modes of a rig that has nothing but its chain.
+/// Returns the modes of a rig that is a plain chain.
 REVCHAIN_LAZY
 RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
@@ -163,8 +163,8 @@ bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// The mode of a height in the pencil's unit. Its growth rate is the root of -g/height with a
-/// positive real part.
+/// Returns the mode of a height in the pencil's unit. Its growth rate is the root of -g/height with
+/// a positive real part.
 REVCHAIN_LAZY
 OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
@@ -208,7 +208,7 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     return result;
 }
 
-/// By discs around all roots, where counts cannot find them.
+/// Finds modes by discs around all roots, for rigs whose roots counts cannot find.
 REVCHAIN_LAZY
 RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
@@ -222,7 +222,7 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         const double size = std::abs(root.value);
         double bound = std::numeric_limits<double>::infinity();
         if (spectrum.proved) bound = root.radius / size;
-        if (!(size > 0x1p-200)) continue;  // not proved, and no speed if it is 0
+        if (!(size > 0x1p-200)) continue;  // not proved; a root of 0 has no speed
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
             const bool ahead = root.value.real() > 0;
             // The mode is rounded from x, which may be half an ulp from the disc's centre.
@@ -260,7 +260,7 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
     return result;
 }
 
-/// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
+/// Returns the links with tension + n spin = 0 at a speed n between 0 and the fastest speeds found.
 REVCHAIN_LAZY
 std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
     const auto fastest = [](const WhirlModes& sense) {

@@ -30,7 +30,7 @@ struct LinksAtSpeed {
     S stiffness(Index m) const {
         return sign(m) * (link(m).tension + speed * link(m).spin) / link(m).length;
     }
-    /// Dynamic stiffness at one pin of link m, where `at` is the one at its other pin.
+    /// Dynamic stiffness at one pin of link m; `at` is the dynamic stiffness at its other pin.
     S across(Index m, const S& at, const S& near, const S& far) const {
         const S k = stiffness(m), coupling = k + turning * link(m).cross;
         return (k - turning * far) - coupling * coupling / (at + k - turning * near);
@@ -76,14 +76,15 @@ struct RigMode : LinksAtSpeed {
                           angular_speed);
     }
     S top() const { return S(offset[rig.size()]); }
-    /// dn for a change x of y^T (stiffness - n^2/g mass) y, over these powers of the units.
+    /// Returns dn for a change x of y^T (stiffness - n^2/g mass) y, divided by these powers of the
+    /// units.
     double rate(const S& x, int weight_power, int length_power) const {
         return std::ldexp(
             static_cast<double>(-x / denominator),
             -weight_power * units.weight_exponent - length_power * units.length_exponent);
     }
 
-    /// A body of a link, the offset of its centre, and the parts of dn of a unit of its weight.
+    /// A body of a link, the offset of its centre, and the parts of dn for a unit of its weight.
     struct Body {
         S weight, centroid, gyration, centre, bears, moves;
         S resists(const S& s) const { return weight * s * (centroid * centre + gyration * s); }
@@ -101,7 +102,8 @@ struct RigMode : LinksAtSpeed {
     }
 };
 
-/// Derivatives for the numbers of link m; `above` sums a s^2 over the links above, standing ones less.
+/// Sets the derivatives by the data of link m. `above` sums a s^2 over the links above; standing
+/// links count negative.
 REVCHAIN_LAZY
 void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above,
                       RigSensitivity& result) {
@@ -121,11 +123,11 @@ void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above,
     result.displaced_weight[m] = mode.rate(turns ? fluid.moves - fluid.bears : -fluid.bears, 1, 0);
     result.added_weight[m] = turns ? 0 : mode.rate(-fluid.moves, 1, 0);
 
-    // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
+    // With fixed pins, slopes are proportional to 1/a; kappa = W h - B h_B + a S.
     const S axial = ldexp(rig.flywheel(m).axial_moment,
                           -mode.units.weight_exponent - 2 * mode.units.length_exponent) *
                     square;
-    S by_length(0.0);  // of the lowest link: where nothing hangs, no pin matters
+    S by_length(0.0);  // 0 for the lowest link: nothing hangs from its lower pin
     if (m > 0)
         by_length = sign * square *
                         (mode.link(m - 1).hung - S(2.0) * (link.tension + mode.speed * link.spin)) +

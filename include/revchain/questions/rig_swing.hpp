@@ -10,7 +10,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The rig as it swings: links do not turn about their own axes, so axial moments play no part.
+/// Returns the rig for a swing. Links do not turn about their own axes, so axial moments are set to
+/// 0. Throws InvalidArgument for a support carried round and for a fluid that turns.
 REVCHAIN_LAZY
 Rig swinging(std::string_view place, const Rig& rig) {
     if (rig.support().radius != 0)
@@ -29,7 +30,8 @@ Rig swinging(std::string_view place, const Rig& rig) {
     return {rig.chain(), std::move(with)};
 }
 
-/// The modes of a rig. Throws InvalidArgument where small offsets grow, or nothing draws them back.
+/// Returns the modes of a rig. Throws InvalidArgument if small offsets grow or have no restoring
+/// force.
 REVCHAIN_LAZY
 RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil,
                       double gravity, Index count, Progress* progress) {
@@ -69,7 +71,7 @@ class WhirlForms : public PencilForms<pencil::SignedPencil<Wide<double>>> {
             return e.spin * (u[m] - u[m + 1]) * (v[m] - v[m + 1]);
         });
     }
-    /// As `OscillatingChain::residual`, of Q(x) y over x^2.
+    /// Returns the bound that `OscillatingChain::residual` defines, for Q(x) y over x^2.
     double residual(const S& x, const Offsets& y) const {
         S carried(0.0), pin(0.0);
         double size = 0, off = 0, squares = 0, count = 16;
@@ -128,7 +130,7 @@ std::vector<RoughWhirl> merged(const RigModes& found) {
     return all;
 }
 
-/// Finds the amplitude of each whirl, in double words, and takes it from the start.
+/// Finds the amplitude of each whirl, in double words, and subtracts that whirl from the start.
 REVCHAIN_LAZY
 Superposition split_start(WhirlSwing& result, const RigPencil& rig, const WhirlForms& forms,
                           const std::vector<RoughWhirl>& rough, PlaneOffsets& rest,
@@ -239,7 +241,7 @@ WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
     const Superposition whirls =
         split_start(result, pencil, forms, merged(found), rest, rest_speed, options.progress);
 
-    // The energy bounds what is left where every link hangs in tension.
+    // If every link is in tension, the energy bounds what is left.
     LeftOut left{std::numeric_limits<double>::infinity(), Vector<double>::Ones(pins),
                  pencil.units.weight_exponent - pencil.units.length_exponent};
     if (pencil.stiffness_positive) {

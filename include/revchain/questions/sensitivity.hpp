@@ -11,15 +11,16 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of
-/// the centre of gravity, and the sum of a s^2 over the links above. In a bound: upper limits of
-/// the three, and the root of the sum.
+/// Describes how a mode moves one link: the slope s (lower less upper pin, over the length), the
+/// offset of the centre of gravity, and the sum of a s^2 over the links above. In a bound, the
+/// members are upper limits, and the third is the root of the sum.
 template <class N>
 struct Movement {
     N slope, centre, above;
 };
 
-/// The five derivatives of y^T (M - lambda K) y, by `Datum`, with the offsets of the pins fixed.
+/// Returns the five derivatives of y^T (M - lambda K) y, in the order of `Datum`, with the offsets
+/// of the pins fixed.
 template <class S>
 std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda,
                                     const Movement<S>& y) {
@@ -32,7 +33,7 @@ std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda,
             W * ((mixed + mixed) - pull), (rho + rho) * W * square, link.pull() * pull};
 }
 
-/// Bounds of |x^T (dM - lambda dK) y|; all numbers are sizes.
+/// Returns bounds of |x^T (dM - lambda dK) y|; all arguments are absolute values.
 template <class M>
 std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const Movement<M>& x,
                                const Movement<M>& y) {
@@ -45,8 +46,8 @@ std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const
             (W * h / a + below) * lambda * square};
 }
 
-/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and
-/// e the tangent of the angle to the exact shape x,
+/// Sets the derivatives of one mode's height and their error bounds. With w any vector as long as y
+/// in the norm of K, and e the tangent of the angle between y and the exact shape x,
 ///     |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|).
 /// The energy of w bounds its slopes, offsets and sums of slopes: s^2 <= 1/kappa, y^2 <= sum of 1/k
 /// up to the support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
@@ -101,7 +102,7 @@ void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLi
         above = above + slope * slope * link.length;
         flexibility = flexibility + sizes.length * (sizes.length / kappa);
     }
-    // The length of the lowest link: where nothing hangs, no pin matters.
+    // The length of the lowest link has no effect, because nothing hangs from its lower pin.
     result.by_datum[1].value(j, 0) = result.by_datum[1].error_bound(j, 0) = T(0);
 }
 
@@ -123,7 +124,7 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     for (Index j = 0; j < modes.size(); ++j) {
         detail::check_interrupt();
         const T height = modes.conical_height[j];
-        M guess(0.5);  // where the neighbours are known, nearer than they
+        M guess(0.5);  // closer than the neighbours that are known
         for (const Index i : {j - 1, j + 1})
             if (i >= 0 && i < modes.size() && height > T(0)) {
                 const M apart = static_cast<M>(modes.conical_height[i] / height - T(1));

@@ -136,8 +136,8 @@ TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weigh
     detail::require_positive(where, "tension", tension);
     // The string hangs as a chain from its last support. A weight 2^(digits + 47) times all others
     // replaces the first support: it stretches the chain evenly and does not move, both to far less
-    // than a rounding. The string has the modes of the chain from the second on, with heights times
-    // `factor`.
+    // than a rounding. Mode k of the string is mode k + 1 of the chain, with the height multiplied
+    // by `factor`.
     const T unit = detail::inverse_power_near(weight.maxCoeff());
     T total(0);
     for (Index j = 0; j < n; ++j) total += weight[j] * unit;

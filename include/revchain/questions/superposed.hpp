@@ -40,7 +40,8 @@ class PencilForms {
             return e.stiffness * (u[m] - u[m + 1]) * (v[m] - v[m + 1]);
         });
     }
-    /// |y_m|^2 <= flexibility_m y^T K y, where every stiffness is positive.
+    /// Returns the flexibility_m in |y_m|^2 <= flexibility_m y^T K y. Every stiffness must be
+    /// positive.
     Vector<double> flexibility() const {
         Vector<double> result = Vector<double>::Zero(pencil_.size() + 1);
         for (Index m = pencil_.size(); m-- > 0;)
@@ -62,7 +63,7 @@ class PencilForms {
     Pencil pencil_;
 };
 
-/// A chain in double-double, whose matrices are never assembled but for `relaxed`.
+/// A chain in double-double. Its matrices are assembled only in `relaxed`.
 class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>> {
    public:
     using Offsets = Vector<S>;
@@ -78,16 +79,16 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
     const ChainUnits& units() const { return units_; }
     Index size() const { return pencil().size(); }
 
-    /// Bound on the norm of (height K - M) y in the inverse of K, over the height.
+    /// Returns a bound on the norm of (height K - M) y in the inverse of K, divided by the height.
     double residual(const S& height, const Offsets& y) const {
         S energy;
         const std::vector<S> offset(y.begin(), y.end());
         const double size = static_cast<double>(residual_size(pencil(), height, offset, &energy));
         return size * std::sqrt(energy.high()) * (1 + 1e-10);
     }
-    /// The offsets of least y^T K y with the same M y: of equilibrium where there is no inertia. By
-    /// (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the
-    /// size of the last correction, many times the one left out.
+    /// Returns the offsets with the same M y and the least y^T K y: parts without inertia are in
+    /// equilibrium. (h K + M) y' = M y is solved repeatedly, with h small beside the least conical
+    /// height. `change` is the size of the last correction, many times the one left out.
     Offsets relaxed(const Offsets& given, const S& h, double& change) const {
         const Index n = size();
         Offsets diagonal = Offsets::Zero(n + 1), off = diagonal, at = diagonal;
@@ -118,7 +119,7 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
     ChainUnits units_;
 };
 
-/// exp(i angle) of a large angle, reduced in double-double.
+/// Returns exp(i angle) of a large angle, reduced in double-double.
 REVCHAIN_LAZY
 std::complex<double> turned(const DoubleDouble& angle) {
     const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
@@ -127,10 +128,10 @@ std::complex<double> turned(const DoubleDouble& angle) {
     return {c - s * rest.low(), s + c * rest.low()};
 }
 
-/// The modes of a start: offsets are the sum of amplitude shape exp(i speed t), or its real part.
+/// The modes of a start. Offsets are the sum of amplitude shape exp(i speed t), or its real part.
 struct Superposition {
     double rounding;  ///< error of a sum, in 2^-53 of the largest sum of |amplitude shape|
-    double at_once;   ///< error by a residual at time 0, over the residual
+    double at_once;   ///< error that a residual causes at time 0, over the residual
     std::vector<DoubleDouble> speed{};
     std::vector<std::complex<double>> amplitude{};
     std::vector<double> size{};        ///< upper bound of each amplitude's size
@@ -155,8 +156,8 @@ struct LeftOut {
     int exponent;                ///< of 2, the unit of energies
 };
 
-/// Fills in offsets and velocities at each time, complex where they are in both level directions,
-/// the bound of their errors and what is left out.
+/// Fills in offsets and velocities at each time, the bound of their errors, and what is left out.
+/// Offsets are complex if the motion is in both horizontal directions.
 template <class Result, class Options>
 void superpose(Result& result, const Superposition& modes, const LeftOut& rest,
                const Options& options) {
@@ -203,8 +204,9 @@ void superpose(Result& result, const Superposition& modes, const LeftOut& rest,
     }
 }
 
-/// Offsets and velocities at the start, with the support's 0 where that was left out and does not
-/// yield. Throws InvalidArgument for these, for times and for gravity that cannot be.
+/// Returns offsets and velocities at the start. The support's entry is 0 if it was left out and the
+/// support does not yield. Throws InvalidArgument for invalid offsets, velocities, times or
+/// gravity.
 template <class Options>
 auto checked_start(std::string_view place, Index links, bool yields, const Options& options) {
     const auto checked = [&](const std::string& name, const auto& given) {
@@ -238,8 +240,9 @@ Index checked_count(std::string_view place, const std::optional<Index>& asked, I
     throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
 }
 
-/// The swing from a start by the modes asked for, of `all` there are. The links and, if that
-/// yields, the support are the elements of `system`; `found(first, count)` has heights and shapes.
+/// Returns the swing from a start by the requested modes; `all` is the number of modes. The
+/// elements of `system` are the links and, if it yields, the support. `found(first, count)` returns
+/// heights and shapes.
 template <class Result, class Options, class Found>
 Result superposed(std::string_view place, const OscillatingChain& system, const Options& options,
                   const Vector<double>& from, const Vector<double>& speed, Index all,

@@ -12,7 +12,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The chain with any value of the datum, and on which side of the height wanted its mode is.
+/// Makes the chain with any value of the datum, and finds on which side of the wanted height its
+/// mode is.
 class Tuning {
    public:
     Tuning(const Chain<double>& chain, const TuneOptions& options, const Wide<double>& wanted)
@@ -24,18 +25,18 @@ class Tuning {
         link = with_datum(link, options_.datum, x);
         return Chain<double>(links);
     }
-    /// The number of heights that exceed the one wanted; absent where that is not proved.
+    /// The number of heights that exceed the wanted one; absent if it is not proved.
     std::optional<Index> above(double x) const {
         const Pencils<double> pencils(with(x));
         const auto count = pencils.certified_count<1>({pencils.scaled(wanted_)});
         return count[0].proved ? std::optional<Index>(count[0].above) : std::nullopt;
     }
-    /// 1 where the mode's height exceeds the one wanted, -1 where not, 0 where that is not proved.
+    /// Returns 1 if the mode's height exceeds the wanted one, -1 if not, 0 if neither is proved.
     int side(double x) const {
         const auto count = above(x);
         return !count ? 0 : *count >= options_.mode ? 1 : -1;
     }
-    /// The mode's height; 0 where the chain has no such mode.
+    /// The mode's height; 0 if the chain has no such mode.
     double height(double x) const {
         const Chain<double> chain = with(x);
         if (chain.mode_count() < options_.mode) return 0;
@@ -64,7 +65,7 @@ struct TunedValue {
     double value, error_bound;
 };
 
-/// The value where the mode passes the height wanted, by proved counts on both sides.
+/// Returns the value at which the mode has the wanted height, between proved counts on both sides.
 REVCHAIN_LAZY
 TunedValue enclosed(const Tuning& tuning, double from, double to, int low_side) {
     const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
@@ -72,8 +73,8 @@ TunedValue enclosed(const Tuning& tuning, double from, double to, int low_side) 
     return {value, std::max(value - low, high - value)};
 }
 
-/// Whether some mode passes the height wanted within a millionth of a candidate: proved counts on
-/// either side differ by one.
+/// `explained` is true if some mode passes the wanted height within a millionth of a candidate,
+/// that is, if proved counts on either side differ by one.
 struct TuneCandidate {
     bool explained = false;
     std::optional<TunedValue> crossing{};  ///< of the mode asked for
@@ -94,10 +95,11 @@ TuneCandidate classified(const Tuning& tuning, double x, double low, double high
     return {};
 }
 
-/// The first weight from `from` towards `to` at which the mode has the height wanted. With c the
-/// bound of `weight_influence`, none lies within a logarithmic step of |ln(height/wanted)|/c. Where
-/// Newton's step is at most 5 per cent, a point just beyond it is tried, and the interval bisected.
-/// `proved`: whether the search went all the way.
+/// The first weight from `from` towards `to` at which the mode has the wanted height. No such
+/// weight lies within a logarithmic step of |ln(height/wanted)|/c, c the bound of
+/// `weight_influence`. If Newton's step is below 5 per cent (after 60 rounds, below a factor e), a
+/// point just beyond it is tried and the interval is bisected. `proved` is true if the search
+/// covered the whole range.
 struct TuneSearch {
     std::optional<TunedValue> found{};
     bool proved = false;
@@ -141,8 +143,7 @@ TuneSearch search(const Tuning& tuning, double from, double to, Tuned& seen) {
                 if (step * c <= std::abs(away) * (1 - 1e-6)) break;
             }
         } else {
-            next =
-                at * (direction > 0 ? 2 : 0.5);  // no such mode: from here on until there is weight
+            next = at * (direction > 0 ? 2 : 0.5);  // no such mode: step by a factor 2
             if ((next - to) * direction >= 0) next = to;
         }
         at = next;

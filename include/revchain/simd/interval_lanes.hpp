@@ -4,8 +4,8 @@
 #include "revchain/numeric/interval.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// Intervals side by side, one in each lane of two packs: like those of numbers
-/// (numeric/interval.hpp), without branches. In a lane where nothing is known the ends are NaN.
+/// Intervals side by side, one in each lane of two packs, as for numbers (numeric/interval.hpp) but
+/// without branches. The ends are NaN in a lane where nothing is known.
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
@@ -23,7 +23,7 @@ template <IsPack V>
 [[gnu::always_inline]] inline V up(const V& x) {
     return x + margin(x);
 }
-/// 0, or NaN where x is not finite.
+/// Returns 0, or NaN where x is not finite.
 template <IsPack V>
 [[gnu::always_inline]] inline V unknown(const V& x) {
     return x - x;
@@ -46,7 +46,7 @@ template <IsPack V>
     return {detail::down(min(min(a, b), min(c, d)) + open),
             detail::up(max(max(a, b), max(c, d)) + open)};
 }
-/// NaN unless y is positive.
+/// Returns the quotient; NaN unless y is positive.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator/(const Interval<V>& x, const Interval<V>& y) {
     const V zero(0),
@@ -60,7 +60,7 @@ template <IsPack V>
     const V least = if_less(zero, x.low, a, if_less(x.high, zero, b, zero));
     return {max(detail::down(least), zero) + open, detail::up(max(a, b) + open)};
 }
-/// The root of a positive number.
+/// Returns the root of a positive number.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> sqrt(const Interval<V>& x) {
     return {detail::down(root(x.low)), detail::up(root(x.high))};

@@ -16,14 +16,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Numbers in a pack by default: four doubles fill one register of AVX2, two of SSE2.
+/// The default number of lanes of a pack: four doubles fill one register of AVX2, or two of SSE2.
 inline constexpr std::size_t pack_size = 4;
 
-/// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers, or in an
-/// array where the compiler has no vector types. No lane depends on others: choices are masks. How
-/// packs are passed by value depends on the processor compiled for: every function that does so is
-/// always_inline, so that none is called between different ones. No memcpy: GCC 12 copies by 16
-/// bytes whatever the registers, and the failed store forwarding costs a factor of four.
+/// Numbers on which + - * / act one by one, in `Count` SIMD registers of `Width` numbers, or in an
+/// array if the compiler has no vector types. No lane depends on others: choices are masks. The
+/// compiled processor determines how packs are passed by value. So every function that does so is
+/// always_inline, and none is called between different processors. There is no memcpy: GCC 12
+/// copies by 16 bytes whatever the registers, and failed store forwarding costs a factor of four.
 template <std::floating_point T, std::size_t Width = pack_size, std::size_t Count = 1>
 struct Pack {
     using Integer = detail::IntegerLike<T>;
@@ -38,7 +38,7 @@ struct Pack {
 
     Register part[count]{};
 
-    /// An integer for each number of a pack. As an answer: all bits set (yes) or none.
+    /// An integer for each number of a pack. As a truth value it has all bits set (true) or none.
     struct Mask {
         Integers part[count]{};
 
@@ -75,7 +75,7 @@ struct Pack {
         });
     }
 
-    /// The numbers themselves, not fused with other operations: `detail::rounded`.
+    /// Returns the numbers, not fused with other operations: `detail::rounded`.
     [[gnu::always_inline]] Pack rounded() const {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { RegisterOf::copy_unfused(r, part[i]); });
@@ -117,7 +117,8 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
-    // These add bits as well as integers. They wrap, which signed integers must not.
+    // These operators act on bits as well as integers. They wrap, which signed integers must not
+    // do.
     [[gnu::always_inline]] friend Mask operator+(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = Integers(Naturals(x.part[i]) + Naturals(y.part[i]));
@@ -147,7 +148,7 @@ struct Pack {
         return each<Mask>([&](auto& r, std::size_t i)
                               REVCHAIN_INLINED { RegisterOf::greater(r, x.part[i], y.part[i]); });
     }
-    /// Whether some answer is yes or, of integers, whether one is negative.
+    /// Returns true if some truth value is true or, for integers, if one is negative.
     [[gnu::always_inline]] friend bool any(const Mask& x) {
         Integers together = x.part[0];
         each<Mask>([&](auto&, std::size_t i) REVCHAIN_INLINED { together |= x.part[i]; });
@@ -160,7 +161,7 @@ struct Pack {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { r = yes.part[i] ? a.part[i] : b.part[i]; });
     }
-    /// a where x < y, else b (also for a NaN).
+    /// Returns a where x < y, else b (also for a NaN).
     [[gnu::always_inline]] friend Pack if_less(const Pack& x, const Pack& y, const Pack& a,
                                                const Pack& b) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
@@ -178,7 +179,7 @@ struct Pack {
         return if_less(x, y, x, y);
     }
 
-    /// x y - p with one rounding; only where the processor supports it.
+    /// Returns x y - p with one rounding; only if the processor supports it.
     [[gnu::always_inline]] friend Pack multiply_subtract(const Pack& x, const Pack& y,
                                                          const Pack& p) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
@@ -195,8 +196,8 @@ struct Pack {
                                                std::numeric_limits<Integer>::max());
         });
     }
-    /// The nearest number with the leading half of the digits; the rest has no more digits than
-    /// that. Adding to the bits carries into the exponent, as rounding up to a power of two needs.
+    /// Returns the nearest number with the leading half of the digits; the rest has at most as
+    /// many. Adding to the bits carries into the exponent, as rounding up to a power of two needs.
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
@@ -205,7 +206,7 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Register, half_up & (Naturals{} + (~Natural(0) << cut)));
         });
     }
-    /// 1 where the signs differ (zeros have signs), else 0.
+    /// Returns 1 where the signs differ (zeros have signs), else 0.
     [[gnu::always_inline]] friend Mask differ_in_sign(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             const auto differ =
@@ -213,12 +214,12 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Integers, differ >> (8 * sizeof(T) - 1));
         });
     }
-    /// The bits as an integer, which has the same order for positive numbers.
+    /// Returns the bits as an integer, which has the same order for positive numbers.
     [[gnu::always_inline]] friend Mask bits(const Pack& x) {
         return each<Mask>([&](auto& r, std::size_t i)
                               REVCHAIN_INLINED { r = REVCHAIN_BITS_AS(Integers, x.part[i]); });
     }
-    /// e and 2^-e, both exact, for 2^e <= x < 2^(e+1). Precondition: x > 0 and 2^-e are normal.
+    /// These return e and 2^-e, exact, for 2^e <= x < 2^(e+1). Precondition: x > 0; 2^-e normal.
     [[gnu::always_inline]] friend Mask exponent(const Pack& x) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(Integers, REVCHAIN_BITS_AS(Naturals, x.part[i]) >> fraction_bits) -
@@ -232,7 +233,7 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Register, ((2 * bias) << fraction_bits) - power);
         });
     }
-    /// 1/sqrt(x) within 4 per cent, by halving the exponent. Precondition: x is normal, or 0.
+    /// Returns 1/sqrt(x) within 4 per cent, by halving the exponent. Precondition: x normal, or 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(
@@ -244,7 +245,7 @@ struct Pack {
     static constexpr int fraction_bits = std::numeric_limits<T>::digits - 1;
     static constexpr Integer bias = std::numeric_limits<T>::max_exponent - 1;
 
-    /// Calls f for every register of a result, unrolled even where compilers do not (GCC at -O2).
+    /// Calls f for every register of a result, unrolled even if compilers do not (GCC at -O2).
     template <class Result = Pack, class F>
     [[gnu::always_inline]] static Result each(const F& f) {
         Result r;

@@ -20,7 +20,8 @@ inline constexpr std::string_view governor_motion = "analytic::GovernorMotion";
 
 }  // namespace detail
 
-/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, so that all numbers are about 1.
+/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, so that all numbers are
+/// about 1.
 struct GovernorMotion::Quartic {
     double s, c, w, n;  ///< sine and cosine of theta/2, theta', axis
     double off;         ///< n^2 (cos theta - lambda/l)
@@ -37,7 +38,8 @@ struct GovernorMotion::Quartic {
             std::swap(s, c);
             if (c < 0) s = -s, c = -c;
         }
-        // G - n^2 in two words: it alone distinguishes pendulum lengths near the conical height.
+        // G - n^2 is computed in two words, because it alone distinguishes pendulum lengths near
+        // the conical height.
         using Two = DoubleWord<double>;
         const Two speed(given.angular_speed),
             held = (Two(1.0) - Two(given.axial_inertia)) * speed * speed;

@@ -80,7 +80,8 @@ struct Amplitude {
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
         keep_within();
     }
-    /// Near a quarter turn the sign of cn is right; that of the rounded amplitude may not be.
+    /// Near a quarter turn the sign of cn is right, but the rounded amplitude may have the wrong
+    /// one.
     explicit Amplitude(const JacobiValues& f)
         : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
@@ -103,9 +104,9 @@ struct IncompleteIntegrals {
     double F, E, D;
 };
 
-/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds.
-/// For kappa = 1, F and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless
-/// the amplitude is finite.
+/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5
+/// microseconds. For kappa = 1, F and D are infinite at a quarter turn and beyond. Throws
+/// InvalidArgument unless the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
     detail::require_finite("analytic::incomplete_integrals", "amplitude", amplitude);
     const detail::Amplitude a(amplitude, modulus);

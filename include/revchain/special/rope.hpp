@@ -13,7 +13,7 @@
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
 
-/// Lengths of half a half wave over half its span.
+/// Lengths of half of a half wave, divided by half its span.
 struct RopeRatios {
     double span = 1, length, slack, sag, strength;  ///< strength: sqrt(lambda h)
 
@@ -39,7 +39,7 @@ inline double logarithm_of_ratio(double x, double y) {
     return std::log(ratio) + (up - down) * std::numbers::ln2;
 }
 
-/// Two of the five lengths that determine a rope, the others empty.
+/// Two of the five lengths, which determine a rope; the other three are empty.
 struct RopeLengths {
     std::optional<double> span, length, slack, sag, strength;
 };
@@ -267,7 +267,7 @@ inline TortuousPoint TortuousRope::at(double x) const {
                         0,
                         0};
     const double bend = f.dn / scale_;
-    if (is_plane()) {  // half a turn where it crosses the axis or nearly does, and no turn elsewhere
+    if (is_plane()) {  // half a turn where it (nearly) crosses the axis, and no turn elsewhere
         const double half_turns = std::nearbyint(f.amplitude / std::numbers::pi);
         const double sign = std::fmod(half_turns, 2.0) == 0 ? 1 : -1;
         point.angle =

@@ -10,9 +10,9 @@
 /// With z = 2 sqrt((lower + x)/lambda) as in special/tip_mass.hpp, the heights solve
 /// J_0(z_0) Y_0(z_L) = Y_0(z_0) J_0(z_L), or with theta the phase of J_0 + iY_0
 ///     theta(z_L) - theta(z_0) = mode pi.
-/// Every mode has one height, because M(z_L) < M(z_0) in z theta' = 2/(pi M^2). Far out it is that
-/// of a string under the mean tension.
-/// Errors as in special/heavy_chain.hpp, and for a tension below 1e-20 lengths or above 1e250.
+/// Every mode has one height, because M(z_L) < M(z_0) in z theta' = 2/(pi M^2). For large z it is
+/// nearly the height of a string under the mean tension. Functions throw as in
+/// special/heavy_chain.hpp, and for a tension below 1e-20 lengths or above 1e250.
 namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 namespace detail {
 

@@ -17,8 +17,8 @@
 /// with theta the phase of J + iY
 ///     theta_0(z_L) - theta_2(z_0) = mode pi.
 /// Every mode has exactly one height: at a fixed z_0/z_L the left side rises from 0 to infinity,
-/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2).
-/// Errors as in special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
+/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2). Functions throw as in
+/// special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tip_mass {
 namespace detail {
 
@@ -53,8 +53,8 @@ struct OrderZero {
     }
 };
 
-/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the slope
-/// `rate` of their phase theta, and `rough`, theta to about a tenth.
+/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the
+/// slope `rate` of their phase theta, and `rough`, theta to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
 
@@ -171,7 +171,8 @@ struct Ends {
     }
 };
 
-/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a length.
+/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a
+/// length.
 class EitherMode {
    protected:
     EitherMode(int order, Index mode, double length, const TwoDoubles& lower)

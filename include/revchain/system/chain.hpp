@@ -16,7 +16,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The least |x| that is not 0 in a column with the least x `given`.
+/// Returns the least non-zero |x| of a column. `given` is the least x of that column.
 template <Real T>
 T least_size(const Column<T>& column, const T& given) {
     using std::abs;
@@ -85,8 +85,8 @@ template <Real T>
 Chain<T> Chain<T>::as_tapered(double exponent) const {
     using std::abs;
     const Chain cut = tapered(size_, total_length_, exponent, total_weight_);
-    // Where there are no words to spare, the weights found from above carry a rounding of every
-    // link.
+    // Weights are computed from the support down. If `Wide<T>` is T, they collect one rounding
+    // error per link.
     const T ulps = std::is_same_v<Wide<T>, T> ? T(4) + T(2) * T(size_) : T(4);
     const auto near = [&](const T& x, const T& y) {
         return abs(x - y) <=
@@ -107,7 +107,7 @@ Chain<T> Chain<T>::as_tapered(double exponent) const {
     return chain;
 }
 
-/// One vectorised pass over each column. Links are read one by one only if it finds a fault.
+/// Checks each column in one vectorised pass. Links are read one by one only if it finds a fault.
 template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
@@ -169,8 +169,8 @@ void Chain<T>::check() {
             "(radius of gyration / length)^2",
             largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
-    // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of
-    // its own.
+    // Each link has a coordinate of its own if all links have weight and none has all of it in the
+    // upper pin.
     const bool all_hold = weights.least > T(0) && (centroids.least > T(0) || all_turn);
     mode_count_ = all_hold || distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
 }
@@ -209,9 +209,9 @@ void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const 
     using std::ldexp;
     if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
     Wide<T> below(T(0));
-    for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
+    for (Index m = 0; m < distinct_links(); ++m) {  // if the lowest of equal links hangs, all do
         if (m % detail::segment_size == 0) below = weight_below(m);
-        if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
+        if (!(centroid_[m] > T(0))) {  // scaled by the larger of W and S
             int exponent = 0;
             frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);
             const Wide<T> share = Wide<T>(ldexp(weight_[m], -exponent)) *
@@ -228,9 +228,10 @@ void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const 
     }
 }
 
-/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from the support
-/// down. `free` is true if the current pin can move without inertia. A massless thread between two
-/// rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
+/// Returns the nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from
+/// the support down. `free` is true if the current pin can move without inertia. A massless thread
+/// between two rods costs no mode, because the rods' own inertia holds its pins. A massless thread
+/// above a plummet costs one.
 template <Real T>
 Index Chain<T>::inertialess_coordinates() const {
     bool free = false;  // the support does not move
@@ -247,7 +248,7 @@ Index Chain<T>::inertialess_coordinates() const {
         } else if (it.centroid == it.length) {
             nullity += free ? 1 : 0;  // only the lower pin is held
             free = false;
-        }  // else one combination of the pins is held: what was free stays so
+        }  // else one combination of the pins is held, and `free` does not change
     }
     return nullity + (free ? 1 : 0);
 }

@@ -14,8 +14,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// Throws InvalidArgument: at the speed or height given, `mode` has not left the vertical, which it
-/// does at the height `critical`. The message names the quantity that was given.
+/// Throws InvalidArgument because `mode` has not left the vertical at the given speed or height. It
+/// leaves the vertical at the height `critical`. The message names the quantity that was given.
 template <class Options>
 [[noreturn]] void throw_too_slow(std::string_view place, Index mode, double critical, double height,
                                  const Options& options) {
@@ -45,11 +45,11 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     if (!(slack >= T(0)))
         detail::throw_invalid(place, "distance must make a triangle with the two threads",
                               distance);
-    // Roots first: a product of two lengths may leave the range.
+    // The roots are taken first, because a product of two lengths may leave the range.
     const T radius =
         sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance
-    // are differences.
+    // Computed in two words, with lengths scaled to about 1, because depth and depth - distance
+    // cancel in a thin triangle.
     using S = Wide<T>;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
@@ -77,9 +77,9 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
     using std::atan, std::cbrt, std::sqrt;
     constexpr std::string_view place = "carried_inclinations";
     detail::require_positive(place, "length", length, "height", height, "radius", radius);
-    // The zeros in t = tan d of  t (lambda - cos d) - b  in units of l. It is convex for t > 0 with
-    // the slope lambda - cos^3 d. Near resonance lambda - cos d = gap + (1 - cos d),  gap = lambda
-    // - l, keeps its digits.
+    // The zeros in t = tan d of the following function are wanted: t (lambda - cos d) - b in units
+    // of l. It is convex for t > 0 with the slope lambda - cos^3 d. Near resonance lambda - cos d
+    // is formed as gap + (1 - cos d), gap = lambda - l, which loses no digits.
     const T gap = (height - length) / length, lacking = (length - radius) / length;
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
@@ -90,13 +90,13 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
         const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant;
         const T versed = t / (secant + T(1)) * (t / secant);
         const T slope = c - cosine * cosine * cosine;
-        // far inwards l sin d is nearly l: the difference of the two is added instead
+        // here l sin d is nearly l, so the difference of the two is computed directly
         if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
         if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
         return std::pair<T, T>(t * (gap + versed) - r,
                                gap + versed * (T(1) + cosine + cosine * cosine));
     };
-    const auto negative = [&](const T& t) {  // where the function falls
+    const auto negative = [&](const T& t) {  // used where the function falls
         const auto [value, slope] = function(t);
         return std::pair<T, T>(-value, -slope);
     };

@@ -3,13 +3,14 @@
 
 #include "revchain/chain.hpp"
 
-/// Chains made from others: a weight attached, a thread put in between, two links clamped together.
-/// Joined bodies are computed in two words; weight and centroid are then rounded once. Conical
-/// heights are those of the exact body within 3 ulp, measured (tests/cpp/system/edit.cpp). Cost O(N).
+/// Functions that make a chain from another one: they attach a weight, insert a thread, or clamp
+/// two links together. Joined bodies are computed in two words; weight and centroid are then
+/// rounded once. Conical heights differ from those of the exact body by at most 3 ulp, measured
+/// (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// A rigid body of a link; centroid and squared radius of gyration over the link's length.
+/// A rigid body of a link, with lengths in units of the link's length.
 template <Real T>
 struct Body {
     T weight{};
@@ -17,8 +18,8 @@ struct Body {
     Wide<T> gyration_ratio{};
 };
 
-/// Two bodies of one link of this length, rigidly joined: their moments and that of their distance,
-/// all positive, about the common centroid.
+/// Returns two bodies, rigidly joined, as one link of this length. Its moment of inertia about the
+/// common centroid is the sum of the bodies' moments and a term of their distance, all positive.
 template <Real T>
 Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
     using std::frexp, std::ldexp;
@@ -50,10 +51,11 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 
 }  // namespace detail
 
-/// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free
-/// end, else the pin that links number `pin` and `pin` + 1 share. The body turns with that link.
+/// Returns the chain with a body fixed to the link above `pin`, its centre of gravity in that pin.
+/// Pin 0 is the free end; links number `pin` and `pin` + 1 share any other pin. The body turns with
+/// that link.
 /// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not
-/// positive, a negative radius of gyration, and where the result is not a valid chain.
+/// positive, a negative radius of gyration, and if the result is not a valid chain.
 template <Real T>
 Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0,
                      const T& radius_of_gyration = T(0)) {
@@ -70,9 +72,9 @@ Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0,
     return Chain<T>(links);
 }
 
-/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, and below
-/// the next one or, where `pin` is the number of links, the support.
-/// Throws InvalidArgument for other pins and a length not positive.
+/// Returns the chain with a massless thread inserted above link number `pin`, counted from 1. The
+/// thread is below the next link or, if `pin` is the number of links, below the support.
+/// Throws InvalidArgument for other pins and for a length that is not positive.
 template <Real T>
 Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     constexpr std::string_view place = "with_thread";
@@ -85,8 +87,9 @@ Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     return Chain<T>(links);
 }
 
-/// The chain with the links at index `link` and `link` + 1 locked in line: one rigid link instead of
-/// two. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// Returns the chain with the links at index `link` and `link` + 1 locked in line as one rigid
+/// link. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <=
+/// lambda(k).
 /// Throws InvalidArgument for an index outside 0 ... N - 2.
 template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {

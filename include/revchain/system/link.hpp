@@ -13,12 +13,12 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Units: any consistent set; weights enter only by their ratios. `Chain` checks the numbers.
 template <Real T>
 struct Link {
-    T weight{};  ///< W >= 0 (0: a massless thread or wire)
-    T length{};  ///< a > 0, pin to pin
-    T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
-    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity: not the pendulum
-    /// length l = h + rho^2/h, because h = 0 is allowed; a ratio, so that no unit of length takes it
-    /// out of the range of T; with twice the digits, so that the given numbers are met to 1e-31.
+    T weight{};    ///< W >= 0 (0: a massless thread or wire)
+    T length{};    ///< a > 0, pin to pin
+    T centroid{};  ///< h, centre of gravity from the UPPER pin towards the lower pin; any sign
+    /// (rho/a)^2 >= 0, with rho the radius of gyration about the centre of gravity. The pendulum
+    /// length l = h + rho^2/h is not stored, because h = 0 is allowed. A ratio stays in the range
+    /// of T in any unit of length. Twice the digits reproduce the given numbers to 1e-31.
     Wide<T> gyration_ratio{T(0)};
 
     friend bool operator==(const Link&, const Link&) = default;
@@ -29,13 +29,13 @@ enum class Posture { hangs = 1, stands = -1 };
 
 namespace detail {
 
-/// x / length in twice the digits, whatever their unit.
+/// Returns x / length in twice the digits, for any unit of length.
 template <Real T>
 Wide<T> in_lengths(const Wide<T>& x, const T& length) {
     return Product<Wide<T>>::of(x).over(Wide<T>(length)).value();
 }
 
-/// x lengths, rounded once, whatever the unit.
+/// Returns x times `length`, rounded once, for any unit.
 template <Real T>
 T times_length(const Wide<T>& x, const T& length) {
     using std::ldexp;
@@ -43,15 +43,15 @@ T times_length(const Wide<T>& x, const T& length) {
     return ldexp(static_cast<T>(product.fraction), product.exponent);
 }
 
-/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. With larger ones
-/// products leave the range of T.
+/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. Products of larger
+/// ratios leave the range of T.
 template <Real T>
 T length_span() {
     using std::ldexp;
     return ldexp(T(1), std::numeric_limits<T>::max_exponent / 4);
 }
 
-/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are too far apart.
+/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument if rho and a are too far apart.
 template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());

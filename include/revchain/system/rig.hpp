@@ -86,7 +86,7 @@ inline void Rig::check() const {
     Index m = 0;
     try {
         for (; m < size(); ++m) check_link(m, "Rig");
-    } catch (const InvalidArgument&) {  // once more, with the place
+    } catch (const InvalidArgument&) {  // checked again, to name the link
         check_link(m, "Rig: links[" + std::to_string(m) + "]");
         throw;
     }

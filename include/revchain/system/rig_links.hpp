@@ -6,15 +6,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`: Greenhill
-/// (1908) §8 with two weights for each body, the one that bears (less the buoyancy) and the one that
-/// moves (with the added weight of the fluid). With the offsets y, the tangent t and sine s of the
-/// inclination, the speed n, lambda = g/n^2, and R the moment about the upper pin, as if the link
-/// hung vertically, over the distance between the pins:
+/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`, after
+/// Greenhill (1908) §8. Each body has two weights: the one that bears (less the buoyancy) and the
+/// one that moves (with the added weight of the fluid). The offsets are y, the tangent and sine of
+/// the inclination t and s, the speed n, and lambda = g/n^2. R is the moment about the upper pin,
+/// as if the link hung vertically, over the distance between the pins:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
-/// For small inclinations the stiffness is (tension + n spin)/length, negative where the link
-/// stands, the mass [lower cross; cross upper].
+/// For small inclinations the stiffness is (tension + n spin)/length, negative if the link stands.
+/// The mass matrix is [lower cross; cross upper].
 struct RigLink {
     using S = Wide<double>;
     S length;   ///< a
@@ -24,7 +24,7 @@ struct RigLink {
     S rest;     ///< W (a - h)/a of the weights that move
     S cross;    ///< X
     S lower, upper;
-    S hung;  ///< weight that bears on the upper pin, of this link and all below
+    S hung;  ///< weight of this link and all below that bears on the upper pin
     /// Sums of the sizes of each number's terms; its error is at most `error_part` times the sum.
     struct Sizes {
         double tension, lower, upper, cross, hung;
@@ -32,10 +32,10 @@ struct RigLink {
     static constexpr double error_part = 64 * operation_error<S>();
 };
 
-/// The numbers of a rig's links, lowest first. `RigLink::error_part` bounds their errors: three
-/// operations for a body's share, a few for the sum of shares, a compensated sum for the weights
-/// below, four operations for a caller's momentum or axial moment. Cost O(N). Throws InvalidArgument
-/// where the chain's weights are more than 1e123 apart.
+/// Returns the coefficients of a rig's links, lowest first. `RigLink::error_part` bounds their
+/// errors: three operations for a body's share, a few for the sum of shares, a compensated sum for
+/// the weights below, four operations for a caller's momentum or axial moment. Cost O(N). Throws
+/// InvalidArgument if the ratio of two weights exceeds 1e123.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
     const Chain<double>& chain = rig.chain();

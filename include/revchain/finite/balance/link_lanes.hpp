@@ -7,10 +7,10 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/simd/interval_lanes.hpp"
 
-/// The equation of one link for several loads at once, as packs; for finite/balance/taylor.hpp.
+/// Solves the equation of one link for several loads at once, in packs (for balance/taylor.hpp).
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// `any` and `if_less` for numbers: templates can use numbers and packs alike.
+/// Define `any` and `if_less` for numbers, so that templates can use numbers and packs alike.
 REVCHAIN_LAZY
 bool any(bool yes) { return yes; }
 template <Real T>
@@ -18,7 +18,7 @@ const T& if_less(const T& x, const T& y, const T& a, const T& b) {
     return x < y ? a : b;
 }
 
-/// The link in every lane of a pack.
+/// Returns the link copied to every lane of a pack; for a number type, the link itself.
 template <class T>
 [[gnu::always_inline]] inline decltype(auto) in_lanes(const Link<Interval<Lane<T>>>& link) {
     if constexpr (IsPack<T>) {
@@ -56,15 +56,15 @@ struct Sine<V> {
     }
 };
 
-/// Encloses the tangents under the loads R; NaN if none is found. Each end is the first of t, t +
-/// step, t + 3 step, ... from Newton's result whose load is certainly beyond the given one.
+/// Encloses the tangents under the loads R; NaN if no bounds are found. From t, Newton's result,
+/// each end is the first of t, t + step, t + 3 step, ... with a load certainly beyond R.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> tangent_of(const Interval<V>& stiffness,
                                                      const Interval<V>& turning,
                                                      const Interval<V>& R) {
     using T = Lane<V>;
     const V zero(0), one(1), twist = turning.middle();
-    const std::array<V, 2> wanted{-R.low, R.high};  // the load is odd in t: both are upper ends
+    const std::array<V, 2> wanted{-R.low, R.high};  // the load is odd in t; both are upper ends
     std::array<V, 2> above;
     for (std::size_t end = 0; end < 2; ++end) {
         const V k = if_less(wanted[end], zero, stiffness.high, stiffness.low);

@@ -14,7 +14,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 ///     R = H_below + moment y_below,  lambda pull t + length cross s = R,
 ///     y = y_below - length s,        H = R + rest y.
 /// H, the sum of weights times offsets of centroids, is lambda times the sideways pull at the upper
-/// pin. R is its moment about that pin over the height of the link, if the link hung vertically.
+/// pin. R is the moment of these forces about that pin over the height of the vertical link.
 template <class S>
 struct Link {
     S length;  ///< a
@@ -28,13 +28,13 @@ struct Link {
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
 
-/// Links with every number enclosed by an interval.
+/// Links whose numbers are all enclosed by intervals.
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
-/// The arithmetic of shapes: two doubles.
+/// The arithmetic in which shapes are computed: two doubles a number.
 using Fine = Wide<double>;
-/// The arithmetic of proofs that double leaves undecided.
+/// The arithmetic of proofs that fail in double.
 using Far = DoubleDouble;
 using Span = Interval<Far>;
 
@@ -94,8 +94,8 @@ struct Links {
     void add_support(Shape&, const S&, const Found&) const {}
 };
 
-/// The links of a chain, for T = double each number to 1e-28 unless W h + a S cancels.
-/// Throws InvalidArgument if weights differ by a factor of more than 1e123.
+/// Returns the links of a chain. For T = double each number has a relative error of 1e-28 unless W
+/// h + a S cancels. Throws InvalidArgument if weights differ by a factor of more than 1e123.
 template <Real T>
 Links<Wide<T>> links_of(const Chain<T>& chain) {
     using std::ldexp;
@@ -136,7 +136,8 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
-/// Encloses in T a number known in S but for its last digits; a point if a narrower T holds it.
+/// Encloses in T a number whose last digits in S are uncertain. Returns a point if T is narrower
+/// than S and holds the number exactly.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);
@@ -160,14 +161,14 @@ EnclosedLinks<T> Links<S>::links_for_sweep() const {
     return enclosed<T>(links);
 }
 
-/// Whether the inclination of this tangent has sine 1 and cosine 1/|tangent| to every digit.
+/// Returns true if a tangent's inclination has sine 1 and cosine 1/|tangent| to every digit.
 template <class S>
 bool is_horizontal(const S& tangent) {
     using std::abs;
     return abs(tangent) > S(1e100);
 }
 
-/// Cosine of the inclination of a tangent, even if the square of the tangent overflows.
+/// Returns the cosine of the inclination of a tangent, even if the square of the tangent overflows.
 template <class S>
 S cosine_at(const S& tangent) {
     using std::abs;

@@ -16,7 +16,7 @@ template <class S>
 struct SupportEnd {
     S radius;        ///< b, of any sign; a double
     S compliance;    ///< 1/(lambda E); 0 if firm
-    S stiffness;     ///< lambda E, if it yields
+    S stiffness;     ///< lambda E, if the support yields
     S carriage;      ///< W; a double, 0 if firm
     bool symmetric;  ///< b = 0
     bool firm;

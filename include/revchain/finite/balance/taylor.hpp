@@ -11,13 +11,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// First and second derivatives of a function of D numbers: enclosures over a cell of them, and
-/// slopes at its centre. T is a number or a pack with one cell in each lane.
+/// First and second derivatives of a function of D numbers, enclosed over a cell, and slopes at the
+/// cell's centre. T is a number or a pack with one cell in each lane.
 template <class T, std::size_t D>
 struct CellDerivatives {
     static constexpr std::size_t pairs = D * (D + 1) / 2;
     std::array<Interval<T>, D> slope, centre_slope;
-    std::array<Interval<T>, pairs> bend;  ///< for (0, 0), ..., (0, D - 1), (1, 1), ...
+    std::array<Interval<T>, pairs> bend;  ///< for pairs (0, 0), ..., (0, D - 1), (1, 1), ...
 
     template <class Operation>
     [[gnu::always_inline]] void combine(const CellDerivatives& f, const CellDerivatives& g,
@@ -26,14 +26,13 @@ struct CellDerivatives {
     }
 
    private:
-    /// Part n. One loop over all parts compiles in 2/3 of the time of three loops.
-    template <class Any>
+    template <class Any>  // part n; one loop compiles in 2/3 of the time of three loops
     [[gnu::always_inline]] static auto& part(Any& f, std::size_t n) {
         return n < D ? f.slope[n] : n < 2 * D ? f.centre_slope[n - D] : f.bend[n - 2 * D];
     }
 };
 
-/// The function too: its enclosure over the cell, and its value at the centre.
+/// A function with its derivatives: its enclosure over the cell and its value at the centre.
 template <class T, std::size_t D>
 struct Taylor : CellDerivatives<T, D> {
     using I = Interval<T>;
@@ -66,8 +65,8 @@ struct Taylor : CellDerivatives<T, D> {
     }
 };
 
-/// Calls `each(k, i, j)` for all i <= j, k the index in `Taylor::bend`. Without forced inlining the
-/// proof of a diagram takes 1.15 times as long (GCC 12, -O3).
+/// Calls `each(k, i, j)` for all i <= j, with k the index in `Taylor::bend`. Without forced
+/// inlining a diagram's proof takes 1.15 times as long (GCC 12, -O3).
 template <std::size_t D, class Each>
 [[gnu::always_inline]] inline void each_pair(const Each& each) {
     std::size_t k = 0;
@@ -108,7 +107,7 @@ class Cell {
         x.slope[0] = x.centre_slope[0] = Interval<T>(T(1));
         return x;
     }
-    /// `f` enclosed more narrowly by Taylor's formula of first and second order about the centre.
+    /// Returns `given`, narrowed by Taylor's formula of first and second order about the centre.
     [[gnu::always_inline]] Taylor<T, D> centred(const Taylor<T, D>& given) const {
         Taylor<T, D> f = given;
         auto slope = f.centre_slope;
@@ -145,8 +144,8 @@ template <class T, std::size_t D>
     return s;
 }
 
-/// Sets the derivatives of the tangent t under the load R from its enclosure and its value at the
-/// centre. Returns false if the load may not grow with t.
+/// Sets the derivatives of the tangent t under the load R, from the enclosure of t and its value at
+/// the centre. Returns false if the load may not increase with t.
 template <Real T>
 bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Taylor<T, 1>& R,
             Taylor<T, 1>& t) {
@@ -162,27 +161,24 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
     return !growth.may_vanish();
 }
 
-/// Momentum of the flywheels: of each link over its length, and n sqrt(lambda), n the speed.
+/// Kept momentum of each flywheel over its link's length, and n sqrt(lambda), with n the speed.
 template <class S>
 struct KeptMomentum {
     std::vector<S> spin;
     S pace;
 };
 
-/// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that
-/// tangent and lambda (D = 2). Each link but the lowest has one inclination under its load.
-///
-/// Plain intervals would grow at each link. The offset y and the sum H are therefore stored
-/// relative to those at the cell's centre, in a frame: (y, H) - (y, H at the centre) = u p + v q.
-/// Here p and q are two solutions of the sweep with s = k R, k a number for each link near ds/dR at
-/// the centre. The sweep conserves areas, so that p_y q_H - q_y p_H = 1, and from one link to the
-/// next, exactly,
+/// The upward sweep over a cell of the tangent t of the lowest link (D = 1), or of x = lambda t and
+/// lambda (D = 2). Each link but the lowest has one inclination under its load. With `spins` (and D
+/// = 2) the pull of link m is pull + n spin[m]. Plain intervals would grow at each link. So the
+/// offset y and the sum H are relative to the cell's centre, in a frame: (y, H) - (y, H at the
+/// centre) = u p + v q. Here p and q solve the sweep with s = k R, k near the link's ds/dR at the
+/// centre. The sweep conserves areas, so p_y q_H - q_y p_H = 1. From one link to the next, exactly,
 ///     u -= a R_q N,   v += a R_p N,   N = s - s at the centre - k (R - R at the centre),
 /// with R_p and R_q the loads of p and q. N is small where links respond almost as at the centre.
-/// R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary initial and
-/// boundary value problems", in: Computational Ordinary Differential Equations (1992), uses such
-/// frames. Plain intervals of the slopes are computed too: they are narrower if links turn far
-/// within the cell. `spins` (with D = 2): the pull of link m is pull + n spin[m].
+/// For frames see R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary
+/// initial and boundary value problems", in: Computational Ordinary Differential Equations (1992).
+/// Plain intervals of slopes are computed too: they are narrower if links turn far within the cell.
 template <class T, std::size_t D, bool spins = false>
 class CellSweep {
     using I = Interval<T>;
@@ -219,8 +215,7 @@ class CellSweep {
         else
             return x;
     }
-    /// The pull of a link, `whole`; first and second derivatives of lambda times it by lambda,
-    /// `growing` and `bend`. Over the cell, and at its centre.
+    /// The pull, `whole`; 1st and 2nd derivative by lambda of lambda times it: `growing`, `bend`.
     struct Pull {
         I whole, centre_whole, growing, centre_growing, bend;
     };
@@ -285,8 +280,8 @@ class CellSweep {
             bend = I(T(-3)) * s.half_bend * (is_plummet ? I(T(1)) : stiffness / growth[which]);
         }
         const I &t = tangent[0], &centre_t = tangent[1], k(along[1].middle());
-        // derivatives of the load less those by lambda, at a fixed t, of lambda pull t: then
-        // s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
+        // `load`: derivatives of R less those of lambda pull t by lambda at a fixed t; then
+        //     s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
         CellDerivatives<T, D> load = R, N;
         if constexpr (D == 2) {
             load.slope[1] = load.slope[1] - pull.growing * t;
@@ -328,8 +323,7 @@ class CellSweep {
         }
     }
 
-    /// Makes q orthogonal to p, by subtracting a multiple of p, if they are almost parallel.
-    /// `weight` scales offsets.
+    /// If p and q are almost parallel, makes q orthogonal to p. `weight` scales offsets.
     [[gnu::always_inline]] void spread_frame(const T& weight) {
         const T a = weight * p_.offset.middle(), b = p_.sum.middle();
         const T c = weight * q_.offset.middle(), d = q_.sum.middle();
@@ -362,12 +356,11 @@ class CellSweep {
     I speed_, centre_speed_;  // n
     Side p_{I(T(1)), I(T(0))}, q_{I(T(0)), I(T(1))};
     CellDerivatives<T, D> u_, v_;
-    I offset_, centre_offset_, sum_, centre_sum_;  // of the pin, over the cell and at its centre
+    I offset_, centre_offset_, sum_, centre_sum_;  // at the pin, over the cell and at its centre
     std::array<I, D> offset_slope_, sum_slope_;
 };
 
-/// Distance of the topmost pin from its support over a cell of tangents of the lowest link: 0 for
-/// steady shapes.
+/// Encloses the support's distance from the topmost pin over a cell; it is 0 for steady shapes.
 template <Real T, class End = OnAxis>
 Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height,
                             const Cell<T, 1>& cell, const End& support = {}) {
@@ -376,16 +369,14 @@ Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& he
     return sweep.offset();
 }
 
-/// The sweep over a cell of x = lambda t, t the tangent of the lowest link, and heights lambda; the
-/// offset of the support is 0 for every steady shape. NaN if a link may have several.
+/// Returns the sweep over a cell with D = 2; NaN if a link may have several inclinations.
 template <class T, bool spins = false>
 [[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(
     const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell,
     const KeptMomentum<Interval<Lane<T>>>* kept = nullptr) {
     const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {
-        // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
-        return std::array{value, slope, -(value * slope)};
+        return std::array{value, slope, -(value * slope)};  // x/lambda and its slopes
     };
     Taylor<T, 2> t;
     const auto [value, by_x, by_height] = over(cell.range(0), cell.range(1));

@@ -9,15 +9,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A link at a tau: derivatives of the sine by tau (`slope`) and of the tangent by the sine.
+/// A link at a tau, with derivatives of the sine by tau (`slope`) and of the tangent by the sine.
 struct Inclined {
     double tangent, sine, secant, slope, steepening;
 };
 
 /// The links of a chain or a rig for branches, lowest first. sin(inclination) = tanh tau defines
-/// the tau of a link; a standing link obeys the equations of a hanging one with the opposite pull.
-/// A spring at the support is one more link, its upper end firm at the radius: its stretch over the
-/// total length of the links, `length`, is sinh tau; `pull` is stiffness times `length`.
+/// the tau of a link. A standing link obeys the equations of a hanging one with the opposite pull.
+/// A spring at the support is one more link, fixed at the radius above. Its stretch over `length`,
+/// the total length of the links, is sinh tau; its `pull` is stiffness times `length`.
 template <class S>
 struct BranchLinks {
     std::vector<Link<S>> links;  ///< `pull` without what flywheels add
@@ -25,7 +25,7 @@ struct BranchLinks {
     S pace{0.0};                 ///< n sqrt(lambda), signed
     S radius{0.0};               ///< of the support
     bool spring = false;
-    bool plain = true;  ///< a chain: all pulls are positive, and the support is firm in the axis
+    bool plain = true;  ///< whether all pulls are positive and the support is firm, on the axis
 
     BranchLinks() = default;
     explicit BranchLinks(std::vector<Link<S>> chain) : links(std::move(chain)) {}
@@ -35,7 +35,7 @@ struct BranchLinks {
     bool is_spring(std::size_t m) const { return spring && m + 1 == links.size(); }
     bool is_symmetric() const { return is_zero(radius); }
 
-    /// n at a height; 0 without flywheels.
+    /// Returns n at a height; 0 without flywheels.
     S speed_at(const S& height) const {
         using std::sqrt;
         return spin.empty() ? S(0.0) : S(pace / sqrt(height));
@@ -43,7 +43,7 @@ struct BranchLinks {
     S pull(std::size_t m, const S& n) const {
         return spin.empty() ? links[m].pull : S(links[m].pull + n * spin[m]);
     }
-    /// The derivative of lambda times the pull by log lambda, over lambda.
+    /// Returns the derivative of lambda times the pull by log lambda, over lambda.
     S growing_pull(std::size_t m, const S& n) const { return pull(m, S(n * S(0.5))); }
 
     Inclined inclined(std::size_t m, double tau) const {
@@ -54,7 +54,7 @@ struct BranchLinks {
                      tangent = std::copysign(e * (e + 2) * inverse, tau);
         return {tangent, tangent / secant, secant, 1 / (secant * secant), secant * secant * secant};
     }
-    /// tau of a link with a given distance between its pins across the axis.
+    /// Returns tau of a link with a given distance between its pins across the axis.
     double tau_of_reach(std::size_t m, double reach) const {
         const double share = reach / as_double(links[m].length);
         return is_spring(m) ? std::asinh(share) : std::atanh(share);
@@ -73,8 +73,8 @@ BranchLinks<double> rounded(const BranchLinks<Fine>& from) {
 /// A chain or a rig, with its numbers that do not depend on the speed.
 struct BranchSystem {
     using S = Fine;
-    Links<S> chain;          ///< of a chain
-    std::optional<Rig> rig;  ///< else
+    Links<S> chain;          ///< set for a chain
+    std::optional<Rig> rig;  ///< set for a rig
     BranchLinks<S> links;
     ChainUnits units;
     S bearing{0.0};    ///< the weight on the topmost pin, in the unit of weights
@@ -121,7 +121,7 @@ struct BranchSystem {
     }
 };
 
-/// The links of a rig for `verified`: standing links are hanging links with the opposite pull.
+/// Returns the links of a rig for `verified`: standing links hang with the opposite pull.
 REVCHAIN_LAZY
 EnclosedLinks<Far> folded_links(const RiggedLinks& rig) {
     EnclosedLinks<Far> result = enclosed<Far>(rig.links);

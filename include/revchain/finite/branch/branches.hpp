@@ -42,7 +42,7 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 
 namespace finite {
 
-/// Follows the branch from rest, from a tenth of the first critical or a slower given speed.
+/// Follows the branch from rest: from a tenth of the first critical or of a slower given speed.
 template <class Options>
 Branch from_rest(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
@@ -71,7 +71,7 @@ Branch from_vertical(BranchRoot root, double conical_height, const Options& opti
     vertical.state = {std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)};
     vertical.tangent.log_height = 0, vertical.arc = 0;
     append(result, vertical);
-    result.conical_height.front() = root.height;  // no logarithm's rounding
+    result.conical_height.front() = root.height;  // without the rounding of the logarithm
     if (result.size() >= options.max_points) return result;
     const double steepness =
         onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;

@@ -9,10 +9,9 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// Follows one branch of steady shapes by its arc, through folds.
 ///
 /// A step goes along the tangent and is corrected across it. It is accepted if Newton's method
-/// contracts at once, the direction turns by less than 26 degrees, the state half way, predicted
-/// from both ends, is on the branch too (after a jump to a neighbour it is not), the half waves are
-/// the same (if l <= a for all links) and the chain is not vertical. Otherwise half the step is
-/// tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
+/// contracts at once, the direction turns by less than 26 degrees and the state half way, predicted
+/// from both ends, is on the branch (after a jump to a neighbour it is not). The half waves must be
+/// the same (if l <= a for all links). Otherwise half the step is tried. This is a check, not a proof. Cost: 4 to 7 Newton steps of O(N) for an accepted step.
 class BranchWalk {
    public:
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05, double longest = 0.5)
@@ -22,7 +21,7 @@ class BranchWalk {
           here_(std::move(start)),
           step_(step) {}
 
-    /// A walk whose last step joins two neighbouring points.
+    /// Returns a walk whose last step joins two neighbouring points.
     static BranchWalk between(Corrector& corrector, const BranchPoint& before,
                               const BranchPoint& here) {
         BranchWalk walk(corrector, here);
@@ -51,7 +50,7 @@ class BranchWalk {
         });
     }
 
-    /// The point at distance `reach` of arc from another, in the plane across its direction.
+    /// Returns the point at a distance `reach` of arc in the plane across the direction of `from`.
     std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
         BranchState there = moved(from.state, reach, from.tangent);
         auto next =
@@ -67,7 +66,7 @@ class BranchWalk {
     }
 
    private:
-    /// Whether the middle of the cubic through both ends and their tangents lies on the branch.
+    /// Returns true if the middle of the cubic through both ends and tangents is on the branch.
     bool on_the_way(const BranchPoint& next) const {
         const double reach = next.arc - here_.arc;
         BranchState middle = moved(here_.state, reach / 8, here_.tangent);
@@ -77,7 +76,7 @@ class BranchWalk {
         return size_of(change.correction) <= 0.02 * reach + 1e-9;
     }
 
-    double longest_;  ///< step along the arc
+    double longest_;  ///< longest step along the arc
     Corrector* corrector_;
     BranchPoint before_, here_;
     double step_;

@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Inner product of the arc: mean product of the tau plus the product of log lambda.
+/// Returns the inner product of the arc: mean product of the tau plus product of log lambda.
 REVCHAIN_LAZY
 double inner(const BranchState& x, const BranchState& y) {
     double sum = 0;
@@ -36,19 +36,19 @@ double largest_rise(const BranchState& x) {
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
     return largest;
 }
-/// The size of a correction: its length along the arc, or 1/4 of its largest tau.
+/// Returns the larger of a correction's length along the arc and 1/4 of its largest tau.
 REVCHAIN_LAZY
 double size_of(const BranchState& x) {
     return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4);
 }
 
-/// Linear solver for the balance of a chain together with one condition. The unknowns are changes d
-/// of the links' reaches a sin delta, and h of log lambda:
+/// A linear solver for the balance of a chain together with one condition. The unknowns are changes
+/// d of the links' reaches a sin delta, changes y of the pins' offsets, and h of log lambda:
 ///     T y + h (change of pull along log lambda) = forces,      sum row d + row_height h = left.
 /// T is the tangent stiffness of the elements, lambda sigma sec^3 delta/a + X between pins, less
-/// the masses on the diagonal. Elements are eliminated from the free end up with forces summed from
-/// there; no matrix is assembled, which keeps the digits of the slowest modes of long chains. The
-/// last pin and log lambda are solved together, as T is singular where a branch folds.
+/// the masses on the diagonal. Elements are eliminated from the free end up, with forces summed
+/// from there. No matrix is assembled, which keeps the digits of the slowest modes of long chains.
+/// The last pin and log lambda are solved together, as T is singular where a branch folds.
 class BorderedChain {
    public:
     explicit BorderedChain(std::size_t size)
@@ -59,8 +59,8 @@ class BorderedChain {
           along_height_(size),
           weight_(size) {}
 
-    /// Factors at a shape, from element stiffnesses, masses at lower and upper pins, pull = lambda
-    /// sigma tan delta, and the condition's row and derivative by log lambda.
+    /// Factors the system at a shape, from element stiffnesses, masses at lower and upper pins,
+    /// pull = lambda sigma tan delta, and the condition's row and derivative by log lambda.
     template <class Link>
     void factor(const std::vector<double>& stiffness, const std::vector<Link>& links,
                 const std::vector<double>& pull, const std::vector<double>& row,
@@ -129,7 +129,7 @@ class BorderedChain {
     double corner_ = 0;
 };
 
-/// Newton's method in double on a chain and its height, within a plane across a direction.
+/// Newton's method in double on a chain and its height, in a plane across a direction.
 class Corrector {
    public:
     explicit Corrector(BranchLinks<double> links)
@@ -142,15 +142,15 @@ class Corrector {
         : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
-    /// Whether the number of half waves is constant along a branch: in chains with l <= a for all
-    /// links. There a pin on the axis has its neighbours on opposite sides.
+    /// Returns true if the number of half waves is constant along a branch: in chains with l <= a
+    /// for all links. There a pin on the axis has its neighbours on opposite sides.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
         BranchState correction, tangent;
     };
-    /// One step of Newton's method and the direction of the branch, from the same factors: the
-    /// correction is orthogonal to `across`; the tangent has length 1 and points to the same side.
+    /// Returns one step of Newton's method and the direction of the branch, from the same factors.
+    /// The correction is orthogonal to `across`; the tangent has length 1 and is on its side.
     Change step(const BranchState& at, const BranchState& across) {
         const std::size_t n = links_.size();
         const double height = std::exp(at.log_height), share = 1 / as_double(n);
@@ -170,8 +170,8 @@ class Corrector {
         return change;
     }
 
-    /// The state on the branch in the plane through `start` across a direction. None if the first
-    /// step is longer than `farthest`, or longer than `contraction` times the one before.
+    /// Returns the state on the branch in the plane through `start` across a direction. Returns
+    /// none if a step is longer than `farthest`, or longer than `contraction` times the one before.
     std::optional<BranchPoint> corrected(BranchState start, const BranchState& across,
                                          double farthest, double contraction = 0.3) {
         double last = 0;
@@ -194,7 +194,7 @@ class Corrector {
         return std::nullopt;
     }
 
-    /// One more than the sign changes of the offsets; 0 if rounding leaves a sign undecided.
+    /// Returns 1 + the sign changes of the offsets; 0 if rounding leaves a sign undecided.
     int half_waves(const BranchState& at) const {
         double y = links_.radius, last = 0, reached = std::abs(y);
         int waves = 1;
@@ -209,7 +209,7 @@ class Corrector {
     }
 
    private:
-    /// Residual forces, summed from the free end, and stiffnesses.
+    /// Computes residual forces, summed from the free end, and stiffnesses.
     void balance_at(const BranchState& at, double height) {
         const std::size_t n = links_.size();
         const double speed = links_.speed_at(height);
@@ -226,7 +226,7 @@ class Corrector {
             stiffness_[m] = factor / link.length * here.steepening + link.cross;
             left_[m] = -pull - link.cross * d;
             y += d;
-            // moments of the link's own weight; summed below from the free end
+            // moments of the link's own weight, summed from the free end below
             row_[m] = link.moment * y, reach_[m] = link.rest * upper;
         }
         double sum = 0;

@@ -11,7 +11,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Answers the questions of a diagram about a chain: lists of shapes, modes, limits of the proof.
+/// Computes the data of a chain that a diagram needs: lists of shapes, modes, limits of the proof.
 template <class Means>
 class ChainQuestions {
    public:
@@ -31,20 +31,20 @@ class ChainQuestions {
         return shapes_by(chain_, {.conical_height = height, .budget = options_.budget}, Means{});
     }
     const Links<Fine>& links_at(double) const { return system->chain; }
-    /// Heights of the modes above one, the slowest first.
+    /// Returns the heights of the modes above a height, the slowest mode first.
     std::vector<double> modes_above(double height) const {
         std::vector<double> found;
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
             const double each = detail::one_mode(chain_, mode, false).conical_height;
-            if (each > height) found.push_back(each);  // at its height it has no branch
+            if (each > height) found.push_back(each);  // a mode at `height` has no branch
         }
         return found;
     }
     bool is_known_at(double height) const {
         return count_modes(chain_, {.conical_height = height}) == 0;
     }
-    /// The first mode; above it there is no shape (see steady_shapes).
+    /// Returns the height of the first mode; above it there is no shape (see steady_shapes).
     std::optional<double> known_above() const {
         return detail::one_mode(chain_, 1, false).conical_height;
     }
@@ -93,11 +93,11 @@ class RigQuestions {
             if (mode.conical_height > height) found.push_back(mode.conical_height);
         return found;
     }
-    /// The first mode, if it is proved that at slower speeds there is one shape, or none with the
-    /// support on the axis: all links hang in tension. In the sines s of the inclinations the
-    /// energy in the turning frame, times lambda, has the second derivative lambda diag(pull a
-    /// sec^3) - M (plus the spring's), which is at least that of the straight chain. That matrix is
-    /// positive definite at rest and regular below the first critical speed.
+    /// Returns the height of the first mode if it is proved that slower speeds have one shape, or
+    /// none with the support on the axis. The proof requires that all links hang in tension. In the
+    /// sines s of the inclinations the energy in the turning frame, times lambda, has the second
+    /// derivative lambda diag(pull a sec^3) - M (plus the spring's). It is at least that of the
+    /// straight chain, positive definite at rest and regular below the first critical speed.
     std::optional<double> known_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;
@@ -106,7 +106,7 @@ class RigQuestions {
         return first * (1 + found_[0].error_bound);
     }
     bool is_known_at(double height) const { return known_above().value_or(height) < height; }
-    /// Why the proof of a diagram down to a height does not cover the rig; empty if it does.
+    /// Returns why the proof of a diagram down to a height does not cover the rig; else empty.
     std::string not_provable(double lowest) const {
         if (!known_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
@@ -117,7 +117,7 @@ class RigQuestions {
     }
 
    private:
-    /// Checks the speeds from rest to that of a height; the pulls are linear in the speed.
+    /// Returns true if all links hang in tension up to a height's speed: pulls are linear in speed.
     bool hangs_in_tension(double height) const {
         const Fine fastest = system->links.speed_at(Fine(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
@@ -174,7 +174,7 @@ class Diagram {
             result_.branches.push_back(ask_.followed(mode, lowest));
             check_end(result_.branches.back().end);
         }
-        // from the lowest height up: isolated branches are found where they are largest
+        // go from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
         for (int i = 0; i < lists; ++i)
@@ -202,7 +202,7 @@ class Diagram {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
-    /// The branch through a state, followed on the side of `across` (not orthogonal to it).
+    /// Returns the branch through a state, followed on the side of `across` (not orthogonal to it).
     Branch from_here(const BranchState& at, const BranchState& across, int half_waves) {
         Branch result;
         trace_of(result).system = ask_.system, result.birth = BranchBirth::fold;
@@ -231,7 +231,7 @@ class Diagram {
         at.log_height = std::log(height * unit_);
         return at;
     }
-    /// Checks that every shape at a height is on one branch; follows branches of those on none.
+    /// Checks that every shape at a height is on one branch. Follows the branches of the others.
     void check_list(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
@@ -266,7 +266,7 @@ class Diagram {
         result_.consistent &= crossings == list.shapes.size() && each_once;
     }
 
-    /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
+    /// Proves that no loop is missing between the sampled heights. Adds loops that it finds.
     void prove(const std::optional<double>& known) {
         result_.remark =
             "branches and lists of all shapes do not agree, or a list is not proved complete";
@@ -288,7 +288,7 @@ class Diagram {
         else
             result_.remark += "; revchain::thorough as the last argument asks for a proof";
     }
-    /// Proves that no loop is missing between two heights, and writes what is proved.
+    /// Proves that no loop is missing between two heights, and sets `complete` and `remark`.
     void prove_between(double lowest, double first) {
         DiagramProof proof;
         if (first > lowest) proof = proved_between(lowest, first);
@@ -301,7 +301,7 @@ class Diagram {
             result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) +
                               " and " + detail::in_digits(proof.open_high / unit_);
     }
-    /// Proves both signs of the lowest link's tangent if the support is off the axis.
+    /// Runs the proof; off the axis, for both signs of the lowest link's tangent.
     DiagramProof proved_between(double lowest, double first) {
         DiagramProof whole;
         for (const int side : {1, -1}) {
@@ -329,8 +329,8 @@ class Diagram {
         across.rise.assign(state.rise.size(), 0.0);
         across.rise[0] = std::sqrt(as_double(state.rise.size()));
         Branch found = from_here(state, across, 1);
-        // a branch to the vertical is that of a mode, one to the lowest height is in the list
-        // there, one to slow speeds is the one from rest
+        // A branch that reaches the vertical is that of a mode, one that reaches the lowest height
+        // is in the list there, and one that reaches slow speeds is the one from rest.
         if (found.end == BranchEnd::vertical || found.end == BranchEnd::height ||
             found.end == BranchEnd::slow)
             return true;

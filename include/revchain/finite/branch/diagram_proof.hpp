@@ -17,7 +17,7 @@ struct Rectangle {
     Interval<double> height() const { return {height_low, height_high}; }
 };
 
-/// x of a point of a branch, lambda sinh tau of the lowest link, times `side`; |x| if `side` is 0.
+/// Measures x = lambda sinh tau of the lowest link, times `side`; |x| if `side` is 0.
 struct XMeasure {
     double wanted;
     int side = 0;
@@ -33,7 +33,7 @@ struct XMeasure {
 struct DiagramProof {
     bool complete = true;
     double open_low = 0, open_high = 0;  ///< a loop may be missing between these heights
-    long rectangles = 0;                 ///< examined
+    long rectangles = 0;                 ///< number of rectangles examined
 
     void leave_open(double low, double high) {
         open_low = complete ? low : std::min(open_low, low);
@@ -42,20 +42,20 @@ struct DiagramProof {
     }
 };
 
-/// Proves that every connected piece of the diagram is known: of the zeros of y(x, lambda), the
-/// offset of the support, with x = lambda tan(inclination of the lowest link) > 0. Pieces that
-/// reach the lowest height are left to a list there. For a rig, y is the function of
-/// EnclosedDiagram, and off the axis each sign of x has its own proof.
+/// Proves that every connected piece of the diagram is known. The diagram consists of the zeros of
+/// y(x, lambda), the offset of the support, with x = lambda tan(inclination of the lowest link) >
+/// 0. Pieces that reach the lowest height are found by a list there. For a rig, y is the function
+/// of EnclosedDiagram, and off the axis each sign of x has its own proof.
 ///
 /// Any other piece reaches the vertical (off the axis: rest) or has a highest point, where y = y_x
 /// = 0. Above the highest height there is no shape, or off the axis only the one from rest.
 /// Rectangles of (x, lambda) are split until in each
 ///   y or y_x does not change sign, so that no such point is in it; or
 ///   y_lambda does not change sign in it and beyond it as far as the slope |y_x/y_lambda| can lead
-///   within its width: all zeros in it lie on one graph lambda(x) over its width. If there are any,
-///   one is at the middle; it is on a known branch, or its branch is followed.
-/// Next to x = 0, y = x f(x, lambda), and f, f_x and f_lambda lie within y_x, y_xx times 0 ... 1,
-/// and y_x lambda over 0 ... x (mean value theorem): the graph continues to the vertical.
+///   within its width. Then all zeros in it lie on one graph lambda(x) over its width. If there are
+///   any, one is at the middle; it is on a known branch, or its branch is followed.
+/// Next to x = 0, y = x f(x, lambda). By the mean value theorem f, f_x and f_lambda lie within y_x,
+/// y_xx times 0 ... 1, and y_x lambda over 0 ... x. So the graph continues to the vertical.
 class DiagramProver {
    public:
     DiagramProver(EnclosedDiagram diagram, long budget)
@@ -64,7 +64,7 @@ class DiagramProver {
         : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
     /// Covers heights from the highest to the lowest and x from 0 to `last`. `known(point,
-    /// rectangle)` returns whether a branch through the rectangle is known or found.
+    /// rectangle)` returns true if a branch through the rectangle is known or found.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
         DiagramProof proof;
@@ -95,7 +95,7 @@ class DiagramProver {
    private:
     static constexpr std::size_t batch = 8;
 
-    /// Whether nothing remains to be proved in a part.
+    /// Returns true if nothing remains to be proved in a part.
     template <class Known>
     bool is_decided(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof,
                     Known&& known) {
@@ -108,13 +108,13 @@ class DiagramProver {
             const auto low = diagram_.at(x, graph->height_low);
             const auto high = diagram_.at(x, graph->height_high);
             const int signs = low.sign() * high.sign();
-            if (signs == 1) return true;  // no zero in it
+            if (signs == 1) return true;  // the part has no zero
             if (signs == -1 && known(zero_at(x, *graph, low, high), *graph)) return true;
         }
         return false;
     }
-    /// The function over several rectangles, in lanes of the registers that the compiler flags
-    /// allow: code for AVX2 or AVX-512 chosen at run time, not inlined, took 4 times as long.
+    /// Returns the function over several rectangles, in lanes of the registers that the compiler
+    /// flags allow. Code for AVX2 or AVX-512 chosen at run time, not inlined, took 4 times as long.
     std::array<Taylor<double, 2>, batch> offsets_over(const std::vector<Rectangle>& parts) const {
         const std::size_t count = parts.size();
         if (diagram_.spins()) {
@@ -156,7 +156,7 @@ class DiagramProver {
         return part.low == 0 && diagram_.is_symmetric();
     }
 
-    /// The part extended up and down, if its zeros lie on one graph lambda(x) inside.
+    /// Returns the part extended up and down, if its zeros lie on one graph lambda(x) inside.
     std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y,
                                         DiagramProof& proof) const {
         const bool from_zero = goes_to_vertical(part);
@@ -180,7 +180,7 @@ class DiagramProver {
         return beyond;
     }
 
-    /// The zero of the offset on the line through x, to rounding.
+    /// Returns the zero of the offset on the line through x, to rounding.
     DiagramPoint zero_at(double x, const Rectangle& within, const Interval<double>& at_low,
                          const Interval<double>& at_high) const {
         const auto value = [&](double height) {
@@ -192,7 +192,7 @@ class DiagramProver {
         return {x, zero_between(ends, value)};
     }
 
-    /// Splits across the direction in which y_x varies more; false if a split would show no more.
+    /// Splits across the direction in which y_x varies more. Returns false if a split is useless.
     template <class Wait>
     bool split(const Rectangle& part, const Taylor<double, 2>& y, const Wait& wait) {
         const bool from_zero = goes_to_vertical(part), at_zero = part.low == 0;
@@ -221,13 +221,13 @@ class DiagramProver {
     Cutting<double> cutting_;
 };
 
-/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x) through
-/// `at`: a point of it is in the rectangle, or it crosses the x of `at` there.
+/// Returns true if a branch goes through a rectangle in which all shapes lie on one graph lambda(x)
+/// through `at`: it has a point in the rectangle, or crosses the x of `at` there.
 template <class Branch>
 bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
                   const Rectangle& within, int side = 0) {
     const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
-    const auto inside = [&](const BranchState& state) {  // by more than the error of points
+    const auto inside = [&](const BranchState& state) {  // by a margin above the error of points
         const double height = std::exp(state.log_height),
                      x = height * std::sinh(turned(state.rise[0]));
         constexpr double off = 1e-10;

@@ -15,7 +15,7 @@ struct DiagramPoint {
 
 /// The function of x and lambda whose zeros are the diagram: the distance of the topmost pin from
 /// its support. With a spring of stiffness E and a carriage W it is lambda E (y - b) - H - W y,
-/// finite at any height. Off the axis x has both signs: `side` -1 is the mirror image.
+/// finite at any height. Off the axis x has both signs; `side` -1 is the mirror image.
 class EnclosedDiagram {
    public:
     explicit EnclosedDiagram(EnclosedLinks<double> chain) : links_(std::move(chain)) {}
@@ -37,15 +37,15 @@ class EnclosedDiagram {
     bool is_symmetric() const { return side_ == 0; }
     int side() const { return side_; }
 
-    /// The height at which the spring's stiffness times the height is all the moving weight, so
-    /// that pins may be at any distance; 0 for a firm support.
+    /// Returns the height at which the spring's stiffness times the height equals the whole moving
+    /// weight, so that pins may be at any distance. Returns 0 for a firm support.
     double loosest_height() const {
         if (firm_) return 0;
         Interval<double> moving = carriage_;
         for (const auto& link : links_) moving = moving + link.moment + link.rest;
         return (moving / stiffness_).high;
     }
-    /// An upper bound of x at a height, which must exceed `loosest_height`, and above.
+    /// Returns an upper bound of x at a height and above. The height must exceed `loosest_height`.
     double last(double height) const {
         const Interval<double> lambda(height);
         EnclosedLinks<double> slackest = links_at(lambda);
@@ -73,13 +73,13 @@ class EnclosedDiagram {
         state.log_height = std::log(at.height);
         return state;
     }
-    /// The function and its derivatives over a cell. T: a number or a pack.
+    /// Returns the function and its derivatives over a cell. T is a number or a pack.
     template <class T>
     [[gnu::always_inline]] Taylor<T, 2> over(const Cell<T, 2>& cell) const {
         return ended(swept_cell<T>(links_, cell), cell);
     }
     bool spins() const { return !kept_.spin.empty(); }
-    /// `over` for rigs with flywheels, one cell at a time, not compiled for packs.
+    /// Returns `over` for rigs with flywheels, one cell at a time, not compiled for packs.
     Taylor<double, 2> spinning_over(const Cell<double, 2>& cell) const {
         return ended(swept_cell<double, true>(links_, cell, &kept_), cell);
     }

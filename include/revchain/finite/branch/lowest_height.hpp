@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The conical height at which branches end, given directly or as a speed.
+/// Returns the conical height at which branches end, given directly or as a speed.
 template <class Options>
 double lowest_height(std::string_view place, const Options& options) {
     if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())

@@ -13,10 +13,11 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The branch near the vertical, to leading order in its amplitude A, for a mode phi at height
 /// lambda_k:
-///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
-/// sigma is the effective pull; the lower sum includes its derivative by log lambda and the spring
-/// at a support as one more link. With standing links or links that lean against their loads the
-/// curvature may be negative: the branch then begins towards slower speeds.
+///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a),
+/// where d is the link's difference of phi and sigma the effective pull. The lower sum includes the
+/// derivative of sigma by log lambda and the spring at a support as one more link. With standing
+/// links, or links that lean against their loads, c may be negative: the branch begins towards
+/// slower speeds.
 struct BranchOnset {
     std::vector<double> reach;  ///< a sin delta of each link over A
     double height = 0;          ///< lambda_k
@@ -42,7 +43,7 @@ struct BranchOnset {
         }
         curvature = fourth / (2 * second);
     }
-    /// Whether the branch begins above the height of the mode.
+    /// Returns true if the branch begins above the height of the mode.
     bool rises() const { return curvature < 0; }
     double amplitude_at(double conical_height) const {
         return std::sqrt((height - conical_height) / (conical_height * curvature));
@@ -54,7 +55,7 @@ struct BranchOnset {
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
-    /// The point of a state near the vertical, with tangent and arc to second order.
+    /// Returns the point of a state near the vertical, with tangent and arc to second order.
     BranchPoint point(BranchState state, double amplitude) const {
         BranchPoint result{state, std::move(state), 0, half_waves};
         result.tangent.log_height = -2 * curvature * amplitude * amplitude;
@@ -64,7 +65,7 @@ struct BranchOnset {
     BranchPoint point(const BranchLinks<double>& links, double amplitude) const {
         return point(state(links, amplitude), amplitude);
     }
-    /// A point of the branch with largest inclination about `steepness`, or less if that fails.
+    /// Returns a point of the branch with largest inclination about `steepness`, or less.
     std::optional<BranchPoint> start(Corrector& corrector, double steepness) const {
         for (; steepness > 1e-7; steepness /= 4) {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
@@ -80,8 +81,9 @@ struct BranchOnset {
     }
 };
 
-/// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
-/// mode's height, that is computed in double-double (1e-24 relative) from a state inclined by 1e-6.
+/// Returns the amplitude at a conical height, to leading order; 0 if there is no such state. If the
+/// mode's height is close, it is recomputed in double-double (1e-24 relative) from a state inclined
+/// by 1e-6.
 REVCHAIN_LAZY
 double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double narrow = as_double(height);
@@ -97,8 +99,8 @@ double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const 
     return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
 
-/// The state at a height so close to the mode's that double hardly resolves it: from the law of the
-/// onset, balanced in double-double. None if that fails.
+/// Returns the state at a height so close to the mode's that double hardly resolves it. It comes
+/// from the law of the onset and is balanced in double-double. Returns none if that fails.
 REVCHAIN_LAZY
 std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
                                          const Fine& height) {
@@ -119,12 +121,12 @@ std::optional<BranchPoint> near_vertical(const BranchSystem& system, const Branc
     return onset.point(std::move(state), amplitude);
 }
 
-/// The start of a branch: a mode or, with the support off the axis, rest.
+/// The start of a branch: a mode, or rest if the support is off the axis.
 struct BranchRoot {
     std::shared_ptr<const BranchSystem> system;
     Corrector corrector;
-    std::optional<BranchOnset> onset;  ///< none from rest
-    double height;                     ///< of the mode, or from rest of the first mode
+    std::optional<BranchOnset> onset;  ///< none for the branch from rest
+    double height;                     ///< of the mode; for the branch from rest, of the first mode
 
     template <class Options>
     static BranchRoot of(std::string_view place, const Chain<double>& chain,
@@ -155,7 +157,7 @@ struct BranchRoot {
         const Vector<double> shape = modes.shape(found);
         return from(BranchSystem(rig, gravity, direction), found.conical_height, &shape);
     }
-    /// Conical height of the slowest mode of a rig; its length if it has none.
+    /// Returns the conical height of the slowest mode of a rig; its length if it has none.
     static double first_height(std::string_view place, const Rig& rig, double gravity,
                                Rotation direction) {
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
@@ -163,7 +165,7 @@ struct BranchRoot {
                                  : rig.chain().total_length();
     }
 
-    /// The state of the slowly turning rig, almost straight, at a log of height or above.
+    /// Returns the state of the slowly turning, almost straight rig at a log of height or above.
     std::optional<BranchPoint> at_rest(double log_height) {
         const double unit = std::ldexp(1.0, -system->units.length_exponent);
         log_height = std::max(log_height, std::log(height * unit));

@@ -13,12 +13,12 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// A condition on shape and height, in double-double, solved together with the balance of forces.
 struct Condition {
     virtual ~Condition() = default;
-    /// Given minus actual value at offsets of the pins, and its derivative by log lambda. Fills
-    /// `row` with the derivatives by the reaches a sin delta.
+    /// Returns the given minus the actual value at offsets of the pins, and its derivative by log
+    /// lambda. Fills `row` with the derivatives by the reaches a sin delta.
     virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links,
                                          const std::vector<Fine>& offset, const Fine& height,
                                          std::vector<double>& row) const = 0;
-    /// The change of the condition for a relative change 1 of the given number; 0 without one.
+    /// Returns the condition's change for a relative change 1 of the given number; 0 without one.
     virtual double size(const Fine& height) const = 0;
     virtual bool gives_height() const { return false; }
 };
@@ -35,8 +35,8 @@ struct GivenHeight : Condition {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too, with the
-/// link's sign.
+/// The condition sin(inclination of the lowest link - wanted) = 0, where `wanted` has the link's
+/// sign. It is accurate near the horizontal too.
 struct GivenTipInclination : Condition {
     Fine sine, cosine;
     double angle;
@@ -55,7 +55,7 @@ struct GivenTipInclination : Condition {
     double size(const Fine&) const override { return angle; }
 };
 
-/// The free end's distance from the axis, on its current side.
+/// The condition that gives the free end's distance from the axis, on its current side.
 struct GivenTipRadius : Condition {
     Fine wanted;
     explicit GivenTipRadius(Fine radius) : wanted(std::move(radius)) {}
@@ -67,10 +67,11 @@ struct GivenTipRadius : Condition {
     double size(const Fine&) const override { return as_double(wanted); }
 };
 
-/// The reaction at the topmost pin: |sum of weights times offsets| = lambda sqrt(T^2 - W^2).
+/// The condition on the topmost pin's reaction: |sum of weights times offsets| = lambda sqrt(T^2 -
+/// W^2).
 struct GivenTopTension : Condition {
     Fine across;   ///< the sideways part of T, positive
-    double share;  ///< its relative change for one of T
+    double share;  ///< relative change of `across` per relative change of T
     GivenTopTension(Fine sideways, double sensitivity)
         : across(std::move(sideways)), share(sensitivity) {}
     std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
@@ -92,7 +93,7 @@ struct GivenTopTension : Condition {
     }
 };
 
-/// The plane across the branch at one of its points: fixes the point along the arc, even at folds.
+/// The plane across the branch at one of its points: it fixes the point on the arc, even at folds.
 struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
@@ -123,8 +124,8 @@ struct Polished {
     double condition = 0;
 };
 
-/// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
-/// condition's change for that of the number, `growth` 1/(a cos^2) of links.
+/// Returns `Polished::condition`, from the factors at a shape and the sizes of forces. `given` is
+/// the condition's change for that of the number, `growth` is 1/(a cos^2) of links.
 REVCHAIN_LAZY
 double condition_of(const BranchLinks<Fine>& links, BorderedChain& border,
                     const std::vector<double>& size, const std::vector<double>& growth,
@@ -149,12 +150,12 @@ double condition_of(const BranchLinks<Fine>& links, BorderedChain& border,
     return worst;
 }
 
-/// Offsets of the pins of a state; the firm end of the support is last.
+/// Returns the offsets of the pins of a state; the firm end of the support is last.
 REVCHAIN_LAZY
 std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
     std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
-    for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
+    for (std::size_t m = links.size(); m-- > 0;) {  // from a - a sin, accurate near the horizontal
         const double tau = state.rise[m];
         const Fine &a = links.links[m].length,
                    d = a * (Fine(1) - Fine(2) / (Fine(1) + Fine(std::exp(2 * std::abs(tau)))));
@@ -166,7 +167,8 @@ std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& 
     return y;
 }
 
-/// Newton's method on all pins and the height, as `balance`, with one condition. Cost O(N) a step.
+/// Returns the result of Newton's method on all pins and the height with one condition, as in
+/// `balance`. Each step costs O(N).
 REVCHAIN_LAZY
 Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
                   const Condition& condition) {
@@ -212,11 +214,11 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
         if (result.shape.converged) break;  // the factors are now those of the result
         const double log_change = border.solve(left, as_double(open), reach);
         // Changes are relative to a link's own inclination and to the steepest one. The start was
-        // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
-        // It does no harm.
+        // summed in double. The offset of an almost vertical link may thus be rounding alone, for
+        // example 1e-18 instead of 1e-40. This is harmless.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of an accidentally vertical link, only what double-double offsets resolve
+            // a link that happens to be vertical counts with what double-double offsets resolve
             const double lower = std::abs(as_double(y[m])), upper = std::abs(as_double(y[m + 1])),
                          there = std::abs(as_double(y[m] - y[m + 1])) * growth[m],
                          told =
@@ -242,7 +244,7 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
     return result;
 }
 
-/// A shape found at a height by Newton's method, `verified` at heights in `within`.
+/// Returns a shape found at a height by Newton's method, `verified` at the heights `within`.
 REVCHAIN_LAZY
 SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
                            Balanced<Fine> found, bool height_is_given) {
@@ -256,9 +258,10 @@ SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const
                           height_is_given);
 }
 
-/// The shape near a point of a branch that satisfies a condition. At a given height its bound is
-/// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
-/// the condition number; where nothing is proved, as at a fold, it is that alone.
+/// Returns the shape near a point of a branch that satisfies a condition. At a given height its
+/// bound is that of `verified`. If the height is found, the bound adds the residual of Newton's
+/// method times the condition number. If nothing is proved, as at a fold, the bound is this
+/// product.
 REVCHAIN_LAZY
 std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
                                     const Condition& condition) {

@@ -31,7 +31,7 @@ class BranchSearch {
         constexpr double small = 0.02;
         double from = 0.1;
         const bool beside = amplitude_ > 0 || !onset.rises();  // where the branch begins
-        if (beside && amplitude_ * onset.steepest < small) {   // the onset's law is good to 1e-3
+        if (beside && amplitude_ * onset.steepest < small) {   // the law has errors of 1e-3
             const BranchState near = onset.state(root_.corrector.links(), amplitude_);
             if (auto shape = close(near, amplitude_ * onset.steepest)) {
                 result.shapes.push_back(std::move(*shape));
@@ -103,11 +103,12 @@ class BranchSearch {
         result.searched_to = std::ldexp(height, root_.system->units.length_exponent);
         return std::move(result);
     }
-    /// The state that satisfies the condition, with links at most `farthest` (rad) from `near`.
+    /// Returns the state that satisfies the condition; none if a link differs by more than 0.3
+    /// `farthest` (rad) from `near`.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
         const auto& links = root_.corrector.links();
         auto shape = shape_at(*root_.system, near, condition_);
-        // near the vertical the height is rounded to that of the mode, itself rounded
+        // near the vertical the height is rounded to that of the mode, which is itself rounded
         if (!shape) return shape;
         const bool in_reach = shape->conical_height <= root_.height * (1 + 0x1p-50);
         if (links.plain && !in_reach) return std::nullopt;
@@ -135,7 +136,7 @@ class BranchSearch {
     double amplitude_;
 };
 
-/// The amplitude, to leading order, at which a number proportional to it has the wanted value.
+/// Returns the amplitude, to leading order, at which a number proportional to it is `wanted`.
 template <class Measure>
 double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     if (!root.onset) return 0;
@@ -144,7 +145,7 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-/// The largest possible distance of the free end from the axis.
+/// Returns the largest possible distance of the free end from the axis.
 REVCHAIN_LAZY
 double reach_of(const Chain<double>& chain) { return chain.total_length(); }
 REVCHAIN_LAZY
@@ -167,7 +168,7 @@ Fine height_given(std::string_view place, const Options& given) {
     return height;
 }
 
-/// The states on a branch with a given number other than the height.
+/// Returns the states on a branch with a given number other than the height.
 template <class Search, class System, class Options>
 auto search_by_number(std::string_view place, const System& system, const BranchRoot& root,
                       const Options& given, const Search& search) {
@@ -220,7 +221,7 @@ auto search_by_number(std::string_view place, const System& system, const Branch
     return search(measure, GivenTopTension(pull, share), amplitude_of(root, measure, narrow));
 }
 
-/// The states on a branch with the given number.
+/// Returns the states on a branch with the given number.
 template <class Found, class System, class Options>
 Found search_branch(const System& system, const Options& given, std::size_t max_shapes) {
     using detail::in_digits, detail::require_positive, detail::throw_invalid;

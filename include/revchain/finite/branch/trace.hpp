@@ -41,13 +41,13 @@ void append(Branch& branch, const BranchPoint& point) {
     trace_of(branch).points.push_back(point);
 }
 
-/// Whether a point lies beyond a neighbouring one in the direction of the branch.
+/// Returns true if a point lies beyond a neighbouring one in the direction of the branch.
 REVCHAIN_LAZY
 bool is_past(const BranchPoint& here, const BranchPoint& there) {
     return inner(moved(here.state, -1, there.state), here.tangent) > 0;
 }
 
-/// Whether a step passes the start of a loop in the same direction.
+/// Returns true if a step passes the start of a loop in the same direction.
 REVCHAIN_LAZY
 bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
     const double reach = here.arc - before.arc;
@@ -57,7 +57,7 @@ bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPo
            is_past(here, start);
 }
 
-/// Whether a step goes through the straight chain to the mirror image.
+/// Returns true if a step goes through the straight chain to the mirror image.
 REVCHAIN_LAZY
 bool crosses_vertical(const BranchPoint& before, const BranchPoint& here) {
     double sum = 0;
@@ -66,7 +66,7 @@ bool crosses_vertical(const BranchPoint& before, const BranchPoint& here) {
     return sum < 0;
 }
 
-/// Whether flywheels cancel all but 1e-5 of the tension of a link.
+/// Returns true if flywheels cancel all but 1e-5 of the tension of a link.
 REVCHAIN_LAZY
 bool is_slack(const BranchLinks<double>& links, double log_height) {
     const double speed = links.speed_at(std::exp(log_height));
@@ -75,13 +75,14 @@ bool is_slack(const BranchLinks<double>& links, double log_height) {
     return false;
 }
 
-/// Whether the spring at the support is stretched by more than a thousand lengths.
+/// Returns true if the spring at the support is stretched by more than a thousand lengths.
 template <class S>
 bool is_loose(const BranchLinks<S>& links, const BranchState& at) {
     return links.spring && std::abs(at.rise.back()) > 7.6;  // arsinh 1000
 }
 
-/// Follows a branch until it comes down to `log_end` or up to `log_top`, if finite. Inserts folds.
+/// Follows a branch until it comes down to `log_end` or, if finite, up to `log_top`. Adds points at
+/// folds. Returns why it ended.
 template <class Branch>
 auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points,
             double log_top = std::numeric_limits<double>::infinity()) {
@@ -122,8 +123,8 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     return End::budget;
 }
 
-/// The states of a branch at one height, in the order of the arc. Between the vertical and the next
-/// point, where the height hardly changes, they come from the law of the onset.
+/// Returns the states of a branch at one height, in the order of the arc. Between the vertical and
+/// the next point, where the height hardly changes, they come from the law of the onset.
 template <class Branch>
 std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector,
                                    double conical_height) {

@@ -8,14 +8,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Moment of inertia and potential energy of a path, integrated by parts with the axis at the
-/// support:
+/// The moment of inertia and potential energy of a path, integrated by parts. At the support the
+/// path is on the axis:
 ///     sum of weight eta^2 = integral of u^2/T,   sum of weight height = - integral of V^2/T.
 class PathEnergies {
    public:
     explicit PathEnergies(const PathKind& kind, double tip_offset) : kind_(kind) {
         if (kind.density == nullptr) return;
-        // below the start of the path the inclination is that of the free end
+        // below the start of the path the inclination equals that of the free end
         const double s = Path::first_arc(kind), below = kind.weight_below(s);
         const double moment = kind.density->first_moment(s * kind.unit),
                      cosine = 1 / std::hypot(1.0, tip_offset);
@@ -46,8 +46,8 @@ class PathEnergies {
     double inertia_ = 0, potential_ = 0;
 };
 
-/// A point of the plane of branches of a cord: tau, with sinh(tau) the tangent of the inclination
-/// of the free end, and the logarithm of the conical height.
+/// A point in the plane of branches of a cord. `bend` is tau, where sinh(tau) is the tangent of the
+/// inclination of the free end. The other coordinate is the logarithm of the conical height.
 struct BranchPlace {
     double bend = 0, log_height = 0;
 };
@@ -83,8 +83,8 @@ class BranchLine {
     int crossing() const { return crossing_; }
     PathKind kind(double log_height) const { return kind_of(chain_, std::exp(log_height), 1); }
 
-    /// The point of the line near `from`, across `direction`, with its direction on the same side;
-    /// none if Newton's method does not converge at once.
+    /// Returns the point of the line near `from`, searched across `direction`, with its direction
+    /// on the same side. Returns none if Newton's method does not converge at once.
     std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction,
                                  double reach) const {
         BranchPlace at = from;
@@ -113,8 +113,9 @@ class BranchLine {
         }
         return found;
     }
-    /// f and its slopes. The slope by height is 1 for a uniform cord without a tip, else a
-    /// difference of two paths, accurate to 1e-7; only directions and steps use it.
+    /// Returns f and its slopes. The slope by log(height) is 1 for a uniform cord without a tip
+    /// weight. Else it is a difference of two paths, accurate to 1e-7; only directions and steps
+    /// use it.
     std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at,
                                                            bool fine = true) const {
         const double tolerance = fine ? PathSeries::rounding : 1e-13;
@@ -141,7 +142,7 @@ class BranchLine {
         return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
                          BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
     }
-    /// The point between two at which `value` of a point, with different signs at both, is 0.
+    /// Returns the point between a and b, where `value` has different signs, at which it is 0.
     template <class F>
     std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
         const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
@@ -166,7 +167,7 @@ class BranchLine {
 };
 
 /// Follows a line: predictor along the direction, corrector across it. Accepts a step if Newton's
-/// method contracts, the direction turns by less than 0.2 and the correction is below step/3.
+/// method contracts, the direction turns by at most 0.2 and the correction is at most step/3.
 class BranchLineWalk {
    public:
     BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double longest)

@@ -7,12 +7,12 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A branch of steady shapes of a cord, point by point along its arc s, in the units of the cord:
+/// A branch of steady shapes of a cord, point by point along its arc s, in the units of the cord.
 /// ds^2 = dtau^2 + d(log conical height)^2, where tan(inclination of the free end) = sinh(tau).
 struct CordBranch {
-    Index mode = 0;  ///< the mode at which it leaves the vertical; 0 for an isolated branch
-    /// For each point. `tip_inclination`: of the free end, rad; `tip_radius`: its offset;
-    /// `top_tension`: at the support; the others as in `Branch`.
+    Index mode = 0;  ///< mode at which the branch leaves the vertical; 0 if isolated
+    /// Numbers of each point: `tip_inclination` of the free end (rad), `tip_radius` its offset,
+    /// `top_tension` at the support; the others as in `Branch`.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
         moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< constant along a branch
@@ -24,10 +24,10 @@ struct CordBranch {
                          double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
-    /// The shape at a point. Throws InvalidArgument for the straight cord (point 0 on the branch of
-    /// a mode), an index past the end, and a shape that could not be followed.
+    /// Returns the shape at a point. Throws InvalidArgument for the straight cord (point 0 on the
+    /// branch of a mode), an index past the end, and a shape that could not be followed.
     CordShape shape(std::size_t point) const;
-    /// The shapes of the branch at a conical height, in the order of the arc. Throws
+    /// Returns the shapes of the branch at a conical height, in the order of the arc. Throws
     /// InvalidArgument for a height that is not positive and finite.
     std::vector<CordShape> shapes_at(double conical_height) const;
 
@@ -37,15 +37,15 @@ struct CordBranch {
 };
 
 namespace finite {
-/// The shape of a cord at a conical height with its free end near an offset, at a fold or not.
-/// Throws InvalidArgument if it could not be followed.
+/// Returns the shape of a cord at a conical height whose free end is near an offset, at a fold or
+/// not. Throws InvalidArgument if it could not be followed.
 CordShape shape_near(const Cord& cord, double conical_height, int half_waves, double tip_offset,
                      bool at_fold);
 }  // namespace finite
 
-/// All branches found above a conical height. `complete` if a theorem counts the shapes (see
-/// `steady_shapes` of a cord). Else `consistent`: at each height in `looked_at` each scanned shape
-/// is on one.
+/// All branches found above a conical height. `complete` is true if a theorem counts the shapes
+/// (see `steady_shapes` of a cord). Otherwise `consistent` is true if each scanned shape at each
+/// height in `looked_at` is on one branch.
 struct CordBranches {
     std::vector<CordBranch>
         branches;               ///< of the modes, slowest first, then isolated ones, highest first
@@ -57,8 +57,8 @@ struct CordBranches {
 
 namespace finite {
 
-/// The shape at a point of a line; none if no path could be followed that far. At a fold the error
-/// is that of its position.
+/// Returns the shape at a point of a line; none if no path could be followed that far. At a fold
+/// the error bound is that of the fold's position.
 REVCHAIN_LAZY
 std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point,
                                   bool at_fold = false) {
@@ -79,7 +79,7 @@ std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Poin
     return shape;
 }
 
-/// Adds the straight cord where the branch of a mode begins.
+/// Adds the straight cord, with which the branch of a mode begins.
 REVCHAIN_LAZY
 void append_vertical(CordBranch& branch, double height) {
     const ContinuousChain& chain = branch.line->chain();
@@ -97,7 +97,7 @@ void append_vertical(CordBranch& branch, double height) {
     branch.points.push_back({{0, std::log(height)}, {1, 0}});
 }
 
-/// Adds a point of the line; false if its path could not be followed.
+/// Adds a point of the line. Returns false if its path could not be followed.
 REVCHAIN_LAZY
 bool append(CordBranch& branch, const BranchLine::Point& point) {
     const BranchLine& line = *branch.line;
@@ -126,7 +126,8 @@ bool append(CordBranch& branch, const BranchLine::Point& point) {
     return true;
 }
 
-/// Follows a line from a point until it ends or `stop(last, now)` gives a reason. Folds are points.
+/// Follows a line from a point until it ends or `stop(last, now)` returns a reason. Returns the
+/// reason. Folds become points of the branch.
 template <class Stop>
 BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest,
                  std::size_t most, const Stop& stop) {
@@ -138,7 +139,7 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
             return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical
                                                                   : BranchEnd::stuck;
         BranchLine::Point now = walk.at();
-        if (last.rate * now.rate < 0) {  // not at the vertical, where the rate is 0
+        if (last.rate * now.rate < 0) {  // at the vertical the rate is 0
             const auto fold = line.between(last, now, [](const auto& point) { return point.rate; });
             if (fold) {
                 BranchLine::Point turn = *fold;
@@ -158,7 +159,7 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
     return BranchEnd::budget;
 }
 
-/// Stops where a line first comes down to a height.
+/// Returns a `stop` for `follow`, which ends where a line first comes down to a height.
 REVCHAIN_LAZY
 auto down_to(const BranchLine& line, double log_end) {
     return [&line, log_end](const BranchLine::Point& last,
@@ -172,7 +173,7 @@ auto down_to(const BranchLine& line, double log_end) {
     };
 }
 
-/// The branch of a mode of given height, down to another height.
+/// Returns the branch of a mode of height `critical`, down to another height.
 REVCHAIN_LAZY
 CordBranch branch_of_mode(const Cord& cord, double critical, double height,
                           const BranchOptions& options) {
@@ -187,7 +188,7 @@ CordBranch branch_of_mode(const Cord& cord, double critical, double height,
     return result;
 }
 
-/// Adds the point between two neighbouring points at which `value` of a point is 0, if any.
+/// Adds the point, if any, between two neighbouring points at which `value` of a point is 0.
 template <class F>
 void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line,
                  const BranchLine::Point& last, const BranchLine::Point& now, const F& value) {

@@ -13,33 +13,33 @@ namespace revchain::inline REVCHAIN_BUILD {
 struct CordPlace {
     double arc_length;   ///< from the free end
     double offset;       ///< from the axis
-    double height;       ///< above the support; negative if it hangs
+    double height;       ///< above the support; negative where the cord hangs below
     double inclination;  ///< to the vertical, rad; positive where the cord rises towards the axis
     double tension;
 };
 
-/// A steady shape of a whirling cord. Eight points a step: dense where it turns sharply.
+/// A steady shape of a whirling cord, with eight points a step: dense where it turns sharply.
 struct CordShape {
     Vector<double> arc_length;   ///< (n) from the free end, 0 ... length
     Vector<double> offset;       ///< (n) from the axis; 0 at the support, the last point
     Vector<double> height;       ///< (n) above the support
     Vector<double> inclination;  ///< (n) to the vertical, rad
     Vector<double> tension;      ///< (n)
-    int half_waves = 1;          ///< crossings of the axis, the support among them
+    int half_waves = 1;          ///< number of crossings of the axis, with the support
     double length = 0;
-    double conical_height = 0;  ///< of the speed
+    double conical_height = 0;  ///< lambda = g/speed^2
     double residual = 0;        ///< of the first integral at the support, over the largest tension
     double error_bound = 0;     ///< of inclinations (rad), and of offsets and heights over length
     double condition = 0;  ///< largest change of an inclination per relative change of the length
 
-    /// The point at an arc length from the free end. Cost: 1 microsecond. Throws InvalidArgument
-    /// outside 0 ... length.
+    /// Returns the point at an arc length from the free end. Cost: 1 microsecond. Throws
+    /// InvalidArgument outside 0 ... length.
     CordPlace operator()(double arc) const;
     double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
 
-    // For `operator()`: scaled steps of the path, and the density to which `kind` points.
+    // Data of `operator()`: scaled steps of the path, and the density to which `kind` points.
     std::shared_ptr<const LineDensity> density;
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;
@@ -56,7 +56,7 @@ CordPlace place_of(const CordShape& shape, const PathState& x) {
             inclination, std::hypot(x.pull, below) * lambda * shape.kind.line_weight};
 }
 
-/// The state of a path at an arc length, from its steps.
+/// Returns the state of a path at an arc length, from its steps.
 REVCHAIN_LAZY
 PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset,
                    double arc) {
@@ -71,7 +71,7 @@ PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, d
     return series.state(time_at(series, arc, 1.05 * step.duration));  // a moved step may end later
 }
 
-/// Collects points, residual, error and condition of a path as it is followed to the support.
+/// Collects points, residual, error and condition of a path while it is followed to the support.
 class ShapeSamples {
    public:
     static constexpr int per_step = 8;
@@ -92,8 +92,8 @@ class ShapeSamples {
         }
     }
 
-    /// The shape: the path, moved to first order by the miss of its last crossing. At a fold the
-    /// crossing does not depend on the free end, and the path is not moved.
+    /// Returns the shape: the path, moved to first order so that its last crossing is at the
+    /// support. At a fold the crossing does not depend on the free end, and the path is not moved.
     CordShape finish(const Path& path, int half_waves, double length, double conical_height,
                      bool at_fold = false) {
         const Path::Crossing& support = path.crossings().back();
@@ -165,7 +165,7 @@ class ShapeSamples {
         x.arc += change.arc * by, x.offset += change.offset * by;
         x.pull += change.pull * by, x.height += change.height * by;
     }
-    /// Adds the support. It stays on the axis as the path moves, after time -offset change/u.
+    /// Adds the support. As the path moves, it stays on the axis, later by -offset change/u.
     void add_support() {
         PathState x = last_.state(last_duration_);
         PathChange change = last_.change(last_duration_);
@@ -175,14 +175,14 @@ class ShapeSamples {
         x.offset = 0;
         samples_.push_back({x, change});
     }
-    /// Drops a step beyond the support, where a piece of the density ends there but for rounding.
+    /// Drops a step beyond the support. A piece of the density may end there, except for rounding.
     void drop_repeated() {
         const double last = samples_.back().place.arc * close;
         auto from = samples_.end() - 1;
         while (from - samples_.begin() > 1 && (from - 1)->place.arc >= last) --from;
         samples_.erase(from, samples_.end() - 1);
     }
-    /// T - tip - xi + (eta^2 - eta_0^2)/2 at the support, over the largest tension.
+    /// Returns |T - tip - xi + (eta^2 - eta_0^2)/2| at the support, over the largest tension.
     double first_integral() const {
         const PathState& end = samples_.back().place;
         const double tension = kind_.tension(end.pull, kind_.weight_below(end.arc));
@@ -190,7 +190,7 @@ class ShapeSamples {
             kind_.tip * std::hypot(1.0, tip_offset_) + end.height + 0.5 * tip_offset_ * tip_offset_;
         return std::abs(tension - sum) / std::max(tension, sum);
     }
-    /// Error and condition, from derivatives of inclinations and offsets.
+    /// Sets error bound and condition, from derivatives of inclinations and offsets.
     void judge(CordShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
         for (const auto& [x, change] : samples_) {
@@ -201,7 +201,7 @@ class ShapeSamples {
                 moved = std::max(moved, 1.0);
                 continue;
             }
-            // at fixed arc
+            // derivatives at fixed arc
             const double density = kind_.density_at(x.arc);
             turned = std::max(
                 turned, std::abs(change.pull + density * x.offset * change.arc) * below / squared);
@@ -210,8 +210,8 @@ class ShapeSamples {
             steepest = std::max(steepest, density * std::abs(x.offset * below + x.pull) / squared);
         }
         shape.condition = turned * length / rate;
-        // Points and length are rounded once or twice, and a density loses accuracy as polynomials:
-        // calibrated in tests/cpp/finite/cord/continuous_chain.cpp, where errors reach 0.6 of this.
+        // Points and length are rounded once or twice; polynomials approximate a density.
+        // Calibrated in tests/cpp/finite/cord/continuous_chain.cpp: errors reach 0.6 of this.
         double data = epsilon<double>();
         if (kind_.density != nullptr)
             data = std::max(4 * data, 2 * kind_.density->error(std::min(1.0, length) * kind_.unit));

@@ -9,7 +9,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 template <class Options>
 class CordDiagram {
    public:
-    /// `critical`: the heights of the modes above `lowest`, descending.
+    /// `critical` holds the heights of the modes above `lowest`, descending.
     CordDiagram(const Cord& cord, const Vector<double>& critical, double lowest,
                 const Options& options)
         : cord_(cord), critical_(critical), log_end_(std::log(lowest)), options_(options) {
@@ -68,7 +68,7 @@ class CordDiagram {
             if (met[i] != 1) result_.consistent = false;
         }
     }
-    /// Shapes of a branch that the scan missed do not count.
+    /// Counts in `met` how often a branch meets each listed shape, without shapes not in the list.
     void count_met(const CordShapes& list, const CordBranch& branch, double height,
                    std::vector<int>& met) const {
         for (const CordShape& shape : branch.shapes_at(height))
@@ -78,7 +78,7 @@ class CordDiagram {
                     ++met[i];
     }
 
-    /// The isolated branch through a shape: closed, or from the lowest height to its other end.
+    /// Returns the isolated branch through a shape: closed, or from the lowest height to its end.
     CordBranch through(const CordShape& shape) const {
         CordBranch result;
         auto line = std::make_shared<const BranchLine>(cord_, shape.half_waves);
@@ -91,7 +91,7 @@ class CordDiagram {
         away.line = line;
         const bool at_end = start->at.log_height <= log_end_ + 1e-12;
         if (at_end) start->at.log_height = log_end_;
-        // from the lowest height it goes up
+        // a branch that starts at the lowest height goes up
         if (at_end && start->direction.log_height < 0) start->direction = -1.0 * start->direction;
         if (!at_end && append(away, *start)) {
             away.end = follow(away, *start, options_.max_step, options_.max_points,

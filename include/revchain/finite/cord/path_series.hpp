@@ -12,11 +12,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of a path, lengths over the conical height lambda: sigma the distance from the free end,
-/// eta the offset from the axis, xi the height above the free end, u the pull across the axis over
-/// the weight of a length lambda,
+/// A state of a path, with lengths over the conical height lambda. sigma is the distance from the
+/// free end, eta the offset from the axis and xi the height above the free end. u is the pull
+/// across the axis over the weight of a length lambda:
 ///     u' = -rho eta,   V' = rho,   eta' = u/T,   xi' = V/T,   T = sqrt(u^2 + V^2)   (' by sigma),
-/// V the weight below and rho the line density. Going up, -u/V is the tangent of the inclination.
+/// V is the weight below, rho the line density. Going up, -u/V is the tangent of the inclination.
 struct PathState {
     double arc = 0, offset = 1, pull = 0, height = 0;
 };
@@ -42,15 +42,14 @@ struct PathKind {
     double tension(double pull, double below) const {
         return bend == 0 ? below : std::hypot(pull, below);
     }
-    /// Whether the free end, where T = 0, needs a series of its own: `TipSeries`.
+    /// Returns true if the free end, where T = 0, needs a series of its own: `TipSeries`.
     bool is_bare() const { return density == nullptr && tip == 0; }
 };
 
-/// The power series of a path about one of its points, in a time t that makes the equations
-/// polynomials:
+/// The power series of a path about one of its points, in a time t: the equations are polynomials,
 ///     dsigma = T dt:  eta' = u,  u' = -rho T eta,  V' = rho T,  xi' = V,  T' = rho (V - u eta).
-/// For the uniform chain the last has the integral T = C + xi - eta^2/2. At a sharp turn T goes
-/// like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
+/// For the uniform chain the last equation has the integral T = C + xi - eta^2/2. At a sharp turn T
+/// is like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
@@ -60,7 +59,7 @@ class PathSeries {
     PathSeries() = default;
     PathSeries(const PathKind& kind, const PathState& state) { start(kind, state); }
 
-    /// With `change`, also the series of the derivatives.
+    /// Computes the series about `state`; with `change`, also the series of the derivatives.
     void start(const PathKind& kind, const PathState& state, const PathChange* change = nullptr) {
         set(state, kind.weight_below(state.arc), change);
         tension[0] = kind.tension(state.pull, below[0]);
@@ -71,7 +70,7 @@ class PathSeries {
         else
             uniform<true>({kind.bend});
     }
-    /// The uniform chain with other constants, a given weight below and its change.
+    /// Constants of a uniform chain; `start` takes them with the weight below and its change.
     struct Constants {
         double bend = 1, weight = 1;  ///< V' = weight T,  T' = weight V - bend u eta
         double weight_change = 0;     ///< derivative of `weight`
@@ -83,7 +82,7 @@ class PathSeries {
         uniform<false>(constants);
     }
 
-    /// The longest time for which the first omitted terms stay below `tolerance`.
+    /// Returns the longest time for which the last terms stay below `tolerance`.
     double reach(double tolerance) const {
         const double size =
             std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
@@ -92,7 +91,7 @@ class PathSeries {
                                             std::abs(tension[k]) / tension[0]);
                         }));
     }
-    /// The reach if `largest(k)` is the size of the coefficients k.
+    /// Returns the reach if `largest(k)` is the size of the coefficients k.
     template <class Largest>
     static double reach(double tolerance, const Largest& largest) {
         const auto of = [&](std::size_t k) {
@@ -106,13 +105,13 @@ class PathSeries {
         for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
         return sum;
     }
-    /// The state at a time, the tension by its own series, and a bound of the Prüfer angle:
+    /// The state at a time, the tension by its own series, and a bound on the Prüfer angle:
     /// dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
         double tension, max_phase;
     };
-    Reached reached(double t) const {  // all sums at once, since each waits for itself
+    Reached reached(double t) const {  // one loop: the steps of a single sum wait for each other
         const Coefficients& pulled = is_dense_ ? mass : tension;
         Reached x{{arc[order], offset[order], pull[order], height[order]},
                   tension[order],
@@ -156,8 +155,7 @@ class PathSeries {
         arc_change[0] = change->arc, offset_change[0] = change->offset;
         pull_change[0] = change->pull, height_change[0] = change->height;
     }
-    /// Unit weight is known at compile time: fewer products in a row save 5 %
-    /// (bench/continuous.cpp).
+    /// With the unit weight known at compile time, fewer products save 5 % (bench/continuous.cpp).
     template <bool unit_weight>
     void uniform(const Constants& constants) {
         if (has_change_)
@@ -166,7 +164,7 @@ class PathSeries {
             uniform<unit_weight, false>(constants);
     }
 
-    /// Coefficient n of a product.
+    /// Returns coefficient n of a product; `square` returns that of a square.
     static double product(const double* a, const double* b, int n) {
         double even = 0, odd = 0;
         int i = 0;
@@ -176,7 +174,6 @@ class PathSeries {
     static double product(const Coefficients& a, const Coefficients& b, int n) {
         return product(a.data(), b.data(), n);
     }
-    /// Coefficient n of a square.
     static double square(const Coefficients& a, int n) {
         double sum = 0;
         const auto last = static_cast<std::size_t>(n);
@@ -184,8 +181,8 @@ class PathSeries {
         return 2 * sum + (n % 2 == 0 ? a[last / 2] * a[last / 2] : 0.0);
     }
 
-    /// Each new coefficient is added at once to the later sums it belongs to: loops without sums
-    /// across, which compilers vectorise. Unknown coefficients are 0, so no pair counts twice.
+    /// Adds each new coefficient at once to the later sums that contain it: compilers vectorise
+    /// loops without sums across lanes. Unknown coefficients are 0, so no pair counts twice.
     template <bool unit_weight, bool change>
     void uniform(const Constants& constants) {
         const double bend = constants.bend, weight = unit_weight ? 1.0 : constants.weight;
@@ -253,7 +250,7 @@ class PathSeries {
         }
     }
 
-    /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of
+    /// Sets the series for a density: rho(sigma(t)) by Horner's rule on series, one coefficient of
     /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
@@ -264,7 +261,7 @@ class PathSeries {
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + sigma line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
-        std::size_t last = degree;  // higher powers are negligible within the piece
+        std::size_t last = degree;  // powers above `last` are negligible within the piece
         const double span = std::min(kind.density->end_of_piece(at) / kind.unit - arc[0], 1e300);
         if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a heavy tip
         while (last > 0 && std::abs(c[last]) * std::pow(span, last) < 1e-17 * c[0]) --last;
@@ -318,14 +315,14 @@ class PathSeries {
     double latest_ = std::numeric_limits<double>::infinity();  ///< latest time within a short piece
 };
 
-/// The zero, between 0 and `latest`, of an increasing function within a step of a series, to 2^-51:
-/// the rounding of 25 terms spoils the last digit. `value_and_slope(t)` returns a pair.
+/// Returns the zero, between 0 and `latest`, of an increasing function within a step of a series,
+/// to 2^-51: the rounding of 25 terms spoils the last digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
     return detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
 }
 
-/// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
+/// Returns the time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
 REVCHAIN_LAZY
 double time_at(const PathSeries& series, double arc, double latest) {
     return time_of_zero(latest, [&](double t) {
@@ -334,8 +331,7 @@ double time_at(const PathSeries& series, double arc, double latest) {
     });
 }
 
-/// The series of a uniform chain without a tip weight about its free end, where T = 0, in sigma:
-/// with u = sigma q,
+/// The series of a uniform chain about a bare free end, where T = 0, in sigma, with u = sigma q:
 ///     (sigma q)' = -eta,   eta' = q/sqrt(1 + q^2),   xi' = 1/sqrt(1 + q^2),   q(0) = -eta(0).
 class TipSeries {
    public:
@@ -365,7 +361,7 @@ class TipSeries {
             height_change[n + 1] = sink * inverse;
             height[n + 1] = cosine[n] * inverse;
         }
-        // no zero of eta before max(1.4458, eta_0): it bends less than at small amplitude
+        // eta has no zero before max(1.4458, eta_0): the path bends less than at small amplitude
         const double within = PathSeries::reach(tolerance, [&](std::size_t k) {
             return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k]));
         });
@@ -385,7 +381,7 @@ class TipSeries {
     double reach;
 
    private:
-    /// Coefficient n of a power of a series by J. C. P. Miller's recurrence.
+    /// Returns coefficient n of a power of a series by J. C. P. Miller's recurrence.
     static double power(const Coefficients& of, const Coefficients& result, std::size_t n,
                         double exponent) {
         if (n == 0) return std::pow(of[0], exponent);

@@ -6,16 +6,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Shapes of a branch of a cord with a given number, in the order of the arc.
+/// Shapes with a given number on a branch of a cord, in the order of the arc.
 struct CordShapesOnBranch {
     std::vector<CordShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 points
-    double searched_to = 0;             ///< the conical height at which it ended
+    double searched_to = 0;             ///< the conical height at which the search ended
 };
 
 namespace finite {
 
-/// The difference of a number at a point of a branch from the wanted one.
+/// Returns the difference of a number at a point of a branch from the wanted number.
 class WantedOnLine {
    public:
     enum class Kind { height, tip_inclination, tip_radius, top_tension };
@@ -90,7 +90,7 @@ class WantedOnLine {
     double wanted_ = 0, height_ = 0;
 };
 
-/// All shapes with a given number on the branch of a mode of height `critical`.
+/// Returns all shapes with a given number on the branch of a mode of height `critical`.
 REVCHAIN_LAZY
 CordShapesOnBranch search_branch(const Cord& cord, double critical, const OnBranchOptions& given,
                                  std::size_t max_shapes) {

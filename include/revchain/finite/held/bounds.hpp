@@ -8,7 +8,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A chain held at both ends, its ends and its goal in intervals, with bounds of all its shapes.
+/// A chain held at both ends, its ends and its goal in intervals, with bounds for all its shapes.
 class HeldBounds {
    public:
     using Span = Interval<double>;
@@ -38,9 +38,9 @@ class HeldBounds {
     }
 
     bool is_symmetric() const { return symmetric_; }
-    /// Bounds of the pull along the lowest link. All pulls differ by at most the weights and
-    /// centrifugal forces: under a larger pull every link has nearly one direction, and the chain
-    /// spans too much or a spring yields farther than an end can move.
+    /// Returns bounds of the pull along the lowest link. Pulls differ by at most the weights and
+    /// centrifugal forces. Under a larger pull every link has nearly one direction. Then the chain
+    /// spans too much, or a spring yields farther than an end can move.
     Span pulls() const {
         const Span &length = rest_[0], &goal = goal_.value;
         const Span chord = goal_.is_span ? sqrt(square(length) - square(goal)) : length;
@@ -51,7 +51,7 @@ class HeldBounds {
             const Span apart = square(goal) + square(upper_.radius - lower_.radius);
             most = change * length / sqrt(square(length) - apart);
         } else if (goal_.is_span) {
-            // links lie within an angle of the lowest, some steeper than span/length, some flatter
+            // links are within an angle of the lowest, some steeper than span/length, some flatter
             const auto drawn = [&](const SupportEnd<Span>& end) {
                 return end.stiffness * (farthest + Span(end.radius.size())) +
                        end.carriage * farthest;
@@ -68,7 +68,7 @@ class HeldBounds {
     }
     const Span& length() const { return rest_[0]; }
 
-    /// Forces at the lower end for a pull along the lowest link and its tangent.
+    /// Returns the forces at the lower end for a pull along the lowest link and its tangent.
     HeldForces<double> forces(double pull, double tangent, bool up) const {
         const auto number = [](const Span& x) { return x.middle(); };
         const double sine = 2 * tangent / (1 + tangent * tangent),
@@ -84,7 +84,7 @@ class HeldBounds {
     }
 
    protected:
-    /// Bound of the offset of every pin; `chord` bounds the distance of two pins across the axis.
+    /// Bounds the offset of every pin; `chord` bounds the distance of two pins across the axis.
     Span reach(const Span& chord) const {
         const Span foot(lower_.radius.size()), head(upper_.radius.size());
         if (lower_.firm && upper_.firm) {

@@ -6,19 +6,20 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Why a branch ends: back at the greatest speed; a link is slack or turns over; a chain with ends
-/// off the axis hangs as at rest; a cord hangs folded along the axis; after 3000 steps.
+/// Why a branch ends: `speed`, it is back at the greatest speed; `slack`, a link is slack or turns
+/// over; `rest`, a chain with ends off the axis hangs as at rest; `folded`, a cord hangs folded
+/// along the axis; `budget`, it has 3000 steps.
 enum class HeldBranchEnd { speed, slack, rest, folded, budget };
 [[nodiscard]] inline std::string_view to_string(HeldBranchEnd end) noexcept {
     constexpr std::array<std::string_view, 5> names{"speed", "slack", "rest", "folded", "budget"};
     return names[static_cast<std::size_t>(end)];
 }
 
-/// Shapes of a chain or cord held at a span, along the branch that begins with the nearly straight
-/// one without gravity: from the greatest speed to slower ones and, past a fold, back to it.
+/// Shapes of a chain or cord held at a span, along the branch of the shape that is nearly straight
+/// without gravity. They go from the greatest speed to slower ones and, past a fold, back to it.
 template <class Shape>
 struct HeldBranchOf {
-    int mode = 1;               ///< its number, see `branches`
+    int mode = 1;               ///< number of the mode, see `branches`
     int half_waves = 1;         ///< of the first shape
     std::vector<Shape> shapes;  ///< to double accuracy; each `error_bound` is an estimate
     std::vector<Index> folds;   ///< indices of shapes at which the speed is extreme
@@ -28,7 +29,7 @@ using HeldBranch = HeldBranchOf<HeldShape>;
 
 namespace finite {
 
-/// The state between two on a branch at which the height is extreme.
+/// Returns the state between two states of a branch at which the height is extreme, if any.
 template <class System>
 std::optional<HeldState> fold_between(System& held, const HeldState& from, const HeldState& to) {
     const auto turning = [&](const HeldState& x) {
@@ -42,7 +43,7 @@ std::optional<HeldState> fold_between(System& held, const HeldState& from, const
     return detail::state_between(at_low, at_high, at, turning);
 }
 
-/// The branch from a state up in height. `describe(state, is_fold)` returns a shape.
+/// Returns the branch from a state up in height. `describe(state, is_fold)` returns a shape.
 template <class System, class Describe>
 auto branch_from(System& held, const HeldState& first, double max_step, const Describe& describe) {
     const double height = first.forces.height;
@@ -64,7 +65,7 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
         }
         const HeldForces<double>&last = states.back().forces, &next = state.forces;
         const double size = std::abs(last.across) + std::abs(last.along);
-        // steps shrink without end where a link becomes slack
+        // steps shrink without limit where a link becomes slack
         if (std::abs(next.across - last.across) + std::abs(next.along - last.along) < 1e-6 * size &&
             std::abs(next.height - last.height) < 1e-6 * next.height)
             return false;
@@ -90,8 +91,8 @@ auto branch_from(System& held, const HeldState& first, double max_step, const De
     return branch;
 }
 
-/// The start of a branch: half waves on the axis, and side. Without mirror images each number has
-/// two branches, first the one whose lowest link leads outwards.
+/// The start of a branch: half waves on the axis, and side. Without mirror images each number of
+/// half waves has two branches; in the first one the lowest link leads outwards.
 struct HeldStart {
     int half_waves;
     bool outwards = true;
@@ -101,7 +102,7 @@ struct HeldStart {
     }
 };
 
-/// The branch of a mode at a span, for heights from `least` up; none if it does not exist.
+/// Returns the branch of a mode at a span, for heights from `least` up; none if it does not exist.
 REVCHAIN_LAZY
 std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupports& supports,
                                       double span, double least, int mode, double max_step) {
@@ -132,7 +133,7 @@ std::optional<HeldBranch> held_branch(const Chain<double>& chain, const HeldSupp
     return branch;
 }
 
-/// The fastest shape with a given tension at the upper end on the branch of a mode; firm ends.
+/// Returns the fastest shape with a given upper tension on the branch of a mode, with firm ends.
 REVCHAIN_LAZY
 std::optional<HeldShape> held_shape_of_tension(const Chain<double>& chain,
                                                const HeldSupports& supports, double span,

@@ -5,17 +5,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Bounds common to all chains that begin in a cell. With mirror images, offsets are over the sine
-/// of the lowest link's angle: this excludes the chain along the axis.
+/// Bounds for all chains that begin in a cell. With mirror images, offsets are over the sine of the
+/// lowest link's angle, which excludes the chain along the axis.
 struct HeldReach {
-    bool none = false;           ///< no chain of the cell meets the goal with the wanted half waves
-    bool known = false;          ///< the rest is
-    long looked = 1;             ///< links swept
+    bool none = false;           ///< whether no chain meets the goal with the wanted half waves
+    bool known = false;          ///< whether the fields below `looked` are known
+    long looked = 1;             ///< number of links swept
     Interval<double> side, gap;  ///< of the upper end, at the cell's centre
     std::array<Interval<double>, 2> side_change, gap_change;  ///< over the cell
 };
 
-/// Sweeps a cell of starts up the chain, as `held_sweep` does for one state.
+/// Sweeps a cell of starts up the chain, as `held_sweep` sweeps one state.
 class HeldCells : public HeldBounds {
    public:
     using HeldBounds::HeldBounds;
@@ -89,12 +89,12 @@ class HeldCells : public HeldBounds {
         return result;
     }
 
-    /// A link under its load: sine over that of the lowest link, pull, growth of its moment.
+    /// A link: its loads, sine over `Start::unit`, cosine, pull and growth of its moment.
     struct Hung {
         Span across, along, sine, cosine, pull, growth, most;
         bool known = false;
 
-        /// The certain sign of the offset above a link whose pull may vanish, else 0.
+        /// Returns the certain sign of the offset above a link whose pull may vanish, or 0.
         int past(const Span& offset, const Link<Span>& link) const {
             const int sign = across.sign();
             const Span turning = turning_of(link);
@@ -107,7 +107,7 @@ class HeldCells : public HeldBounds {
     };
 
     /// A partly swept chain and its start. The sine is positive if the lowest link leads outwards.
-    /// Offset and force across are over `unit`: that sine if shapes have mirror images, else 1.
+    /// Offset and force across are over `unit`: this sine if shapes have mirror images, else 1.
     struct Start {
         using Part = Span Start::*;
         Span pull, sine, cosine, sine_change, cosine_change, push, push_change;
@@ -234,15 +234,15 @@ class HeldCells : public HeldBounds {
         return sqrt(square(chain.unit * chain.across) + square(top(chain))) - goal_.value;
     }
 
-    /// The distance of the upper end of a swept chain from its support, over the unit.
+    /// Returns the distance of the upper end of a swept chain from its support, over the unit.
     Span side(const Start& chain) const {
         return symmetric_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
     }
-    /// Offset of the line between the rest positions of the ends at the chain's height.
+    /// Returns the offset of the line between the ends' rest positions at the chain's height.
     Span line(const Start& chain) const {
         return symmetric_ ? Span(0.0) : lower_.radius + slope_ * chain.rise;
     }
-    /// Whether a chain swept to link m cannot meet the goal; counts half waves.
+    /// Returns true if a chain swept to link m cannot meet the goal. Counts half waves.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
         const bool last = m + 1 == links_.size();
         const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0),
@@ -255,7 +255,7 @@ class HeldCells : public HeldBounds {
         const int here = aside.sign();
         if (sign == 0) sign = here;
         if (here == -sign && here != 0) sign = here, ++waves;
-        if (waves == most_ && sign != 0) {  // it must not cross the line again
+        if (waves == most_ && sign != 0) {  // the chain must not cross the line again
             const Span at = line(chain);
             if (sign > 0) chain.offset.low = std::max(chain.offset.low, at.low);
             if (sign < 0) chain.offset.high = std::min(chain.offset.high, at.high);
@@ -263,7 +263,7 @@ class HeldCells : public HeldBounds {
         return waves > most_;
     }
 
-    /// Whether a chain may meet the upper end from link m on, in intervals and arcs.
+    /// Returns true if a chain may meet the upper end from link m on, in intervals and arcs.
     bool may_meet(std::size_t m, Start chain, Direction<Span> last, int waves, int sign,
                   long& work) const {
         for (; m < links_.size(); ++m) {
@@ -283,7 +283,7 @@ class HeldCells : public HeldBounds {
         return true;
     }
 
-    /// `may_meet` for directions of link m in part of a quarter circle.
+    /// Returns `may_meet` for directions of link m in part of a quarter circle.
     bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at,
                 int waves, int sign, long& work, std::size_t quarter, double from,
                 double to) const {
@@ -309,8 +309,7 @@ class HeldCells : public HeldBounds {
                    in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
         };
         if (to - from > 0.07) return in_halves();
-        // Newton's method in intervals about the middle
-        for (int round = 0; round < 3; ++round) {
+        for (int round = 0; round < 3; ++round) {  // Newton's method in intervals about the middle
             const Span at_s(sine.middle()), at_c(cosine.middle()),
                 size = sqrt(square(at_s) + square(at_c));
             const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s),
@@ -331,8 +330,7 @@ class HeldCells : public HeldBounds {
             if (!(across.low <= across.high)) return false;
             next.offset = chain.offset - link.length * across;
             next.across = at.across + link.rest * next.offset;
-        } else {
-            // the pull along the link may vanish: the offset above the link becomes the unit
+        } else {  // the pull along the link may vanish: the offset above it becomes the unit
             const int side = chain.offset.sign(), drawn = at.across.sign();
             if (side == 0 || drawn == 0 || turning.low < 0) return true;
             const bool away = drawn != side;
@@ -379,12 +377,11 @@ class HeldCells : public HeldBounds {
             result.cosine = common(V / result.pull, Span(-1.0, 1.0));
         } else {
             if (!(sum.low > square(turning).high * (1 + 1e-9))) return result;
-            // Newton's method in intervals about the inclination at the middle
             Direction<double> way{R.middle() / std::hypot(R.middle(), V.middle()),
                                   V.middle() / std::hypot(R.middle(), V.middle())};
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
             if (!(find_direction(near, R.middle(), V.middle(), way) > 0)) return result;
-            Direction<Span> all;
+            Direction<Span> all;  // by Newton's method in intervals about the middle's inclination
             const Span growth = enclose_direction(link, R, V, way, all);
             if (!growth.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));

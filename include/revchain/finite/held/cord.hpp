@@ -15,42 +15,43 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// A point of a cord held at both ends.
 struct HeldCordPlace {
     double arc_length;      ///< from the lower end
-    double offset, height;  ///< from the axis; above the lower end
-    double inclination;     ///< to the upward vertical, rad; positive if rising towards the axis
+    double offset, height;  ///< offset from the axis; height above the lower end
+    double inclination;     ///< to the upward vertical, rad; positive where it rises to the axis
     double height_times_tension;  ///< lambda times the tension
 };
 
 /// A steady shape of a uniform cord whose ends are held on the axis. Forces are times the conical
-/// height, as in `HeldShape`. Eight points a step: dense where the cord turns sharply.
+/// height, as in `HeldShape`. There are eight points a step, dense where the cord turns sharply.
 struct HeldCordShape {
     Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) upwards
     std::array<double, 2> lower_pull;  ///< lambda times pull on the lower bearing: outwards, up
-    std::array<double, 2> upper_pull;  ///< the same on the upper bearing
+    std::array<double, 2> upper_pull;  ///< lambda times pull on the upper bearing
     int half_waves = 1;
     double span = 0, length = 0, weight = 0, conical_height = 0;
     double residual =
-        0;  ///< of T - lambda z w + w y^2/2 over the largest tension, and gap, at the end
-    double error_bound = 0;  ///< estimate for every inclination (rad) and offset over length
+        0;  ///< error of T - lambda z w + w y^2/2 over the largest tension, or gap, at the end
+    double error_bound = 0;  ///< estimate, of inclinations (rad) and offsets over length
     double condition =
         0;  ///< largest change of an inclination per relative change of span or height
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared
 
-    /// The point at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
+    /// Returns the point at an arc length from the lower end. Throws InvalidArgument outside 0 ...
+    /// length.
     HeldCordPlace operator()(double arc) const;
 
     std::vector<finite::HeldCordState> steps;  ///< for interpolation; lengths over the cord's
 };
 
-/// Shapes of a cord held at both ends, see `HeldShapes`.
+/// Shapes of a cord held at both ends; see `HeldShapes`.
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
-    bool complete = false;  ///< proved that none is missing; only for a span without gravity
+    bool complete = false;  ///< proved that no shape is missing; only for a span without gravity
 };
 
 namespace finite {
 
-/// A cord held at both ends, lengths over its own.
+/// A cord held at both ends, with lengths over its own length.
 class HeldCord {
    public:
     using S = double;
@@ -63,13 +64,13 @@ class HeldCord {
     static void keep(Nothing) {}
 
     static double length() { return 1; }
-    /// Lambda times the tension at the upper end.
+    /// Returns lambda times the tension at the upper end.
     double top_pull(const HeldForces<double>& forces) const {
         return std::hypot((*this)(forces, false).across, forces.along + forces.height);
     }
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
-    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`.
+    /// Returns the state with `half_waves` half waves; see `HeldCurve::from_straight`.
     std::optional<HeldState> at_height(int half_waves, double span, double height) {
         const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves);
         return curve().from_straight(1 - span, span, height, [&](double slack) {
@@ -163,12 +164,12 @@ HeldCordShape described(const HeldState& state, double span, double length, doub
         std::max(condition(0, span / length, 0),
                  condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, lambda));
     const double moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
-    // Rounding of forces and end, and of the arc at sharp turns.
+    // The bound covers rounding of forces and end, and of the arc at sharp turns.
     shape.error_bound = epsilon<double>() * (2 + 2 * shape.condition + 2 * moved + steepest);
     return shape;
 }
 
-/// The shape of each number of half waves at a span and height (0: no gravity).
+/// Returns the shape of each number of half waves at a span and height (0: no gravity).
 REVCHAIN_LAZY
 HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
     const double length = cord.length();
@@ -176,13 +177,13 @@ HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, in
         if (const auto state = HeldCord().at_height(k, span / length, height / length))
             add(std::optional(described(*state, span, length, cord.weight())));
     });
-    // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa increases
-    // with kappa, since K has positive terms: one kappa for each number.
+    // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa. It
+    // increases with kappa, since K has positive terms: each number of half waves has one kappa.
     result.complete = height == 0 && result.missing.empty();
     return result;
 }
 
-/// All shapes with a given tension at the upper end times height.
+/// Returns all shapes with a given tension at the upper end times height.
 REVCHAIN_LAZY
 HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension,
                                               double height, int max_half_waves) {

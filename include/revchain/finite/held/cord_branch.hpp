@@ -11,7 +11,7 @@ using HeldCordBranch = HeldBranchOf<HeldCordShape>;
 
 namespace finite {
 
-/// The branch of a number of half waves at a span, for heights from `least` up, if it exists.
+/// Returns the branch of a number of half waves at a span, for heights from `least` up, if any.
 REVCHAIN_LAZY
 std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double least,
                                           int half_waves, double max_step) {
@@ -29,7 +29,7 @@ std::optional<HeldCordBranch> held_branch(const Cord& cord, double span, double 
     return branch;
 }
 
-/// The shape of a number of half waves at a span and height; none if the branch does not reach it.
+/// Returns the shape of a number of half waves at a span and height, if the branch reaches it.
 REVCHAIN_LAZY
 std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, double height,
                                              int half_waves) {
@@ -41,13 +41,13 @@ std::optional<HeldCordShape> held_cord_shape(const Cord& cord, double span, doub
     return shape;
 }
 
-/// The fastest shape with a given tension at the upper end on the branch of a number of half waves.
+/// Returns the fastest shape with a given upper tension on the branch of a number of half waves.
 REVCHAIN_LAZY
 std::optional<HeldCordShape> held_shape_of_tension(const Cord& cord, double span, double tension,
                                                    int half_waves) {
     HeldCord held;
     const double length = cord.length(), wanted = tension / cord.weight();
-    // By the depth times weight/length the tension falls; both ends bear the weight.
+    // The tension decreases by the depth times weight/length; both ends bear the weight.
     if (2 * wanted <= 1 + span / length) return {};
     const auto first = held.at_height(half_waves, span / length, 0);
     if (!first) return {};

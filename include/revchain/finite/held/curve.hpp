@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of a chain or cord held at both ends: forces at the lower end, and span.
+/// A state of a chain or cord held at both ends: the forces at the lower end, and the span.
 struct HeldState {
     HeldForces<double> forces;
     double span;
@@ -18,20 +18,21 @@ struct HeldState {
 /// The number that varies along a curve of states besides the two forces.
 enum class Third { span, height, part };
 
-/// A curve of states that meet the upper end, in two forces and a third number, by its arc, through
-/// folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the upper
-/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores it.
+/// A curve of states that meet the upper end, in two forces and a third number, followed by its arc
+/// through folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the
+/// upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`. If `keep` is true
+/// it stores its state.
 template <class Shooter>
 class HeldCurve {
    public:
-    /// `length` and `weight` scale steps; `symmetric`: both ends are on the axis.
+    /// `length` and `weight` scale steps. `symmetric` is true if both ends are on the axis.
     HeldCurve(Shooter& shooter, double length, double weight, bool symmetric = true)
         : shooter_(&shooter), length_(length), weight_(weight), symmetric_(symmetric) {}
 
     static constexpr int max_steps = 3000;
     static constexpr double at_rest = 1e4;  ///< conical height over length of a chain at rest
 
-    /// Newton's method at the span and height of `state`, to double accuracy.
+    /// Returns the state at the span and height of `state`, by Newton's method, to double accuracy.
     std::optional<HeldState> corrected(HeldState state) {
         detail::check_interrupt();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
@@ -40,10 +41,10 @@ class HeldCurve {
         return state;
     }
 
-    /// The state at a span and a height, by continuation: the ends of the nearly straight system
-    /// without gravity approach, then move to their supports, if these are not firm on the axis;
-    /// then gravity grows. `slack` is length less span; `nearly_straight(slack)` returns the forces
-    /// of a small slack. None if the curve does not lead there.
+    /// Returns the state at a span and a height, by continuation; none if the curve does not lead
+    /// there. First the ends of the nearly straight system without gravity approach each other.
+    /// Ends that are not firm on the axis then move to their supports. Last, gravity grows. `slack`
+    /// is length less span; `nearly_straight(slack)` returns the forces of a small slack.
     template <class NearlyStraight>
     std::optional<HeldState> from_straight(double slack, double span, double height,
                                            const NearlyStraight& nearly_straight) {
@@ -60,8 +61,8 @@ class HeldCurve {
         if (state && height > 0) state = follow<Third::height>(*state, height);
         return state;
     }
-    /// Visits the states of the height of `from`, both ways along the curve, with lambda times the
-    /// top tension as wanted. Usually there are two, on both sides of the largest tension.
+    /// Visits the states at the height of `from` whose top tension times lambda is `wanted`, both
+    /// ways along the curve. Usually there are two, on both sides of the largest tension.
     template <class Visit>
     void under(const HeldState& from, double wanted, Visit&& visit) {
         const auto kept = shooter_->kept();
@@ -75,7 +76,7 @@ class HeldCurve {
                     between(last, here, wanted, visit);
                 } else if (before.off * last.off > 0 && std::abs(last.off) < std::abs(before.off) &&
                            std::abs(last.off) < std::abs(here.off)) {
-                    // the nearest state may be beyond the wanted tension: then there are two
+                    // the nearest state may be beyond the wanted tension; then there are two states
                     if (const auto met = crossed(before, here, wanted)) {
                         between(before, *met, wanted, visit);
                         between(*met, here, wanted, visit);
@@ -93,7 +94,7 @@ class HeldCurve {
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
         step_along<Third::height>(from, true, visit, max_step);
     }
-    /// The state in the plane across the chord of two states, at a share of it.
+    /// Returns the state in the plane across the chord of two states, at a share of the chord.
     std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to,
                                           double share) {
         constexpr Third height = Third::height;
@@ -134,7 +135,7 @@ class HeldCurve {
 
     struct Tense {
         HeldState state;
-        double off;  ///< lambda times the top tension, less the wanted
+        double off;  ///< lambda times the top tension, minus the wanted value
     };
     Tense tense(const HeldState& x, double wanted) {
         const double across = (*shooter_)(x.forces, false).across,
@@ -152,7 +153,7 @@ class HeldCurve {
         if (!state) return {};
         return tense(*state, wanted);
     }
-    /// Visits the state between two with the wanted top tension.
+    /// Visits the state between two states with the wanted top tension.
     template <class Visit>
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         const auto at = [&](double share) { return at_share(a, b, share, wanted); };
@@ -160,7 +161,7 @@ class HeldCurve {
         const auto best = detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
         if (best) visit(best->state);
     }
-    /// A state between two beyond the wanted tension, searched where it is nearest.
+    /// Returns a state between two that is beyond the wanted tension, searched where it is nearest.
     std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
         for (int round = 0; round < 60; ++round) {
             const auto first = at_share(a, b, 0.4, wanted), second = at_share(a, b, 0.6, wanted);
@@ -204,7 +205,7 @@ class HeldCurve {
         else
             return x.forces.part;
     }
-    /// Whether the state with opposite forces across is one too; then this force is never 0.
+    /// Returns true if the opposite force across gives a state too; then this force is never 0.
     bool has_image(const HeldState& x) const { return symmetric_ || x.forces.part == 0; }
     template <Third third>
     static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
@@ -213,7 +214,7 @@ class HeldCurve {
         number<third>(x) += scale[2] * by[2];
         return x;
     }
-    /// Gradients of the end's offset and of its rise less the span, by scaled numbers.
+    /// Returns the gradients of the end's offset and of its rise minus the span, by scaled numbers.
     template <Third third>
     std::array<Triple, 2> gradients(const HeldEnd<double>& end, const Triple& scale) const {
         Triple y(end.offset_change.data()), z(end.rise_change.data());
@@ -248,7 +249,7 @@ class HeldCurve {
         }
     }
 
-    /// Newton's method back to the curve in the plane across the tangent.
+    /// Returns to the curve by Newton's method in the plane across the tangent; false on failure.
     template <Third third>
     bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step,
                  HeldState& x, HeldEnd<double>& end, int& rounds) {
@@ -280,7 +281,7 @@ class HeldCurve {
         return false;
     }
 
-    /// Continues to another value of the third number; none if the curve does not lead there.
+    /// Returns the state at a value of the third number; none if the curve does not lead there.
     template <Third third>
     std::optional<HeldState> follow(const HeldState& from, double wanted) {
         const auto off = [&](const HeldState& x) { return number<third>(x) - wanted; };
@@ -307,7 +308,7 @@ class HeldCurve {
     bool symmetric_;
 };
 
-/// Visits the states of a height with tension at the upper end times height as `wanted`, on the
+/// Visits the states of a height whose tension at the upper end times height is `wanted`, on the
 /// branch through the first of a few spans that has a state.
 template <class System, class Visit>
 void each_under(System& held, int half_waves, double height, double wanted, const Visit& visit) {
@@ -317,7 +318,7 @@ void each_under(System& held, int half_waves, double height, double wanted, cons
             return held.curve().under(*state, wanted, visit);
 }
 
-/// Larger error bounds mean that the cord hangs folded along the axis.
+/// Error bounds of at least this mean that the cord hangs folded along the axis.
 inline constexpr double folded = 1e-3;
 
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` calls `add` with each shape.

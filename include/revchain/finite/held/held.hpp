@@ -13,15 +13,15 @@ namespace revchain::inline REVCHAIN_BUILD {
 /// Shapes of a chain held at both ends.
 struct HeldShapes {
     std::vector<HeldShape> shapes;            ///< by half waves
-    std::vector<int> missing;                 ///< half waves for which nothing was found
-    bool complete = false;                    ///< proved that none is missing; false unless planar
+    std::vector<int> missing;                 ///< numbers of half waves without a shape found
+    bool complete = false;                    ///< no shape is missing (proved); false unless planar
     std::vector<InclinationRange> undecided;  ///< of the lowest link, for further planar shapes
-    long cells = 0;                           ///< examined
+    long cells = 0;                           ///< number of cells examined
 };
 
 namespace finite {
 
-/// The supports of both ends, and the height at which springs are taken, if not the shape's.
+/// The supports of both ends, and the height at which springs are evaluated, if not the shape's.
 struct HeldSupports {
     Support lower{}, upper{};
     std::optional<Fine> height{};
@@ -29,8 +29,8 @@ struct HeldSupports {
     bool plain() const { return lower == Support{} && upper == Support{}; }
 };
 
-/// The supports at a height, in units of a chain, with radii and compliances times `part`. The
-/// third number is the height, or with `by_part` the part.
+/// Returns the supports at a height, in units of a chain, with radii and compliances times `part`.
+/// The third number is the height; with `by_part` it is the part.
 template <class T>
 HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, const T& height,
                       double part = 1, bool by_part = false) {
@@ -81,8 +81,8 @@ class HeldChain {
     const Links<S>& links() const { return wide_; }
     const S& length() const { return length_; }
 
-    /// The upper end for given forces, with links starting from the last kept state. Derivatives
-    /// are by the height, or after `vary_part(true)` by the part of the supports.
+    /// Returns the upper end for given forces, with links starting from the last kept state.
+    /// Derivatives are by the height, or after `vary_part(true)` by the part of the supports.
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool keep) {
         trial_ = kept_;
         const HeldEnds<double> held = ends(forces.height, forces.part);
@@ -91,16 +91,16 @@ class HeldChain {
         return end;
     }
     void vary_part(bool part) { by_part_ = part; }
-    /// Fixes the height at which springs are taken; without it that of each state.
+    /// Fixes the height at which springs are evaluated. Without it, each state uses its own height.
     void springs_at(const std::optional<S>& height) { supports_.height = height; }
 
-    /// The supports at a height, or `part` of them.
+    /// Returns the supports at a height, or `part` of them.
     template <class T>
     HeldEnds<T> ends(const T& height, double part = 1) const {
         return held_ends(supports_, wide_.units, height, part, by_part_);
     }
     bool is_symmetric() const { return supports_.lower.radius == 0 && supports_.upper.radius == 0; }
-    /// Whether every shape lies in a plane: with two arms a torque about the axis may bend it out.
+    /// Returns true if every shape is planar. With two arms a torque about the axis may bend it.
     bool planar() const { return supports_.lower.radius == 0 || supports_.upper.radius == 0; }
 
     const std::vector<Direction<double>>& kept() const { return kept_; }
@@ -110,12 +110,12 @@ class HeldChain {
         return {*this, as_double(length_), as_double(weight_), is_symmetric()};
     }
 
-    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`. Without mirror
-    /// images the lowest link of the nearly straight chain leads outwards, or not.
+    /// Returns the state with `half_waves` half waves; see `HeldCurve::from_straight`. Without
+    /// mirror images `outwards` tells whether the lowest link of the straight chain leads outwards.
     std::optional<HeldState> at_height(int half_waves, const S& span, double height,
                                        bool outwards = true) {
-        // The nearly straight chain without gravity has the shape y of a mode under tension 1; its
-        // height is the force along the axis.
+        // Without gravity the nearly straight chain has the shape y of a mode under tension 1. The
+        // height of the mode is the force along the axis.
         const detail::LowerEnd unit{.tension = ldexp(S(1.0), wide_.units.weight_exponent),
                                     .weightless = true};
         const auto taut = detail::counted_heights(rig_pencil({chain_, {}}, 1.0, unit));
@@ -125,7 +125,7 @@ class HeldChain {
         const double along = pencil::between(bracket.lower, bracket.upper);
         std::vector<double> y{0.0};
         for (const S& offset : taut.roots.vector(S(along))) y.push_back(as_double(offset));
-        double short_of = 0;  // by how much the shape y is shorter than the chain
+        double short_of = 0;  // the difference of the chain's length from the span of y
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += std::pow(y[m] - y[m + 1], 2) / (2 * links_[m].length);
         const double pull = std::abs((along / links_[0].length + links_[0].cross) * y[1]);
@@ -138,17 +138,18 @@ class HeldChain {
             });
     }
 
-    /// The shape at a span and height, by Newton's method in double-double from a state in double.
+    /// Returns the shape at a span and height: Newton's method in double-double from a double
+    /// state.
     std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height,
                                       bool prove) const {
         const HeldEnds<S> held = ends(height);
         HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
         std::vector<Direction<S>> direction;
-        for (const Direction<double>& d : kept_) {  // of unit length, to double-double
+        for (const Direction<double>& d : kept_) {  // scaled to unit length in double-double
             const S sine(d.sine), cosine(d.cosine), size = sqrt(sine * sine + cosine * cosine);
             direction.push_back({sine / size, cosine / size});
         }
-        if (is_symmetric() && kept_.front().sine > 0) {  // lowest link outwards
+        if (is_symmetric() && kept_.front().sine > 0) {  // turn the lowest link outwards
             forces.across = -forces.across;
             for (Direction<S>& d : direction) d.sine = -d.sine;
         }
@@ -171,7 +172,7 @@ class HeldChain {
         return shape;
     }
 
-    /// Lambda times the tension at the upper end.
+    /// Returns lambda times the tension at the upper end.
     double top_pull(const HeldForces<double>& forces) {
         return std::hypot((*this)(forces, false).across,
                           forces.along + forces.height * as_double(weight_));
@@ -191,7 +192,7 @@ class HeldChain {
         if (held_sweep<2>(links_, ends(forces.height), forces, at_pull).known) kept_ = drawn;
     }
 
-    /// A state near given forces with a wanted tension at the upper end times height.
+    /// Returns a state near given forces with a wanted tension at the upper end times height.
     std::optional<HeldState> under(HeldForces<double> forces, double wanted) {
         const auto sweep = [&](const HeldForces<double>& at) {
             HeldEnd<double> end = (*this)(at, true);
@@ -217,7 +218,7 @@ class HeldChain {
     std::vector<Direction<double>> kept_, trial_;
 };
 
-/// Ascending ranges of the lowest link's inclination that contain cells.
+/// Returns ascending ranges of the lowest link's inclination that contain cells.
 REVCHAIN_LAZY
 std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
     std::vector<InclinationRange> result;
@@ -268,7 +269,7 @@ bool has(const std::vector<HeldShape>& shapes, const HeldShape& shape) {
     });
 }
 
-/// Removes repeated shapes and sorts: several curves may lead to one shape or change half waves.
+/// Removes repeated shapes and sorts. Several curves may lead to one shape, or change half waves.
 REVCHAIN_LAZY
 void keep_different(HeldShapes& list, int max_half_waves) {
     std::vector<HeldShape> kept;
@@ -280,7 +281,7 @@ void keep_different(HeldShapes& list, int max_half_waves) {
         if (!has(list.shapes, k)) list.missing.push_back(k);
 }
 
-/// Adds all other planar shapes to those found by branches, and the ranges where more may be.
+/// Adds all other planar shapes to those found by branches, and the ranges that may contain more.
 REVCHAIN_LAZY
 void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldGoal& goal,
               const HeldListOptions& options) {
@@ -310,7 +311,7 @@ void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldG
     list.complete = held.planar() && found.undecided.empty(), list.cells = found.cells;
 }
 
-/// Shapes of up to `max_half_waves` half waves at a span and a height (0: no gravity).
+/// Returns shapes of up to `max_half_waves` half waves at a span and a height (0: no gravity).
 REVCHAIN_LAZY
 HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports, double span,
                        const Fine& height, const HeldListOptions& options) {
@@ -330,7 +331,7 @@ HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports,
     return list;
 }
 
-/// Shapes of up to `max_half_waves` half waves with a given tension at the upper end times height.
+/// Returns shapes of up to `max_half_waves` half waves with a given upper tension times height.
 REVCHAIN_LAZY
 HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSupports& supports,
                                      const Fine& height_times_tension, const Fine& conical_height,

@@ -9,8 +9,8 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 REVCHAIN_LAZY
 double largest(const Span& x) { return as_double(x.size()) * 1.0000001; }
 
-/// Encloses the direction of a link near one found. Returns the derivative of its moment by the
-/// inclination, not positive if the link may be slack or have another inclination.
+/// Encloses the direction of a link near one found. Returns the derivative of the link's moment by
+/// the inclination; not positive if the link may be slack or have another inclination.
 REVCHAIN_LAZY
 Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
                        const Direction<Far>& found, Direction<Span>& way) {
@@ -25,7 +25,7 @@ Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
 }
 
 /// Encloses the upper end for forces at the lower end within `radius` of those of a state with
-/// directions `found`, and the sine of the largest turn of a link from them.
+/// directions `found`. Also returns the sine of the largest turn of a link from these directions.
 REVCHAIN_LAZY
 std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links,
                                              const HeldEnds<Span>& ends, const Span& height,

@@ -14,7 +14,7 @@ struct HeldRoot {
     double pull, tangent;  ///< of the shape, to about 1e-10
 };
 
-/// All starts of chains that meet the upper end, and undecided cells.
+/// All starts of chains that meet the upper end, and the undecided cells.
 struct HeldRoots {
     std::vector<HeldRoot> roots;
     std::vector<HeldCell> undecided;
@@ -46,7 +46,7 @@ class HeldSearch {
         bool regular, inside, none;
     };
 
-    /// Krawczyk's operator: encloses the roots of a cell.
+    /// Encloses the roots of a cell by Krawczyk's operator.
     static std::optional<Image> image(const HeldCell& cell, const HeldReach& reach) {
         const double a = reach.side_change[0].middle(), b = reach.side_change[1].middle(),
                      c = reach.gap_change[0].middle(), d = reach.gap_change[1].middle(),
@@ -63,7 +63,7 @@ class HeldSearch {
                     Span(i == j ? 1.0 : 0.0) - (p * reach.side_change[j] + q * reach.gap_change[j]);
                 const Span off = cell.at[j] - Span(cell.at[j].middle());
                 next = next + entry * off;
-                // weighted by the cell's widths, so that rows compare
+                // weighted by the cell's widths, so that rows are comparable
                 norm += entry.size() * (cell.at[j].width() / cell.at[i].width());
             }
             if (!(next.low <= next.high)) return {};
@@ -87,7 +87,7 @@ class HeldSearch {
                        (std::abs(reach.side_change[i].middle()) / chain_.length().high +
                         std::abs(reach.gap_change[i].middle()));
             };
-            // the direction that moves the upper end more; slopes mean little in a long cell
+            // split the direction that moves the upper end more; in a long cell slopes mean little
             const std::size_t other = 1 - widest;
             if (weight(other) > 4 * weight(widest) &&
                 relative(cell, other) > relative(cell, widest) / 16)
@@ -114,7 +114,7 @@ class HeldSearch {
         wait(low), wait(high);
     }
 
-    /// Whether a slightly larger cell contains exactly one shape.
+    /// Returns true if a slightly larger cell contains exactly one shape. It is then listed.
     bool isolated(const HeldCell& cell) {
         HeldCell about = cell;
         for (Span& x : about.at) {

@@ -8,9 +8,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A steady shape of a chain held at both ends: links lowest first, pins from the lower end up, in
-/// the units of the chain. Forces are times the conical height lambda, weight times length: so they
-/// exist without gravity too. There weights are masses, and forces these numbers times n^2.
+/// A steady shape of a chain held at both ends, in the units of the chain: links lowest first, pins
+/// from the lower end up. Forces are times the conical height lambda (weight times length), so they
+/// exist without gravity too. Without gravity weights are masses, and forces these numbers times
+/// n^2.
 struct HeldShape {
     Vector<double> inclination;  ///< (N) to the upward vertical, rad, in (-pi, pi]; sign of §8
     Vector<double> offset;       ///< (N + 1) of pins; with ends on the axis 0, the second positive
@@ -22,15 +23,16 @@ struct HeldShape {
     int half_waves = 1;  ///< 1 + side changes of pins about the line between the rested ends
     double span = 0, conical_height = 0;
     std::array<Support, 2> ends{};  ///< lower and upper support, stiffness times the height
-    double residual = 0;            ///< largest moment about a pin over force and length, or gap
+    double residual = 0;            ///< larger of relative moment about a pin and gap over length
     double error_bound = 0;         ///< of every inclination, rad
-    bool proved = false;            ///< else `error_bound` is an estimate
+    bool proved = false;            ///< whether `error_bound` is proved; else it is an estimate
     double condition =
         0;  ///< largest change of an inclination per relative change of span or height
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared, with carriages
     double height_times_energy = 0;  ///< lambda (potential energy) - moment_of_inertia / 2
 
-    /// In rad/s. Throws InvalidArgument without gravity: then any speed has this shape.
+    /// Returns the speed in rad/s. Throws InvalidArgument without gravity: any speed has this
+    /// shape.
     double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
@@ -38,7 +40,7 @@ struct HeldShape {
 
 namespace finite {
 
-/// Counts half waves: side changes of pins about the line between the rested ends, plus 1.
+/// Counts half waves: changes of side of pins about the line between the rested ends, plus 1.
 template <class S>
 struct Sides {
     const HeldEnds<S>& ends;
@@ -55,7 +57,7 @@ struct Sides {
     }
 };
 
-/// The shape for forces at the lower end, with directions near `direction`.
+/// Returns the shape for forces at the lower end, with directions near `direction`.
 REVCHAIN_LAZY
 HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends,
                     const HeldForces<Fine>& forces, const Fine& span,

@@ -8,15 +8,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The state at the lower end: lambda times the force on it across and along the axis; lambda =
-/// g/n^2, 0 without gravity; and `part` of the supports: with 0 the ends are firm on the axis.
+/// The state at the lower end: lambda times the force on it across and along the axis, and lambda =
+/// g/n^2, 0 without gravity. `part` scales the supports; at 0 the ends are firm on the axis.
 template <class S>
 struct HeldForces {
     S across, along, height;
     S part = S(1);
 };
 
-/// Both supports, and their derivatives and that of the height by the third number.
+/// Both supports, with the derivatives of the supports and of the height by the third number.
 template <class S>
 struct HeldEnds {
     SupportEnd<S> lower = firm(), upper = firm();
@@ -44,14 +44,14 @@ struct Direction {
     S sine, cosine;
 };
 
-/// The swept upper end: distance from the support, as in `SupportEnd::miss`, height, and force across.
+/// The swept upper end: distance from its support (see `SupportEnd::miss`), height, force across.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
     HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
     bool known = false;  ///< false if a link is slack or its inclination turns over
 
-    /// The changes of the two forces that move the upper end by (y, z).
+    /// Returns the changes of the two forces that move the upper end by (y, z).
     std::array<S, 2> forces_to_move(const S& y, const S& z) const {
         const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0],
                 &d = rise_change[1];
@@ -96,8 +96,8 @@ S find_direction(const Link<S>& link, const S& across, const S& along, Direction
 }
 
 /// Encloses the direction of a link other than a plummet under the loads (R, V), near one found for
-/// one of them, by Newton's method in intervals. Returns the derivative as `find_direction` does; it is not
-/// positive if the link may be slack or have another inclination.
+/// one of the loads, by Newton's method in intervals. Returns the derivative as `find_direction`
+/// does. It is not positive if the link may be slack or have another inclination.
 template <Real T, class Span = Interval<T>>
 Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
                        const Direction<T>& found, Direction<Span>& direction) {
@@ -122,14 +122,14 @@ struct SeesNothing {
     void operator()(std::size_t, const Any&...) const {}
 };
 
-/// Sweep from the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
+/// Sweeps from the lower to the upper end: Greenhill (1908) §8 with a force at the lower end,
 ///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
 ///     y = y_below - length s,         H = R + rest y,
 /// with tau = `along` and F = `across`. A lower end on a spring is at y = b - F/(lambda E), where H
-/// = F + W y, W its carriage; a firm one at b, where H = F. Derivatives by the first K numbers are
-/// exact. `solve(m, R, V, way)` sets the direction of link m and returns the derivative of its
-/// moment by the inclination; the sweep ends if that is not positive. `each(m, y, R, H, growth,
-/// change of the inclination)` receives every link: y of its lower pin, H of its upper.
+/// = F + W y, with W its carriage. A firm one is at b, where H = F. Derivatives by the first K
+/// numbers are exact. `solve(m, R, V, way)` sets the direction of link m and returns the derivative
+/// of its moment by the inclination. The sweep ends if that is not positive. `each(m, y, R, H,
+/// growth, change of the inclination)` receives every link: y of its lower pin, H of its upper pin.
 template <std::size_t K, class S, class Solve, class Each = SeesNothing>
 HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends,
                          const HeldForces<S>& forces, const Solve& solve, const Each& each = {}) {
@@ -183,8 +183,8 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
     return end;
 }
 
-/// The sweep in numbers, with every link in tension, above or below the horizontal. `direction`
-/// holds starts and results. Cost O(N): 0.1 microseconds a link in double.
+/// Sweeps in numbers, with every link in tension, above or below the horizontal. `direction` holds
+/// starting values, then results. Cost O(N): 0.1 microseconds a link in double.
 template <class S, class Each = SeesNothing>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends,
                       const HeldForces<S>& forces, std::vector<Direction<S>>& direction,
@@ -197,10 +197,10 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends
     return held_sweep<3>(links, ends, forces, at_pull, each);
 }
 
-/// Newton's method on the forces at the lower end, for a rise of the upper end; returns whether it
-/// converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of the forces
-/// before and after; with mirror images the force across is compared with itself alone. It ends
-/// after a step below `enough`, or one below `rounding` that is not under a quarter of the last.
+/// Finds the forces at the lower end for a rise of the upper end, by Newton's method; returns
+/// whether it converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of
+/// the forces before and after. With mirror images the force across is compared with itself alone.
+/// It ends after a step below `enough`, or below `rounding` and over a quarter of the last.
 template <class S, class Sweep>
 bool meet(HeldForces<S>& forces, const S& rise, bool symmetric, double enough, double rounding,
           const Sweep& sweep) {

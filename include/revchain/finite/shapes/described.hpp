@@ -13,7 +13,7 @@ struct SteadyShape;  // revchain/steady_shapes.hpp
 
 namespace finite {
 
-/// g/n^2 in double-double; infinite or 0 if out of range.
+/// Returns g/n^2 in double-double; infinite or 0 if out of range.
 REVCHAIN_LAZY
 Fine height_at_speed(double angular_speed, double gravity) {
     int of_speed = 0, of_gravity = 0;
@@ -21,7 +21,7 @@ Fine height_at_speed(double angular_speed, double gravity) {
     return ldexp(g / n / n, of_gravity - 2 * of_speed);
 }
 
-/// angle + pi, or angle - pi, rounded once.
+/// Returns angle + pi, or angle - pi if `backwards`, rounded once.
 REVCHAIN_LAZY
 double beyond(double angle, bool backwards) {
     const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
@@ -61,7 +61,7 @@ Shape described(const AnyLinks& chain, const Fine& height, const Balanced<Fine>&
                    tangent = tangent_in(found, chain.links, m);
         const double inclination = std::atan(as_double(tangent));
         shape.inclination[i] = found.stands(m) ? beyond(inclination, d < Fine(0)) : inclination;
-        // lambda times the moment about the upper pin over the length
+        // `left` is lambda times the moment about the upper pin over the length
         const Fine left =
             height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
         worst_moment =

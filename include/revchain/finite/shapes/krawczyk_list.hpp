@@ -5,19 +5,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The zeros of the balance in one posture, each alone in a box; mirror images are one.
+/// A list of the zeros of the balance in one posture, each alone in a box; mirror images are one.
 template <Real T, class End = OnAxis>
 class KrawczykList {
    public:
     struct Zero {
-        TangentBox<T> near;  ///< a narrow box that contains it
+        TangentBox<T> near;  ///< a narrow box that contains the zero
         bool straight = false;
     };
 
     explicit KrawczykList(const WholeBalance<T, End>& balance) : balance_(balance) {
         if (balance.is_symmetric()) add_straight(balance.posture().size());
     }
-    /// Takes over the zeros of the same balance found in fewer digits.
+    /// Starts with the zeros of the same balance found in fewer digits.
     template <class Fewer, class FewerEnd>
     KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known)
         : balance_(balance) {
@@ -32,7 +32,7 @@ class KrawczykList {
 
     const std::vector<Zero>& found() const { return found_; }
 
-    /// Whether the box has no zero, or one, which is in the list now.
+    /// Returns true if the box has no zero, or one, which is in the list now.
     bool decides(TangentBox<T> box) {
         for (int round = 0; round < 4; ++round) {
             if (is_known(box)) return true;
@@ -42,13 +42,13 @@ class KrawczykList {
             bool less = false;
             for (std::size_t m = 0; m < box.size(); ++m) {
                 const Interval<T> now = common((*narrow)[m], box[m]);
-                if (!(now.low <= now.high)) return false;  // nothing is known of it
+                if (!(now.low <= now.high)) return false;  // nothing is known of the box
                 less = less || now.width() < T(0.75) * box[m].width();
                 box[m] = now;
             }
             if (!less) break;
         }
-        // a zero on the edge of the box, or in one narrowed to rounding, needs a wider box
+        // a zero on the edge of the box, or in a box narrowed to rounding, needs a wider box
         TangentBox<T> wider = box;
         for (int round = 0; round < 3; ++round) {
             using std::abs;
@@ -83,7 +83,7 @@ class KrawczykList {
         return false;
     }
 
-    /// Adds the zero of the box, within `near`; false if it may be one in the list.
+    /// Adds the zero of the box, within `near`. Returns false if it may be one in the list.
     bool add(const TangentBox<T>& box, TangentBox<T> near) {
         for (int round = 0; round < 20; ++round) {
             const auto again = balance_.narrowed(near);

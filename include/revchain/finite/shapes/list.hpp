@@ -18,10 +18,11 @@
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/thorough.hpp"
 
-/// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
+/// Finds the list of all steady shapes at a height; see revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An upper bound for the lowest tangent, from y0 = lambda t + (a X/moment) s and the reach.
+/// Returns an upper bound of the lowest tangent: y0 = lambda t + (a X/moment) s is within the
+/// reach.
 template <class T>
 T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height,
                    bool either_posture = false, OnAxis = {}) {
@@ -85,10 +86,11 @@ bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& hei
     return single_valued(links.template links_for_sweep<double>(), height);
 }
 
-/// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
-/// the offset of the support, `sign(tangent)`, has certain opposite signs there is at least one.
-/// Samples the ends of the ascending `ranges` and those of `points` tangents up to `last` in them:
-/// a third each even in inclination, in tangent, and in its logarithm down to 1e-12 of the last.
+/// Returns brackets of shapes where a proof of completeness failed. Between tangents of the lowest
+/// link at which the offset of the support, `sign(tangent)`, has certain opposite signs there is at
+/// least one. Samples the ends of the ascending `ranges` and those of `points` tangents up to
+/// `last` in them. A third each are even in inclination, in tangent, and in its logarithm down to
+/// 1e-12 of the last.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points,
                                 const Sign& sign) {
@@ -120,7 +122,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     return found;
 }
 
-/// Isolates shapes in double, undecided cells in double-double, and scans what remains open.
+/// Isolates shapes in double, undecided cells in double-double, and scans cells that remain open.
 template <class AnyLinks>
 Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
                         long links_to_look_at) {
@@ -157,7 +159,7 @@ Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
     return found;
 }
 
-/// The shape whose lowest tangent is in the bracket, if Newton's method finds it.
+/// Returns the shape whose lowest tangent is in the bracket, if Newton's method finds it.
 template <class AnyLinks>
 std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height,
                                        const Bracket<Far>& bracket) {
@@ -184,8 +186,8 @@ std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height
     return std::nullopt;
 }
 
-/// Bounds the error (rad) of inclinations found by Newton's method, from signs of the support's
-/// offset on both sides of the lowest tangent, and the ranges of all links between.
+/// Returns a bound on the error (rad) of inclinations found by Newton's method. It uses the signs
+/// of the support's offset on both sides of the lowest tangent, and the ranges of all links.
 template <class End>
 double inclination_error(const EnclosedLinks<Far>& links, const Fine& height,
                          const Bracket<Far>& bracket, const Balanced<Fine>& found,
@@ -217,7 +219,7 @@ double inclination_error(const EnclosedLinks<Far>& links, const Fine& height,
     }
 }
 
-/// Halves a bracket of a shape by proved signs until rounding leaves one undecided.
+/// Halves a bracket of a shape by proved signs until rounding leaves a sign undecided.
 template <class End>
 Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const End& support,
                       Bracket<Far> bracket) {
@@ -231,8 +233,8 @@ Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const
     return bracket;
 }
 
-/// A shape with links too near the horizontal for `finished`, from the tangents of all links in a
-/// `part` of the bracket; none if it cannot be proved.
+/// Returns a shape with links too near the horizontal for `finished`, from the tangents of all
+/// links in a `part` of the bracket; none if it cannot be proved.
 template <class AnyLinks>
 std::optional<ProvedShape> finished_by_tangents(const AnyLinks& chain, const Fine& height,
                                                 const Bracket<Far>& bracket,
@@ -264,8 +266,8 @@ void leave_open(const Bracket<Far>& part, Result& result) {
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
-/// Whether a link is so near the horizontal that the offset of a support on a spring may be wrong:
-/// offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
+/// Returns true if a link is so near the horizontal that the offset of a support on a spring may be
+/// wrong. Offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
 REVCHAIN_LAZY
 bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
@@ -283,7 +285,7 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
         Shape& shape = result.shapes.emplace_back(
             verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
         if (shape.error_bound <= 0x1.8p-52) return;
-        // almost horizontal or critical: the sweep may give a better bound
+        // with an almost level link, or near a critical height, the sweep may bound it better
         const double error =
             inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
         if (error < shape.error_bound) {
@@ -361,12 +363,12 @@ void conclude(Result& found) {
     found.complete = found.undecided.empty();
 }
 
-/// All shapes at a height in the units of the links. Throws InvalidArgument where links stand or
-/// have several inclinations, unless the means are `Thorough`.
+/// Returns all shapes at a height in the units of the links. Throws InvalidArgument where links
+/// stand or have several inclinations, unless the means are `Thorough`.
 template <class Result, class Means, class AnyLinks, class Options>
 Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
-    // slightly beyond: an almost horizontal link is at the bound, to rounding
+    // slightly beyond the bound: an almost horizontal link is at the bound, to rounding
     const double last =
         1.01 * farthest_tangent(links.template links_for_sweep<double>(), enclosed<double>(scaled),
                                 !options.hanging_only, enclosed<double>(links.upper_end()));

@@ -5,26 +5,26 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one, the whole;
-/// else R falls in the middle and grows beyond the joints t = +-sqrt((|turning|/stiffness)^(2/3) -
-/// 1).
+/// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one range,
+/// `whole`. Otherwise R falls in the middle and grows beyond the joints t =
+/// +-sqrt((|turning|/stiffness)^(2/3) - 1).
 enum class MonotoneBranch { whole, right, middle, left };
 
-/// Whether R grows with t everywhere by at least a hundredth of `stiffness`. A flatter one is
-/// divided into branches, the middle one without width.
+/// Returns true if R grows with t everywhere by at least a hundredth of `stiffness`. A flatter R is
+/// divided into branches, of which the middle one may have no width.
 template <Real T>
 bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
 }
 
-/// Tangents of a branch under a load R; `smooth` if they are away from joints.
+/// The tangents of a branch under a load R; `smooth` if they are away from joints.
 template <Real T>
 struct LoadedTangents {
     Interval<T> tangent;
     bool possible = true, smooth = true;
 };
 
-/// The tangents of one link in one posture by their load R.
+/// The tangents of one link in one posture as functions of its load R.
 template <Real T>
 class Response {
    public:
@@ -83,7 +83,7 @@ class Response {
         least_ = load(joint_);
     }
 
-    /// Solves R(t) = wanted without overshooting: R is convex for t > 0.
+    /// Returns t with R(t) = wanted. The method does not overshoot, since R is convex for t > 0.
     T near(const T& start, const T& wanted) const {
         return tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
     }
@@ -115,7 +115,7 @@ class Response {
         return met;
     }
 
-    /// The largest tangent between the joints with a load of at least R; false if it is the joint.
+    /// Returns the largest tangent between the joints with a load >= R; false if it is the joint.
     std::pair<T, bool> last_between(const T& R) const {
         if (R <= least_.high) return {joint_.high, false};
         T t =
@@ -135,7 +135,7 @@ class Response {
 
     Interval<T> stiffness_, turning_;
     bool single_;
-    Interval<T> joint_, least_;  // the right joint, and its load
+    Interval<T> joint_, least_;  // the right joint and its load
 };
 
 }  // namespace revchain::finite

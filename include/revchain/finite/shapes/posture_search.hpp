@@ -18,14 +18,14 @@ bool goes_on(const OpenPart<T>& part, const OpenPart<T>& next) {
     return part.high == next.low && part.choice == next.choice;
 }
 
-/// Steady shapes with every link in a given posture. A choice is one branch for each link; along it
-/// the tangents of all links are functions of the lowest one, by the upward sweep of Greenhill
-/// (1908) §8 (4), (12), differentiable away from joints. Parts of a choice are excluded by the
+/// Searches steady shapes with every link in a given posture. A choice is one branch for each link.
+/// Along it all tangents are functions of the lowest one, by the upward sweep of Greenhill (1908)
+/// §8 (4), (12). They are differentiable away from joints. Parts of a choice are excluded by the
 /// offset of the support or split, until `KrawczykList` decides the box of all tangents.
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:
-    /// `fewer_digits`: optionally the same search in fewer digits, whose zeros are known.
+    /// `fewer_digits` is optionally the same search in fewer digits, whose zeros are known.
     template <class... Search>
     PostureSearch(const EnclosedLinks<T>& links, const Interval<T>& height,
                   const std::vector<Posture>& posture, const End& support,
@@ -45,14 +45,14 @@ class PostureSearch {
     const std::vector<typename KrawczykList<T, End>::Zero>& zeros() const { return zeros_.found(); }
     const std::vector<OpenPart<T>>& open() const { return open_; }
 
-    /// The first choice; the lowest link needs no branch.
+    /// Returns the first choice; the lowest link needs no branch.
     std::vector<MonotoneBranch> first_choice() const {
         std::vector<MonotoneBranch> choice(links_.size(), MonotoneBranch::whole);
         for (std::size_t m = 1; m < choice.size(); ++m)
             if (!response_[m].is_single()) choice[m] = MonotoneBranch::right;
         return choice;
     }
-    /// The next choice; false after the last.
+    /// Sets the next choice. Returns false after the last.
     bool next_choice(std::vector<MonotoneBranch>& choice) const {
         for (std::size_t m = 1; m < choice.size(); ++m) {
             if (choice[m] == MonotoneBranch::whole) continue;
@@ -89,7 +89,7 @@ class PostureSearch {
     template <Real, class>
     friend class PostureSearch;
 
-    /// A part is decided if every shape in it is in the list.
+    /// Classifies a part: it is decided if every shape in it is in the list.
     Seen classify(const std::vector<MonotoneBranch>& choice, const Bracket<T>& part,
                   bool holds_straight, long& cells) {
         const Cell<T, 1> cell(Interval<T>(part.low, part.high));
@@ -109,7 +109,7 @@ class PostureSearch {
         return rounding ? Seen::ruled_by_rounding : Seen::open;
     }
 
-    /// The sweep along a choice; without derivatives above the first link near a joint.
+    /// The sweep along a choice. Near a joint it has no derivatives above the first link there.
     struct Sweep {
         PostureSearch& search;
         const std::vector<MonotoneBranch>& choice;

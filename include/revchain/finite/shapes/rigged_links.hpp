@@ -7,18 +7,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a, H
-/// the momentum of flywheels; `moment`, `rest` and `cross` are of the moving weights.
+/// The links of a rig at a speed, and its support. `pull` is the effective tension sigma + n H/a,
+/// with H the momentum of flywheels. `moment`, `rest` and `cross` are of the moving weights.
 ///
-/// With a negative pull the tangent falls as the load grows. A link of length -a and pull -sigma at
-/// the opposite inclination obeys the same equations: `links_for_sweep` returns that.
+/// With a negative pull the tangent decreases as the load grows. A link of length -a and pull
+/// -sigma at the opposite inclination obeys the same equations: `links_for_sweep` returns that link.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
     Fine speed{0.0};  ///< n, signed; 0 without momentum
     SupportEnd<Fine> support{};
     Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
-    double total_weight = 0;  ///< of the chain
+    double total_weight = 0;  ///< total weight of the chain
 
     const SupportEnd<Fine>& upper_end() const { return support; }
     const std::vector<Posture>& postures() const { return posture; }
@@ -44,7 +44,7 @@ struct RiggedLinks : Links<Fine> {
     }
 };
 
-/// sigma + n H/a, which may cancel: enclosed in double-double first.
+/// Returns sigma + n H/a. It may cancel, so it is enclosed in double-double first.
 template <class T>
 Interval<T> effective_tension(const detail::RigLink& link, const Fine& speed) {
     if (link.spin == Fine(0)) return enclosed<T>(link.tension);
@@ -78,8 +78,8 @@ void RiggedLinks::add_support(Shape& shape, const Fine& height, const Found& fou
     shape.effective_energy += std::ldexp(as_double(energy), of_weight + of_length);
 }
 
-/// A rig at a height and a speed in its own units. Throws InvalidArgument if an effective tension,
-/// or the moment of the moving weight of the lowest link, cannot be told from 0.
+/// Returns a rig at a height and a speed in its own units. Throws InvalidArgument if an effective
+/// tension, or the moment of the moving weight of the lowest link, cannot be distinguished from 0.
 REVCHAIN_LAZY
 RiggedLinks rigged_links(const Rig& rig, const Fine& height, const Fine& speed) {
     RiggedLinks result;

@@ -10,7 +10,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct ProvedShape {
     Balanced<Fine> shape;
     double error = 0;      ///< of every inclination, rad
-    double condition = 0;  ///< see WholeBalance::condition
+    double condition = 0;  ///< as returned by WholeBalance::condition
 };
 
 /// Steady shapes with links that stand or have several inclinations under one load.
@@ -24,7 +24,7 @@ struct SeveralInclinations {
     long cells = 0;
 };
 
-/// A box with exactly one zero, as small as double-double allows, about one known in double.
+/// Returns a box with exactly one zero, known in double, as small as double-double allows.
 template <class End>
 std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance,
                                          const TangentBox<Far>& near) {
@@ -53,7 +53,7 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance,
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
+/// Returns true if offsets found by Newton's method are those of a box's zero (and its `offset`).
 REVCHAIN_LAZY
 bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found,
             const TangentBox<Far>& box, const std::vector<Fine>& offset) {
@@ -71,8 +71,8 @@ bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found,
     return true;
 }
 
-/// A shape from the tangents of its links, or its mirror image if that is a shape, too: the free end (or, if that is on
-/// the axis, the lowest inclined link) is at a positive offset.
+/// Returns a shape from the tangents of its links, or its mirror image if that is a shape too. The
+/// free end (or, if that is on the axis, the lowest inclined link) is at a positive offset.
 template <class AnyLinks, class End>
 std::optional<ProvedShape> proved_shape(const AnyLinks& chain, const Fine& height,
                                         const WholeBalance<Far, End>& balance,
@@ -115,14 +115,14 @@ std::optional<ProvedShape> proved_shape(const AnyLinks& chain, const Fine& heigh
     return result;
 }
 
-/// All shapes with links in one posture, found in double and, for open parts, in double-double.
+/// Adds all shapes in one posture, found in double and, for open parts, in double-double.
 template <class AnyLinks>
 void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture,
                     double last, long budget, SeveralInclinations& result) {
     const std::size_t n = posture.size();
     const auto cube = static_cast<long>(n * n * n);
     result.cells += cube / 256;
-    if (cube >= 256 && result.cells >= budget) {  // not even one test of the whole chain
+    if (cube >= 256 && result.cells >= budget) {  // the budget is below one test of the chain
         result.open.push_back({posture[0], 0.0, last});
         return;
     }
@@ -152,7 +152,8 @@ void search_posture(const AnyLinks& chain, const Fine& height, const std::vector
     }
 }
 
-/// Shapes with all links hanging (a rig: in its own posture) or also with any of them standing.
+/// Returns shapes with all links hanging (a rig: in its own posture) or also with any of them
+/// standing.
 template <class AnyLinks>
 SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last,
                                          bool hanging_only, long budget) {

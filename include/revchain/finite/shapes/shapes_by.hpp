@@ -31,7 +31,7 @@ SteadyShape mirror_image(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes, each unique within its error bound, are the same.
+/// Returns true if two shapes, each unique within its error bound, are the same.
 REVCHAIN_LAZY
 bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
@@ -43,7 +43,7 @@ bool same(const SteadyShape& x, const SteadyShape& y) {
     return true;
 }
 
-/// All shapes of a rig; both signs of the lowest link's tangent if the support is off the axis.
+/// Returns all shapes of a rig; off the axis, for both signs of the lowest link's tangent.
 template <class Means>
 SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed,
                            const RigShapesOptions& options, Means means) {
@@ -67,7 +67,8 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     result = listed<SteadyShapes, Means>(links, lambda, options);
     const bool unbounded =
         !links.support.firm &&
-        left_to_the_spring(links.links_for_sweep<double>(), enclosed<double>(links.support)).may_vanish();
+        left_to_the_spring(links.links_for_sweep<double>(), enclosed<double>(links.support))
+            .may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;
         const double beyond = std::atan(last);
@@ -85,7 +86,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirror_image(std::move(shape));
-        // shapes with a link near the axis are found from both sides: boxes reach beyond tangent 0
+        // shapes with an almost vertical lowest link are found twice: boxes reach beyond tangent 0
         const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
         if (std::none_of(result.shapes.begin(), end,
                          [&](const SteadyShape& known) { return same(known, shape); }))
@@ -98,7 +99,7 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     return result;
 }
 
-/// Whether the speed is given as a conical height.
+/// Returns true if the speed is given as a conical height.
 template <class Options>
 bool height_is_given(const Options& options) {
     detail::require_one_speed("steady_shapes", options);

@@ -47,13 +47,13 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
     return result;
 }
 
-/// The inverse of a matrix of n rows, by elimination, if it is finite. Eigen's LU would add a
-/// quarter to the compile time of `steady_shapes`.
+/// Returns the inverse of a matrix of n rows, by elimination, if it is finite. Eigen's LU would add
+/// a quarter to the compile time of `steady_shapes`.
 template <Real T>
 std::optional<std::vector<T>> inverse_of(const std::vector<T>& a, std::size_t n) {
     using std::abs, std::isfinite;
     std::vector<std::vector<T>> rows(
-        n, std::vector<T>(2 * n));  // of a, and beside them those of its inverse
+        n, std::vector<T>(2 * n));  // rows of a, followed by those of its inverse
     for (std::size_t i = 0; i < n; ++i) {
         std::copy_n(&a[i * n], n, rows[i].begin());
         rows[i][n + i] = T(1);
@@ -79,13 +79,13 @@ std::optional<std::vector<T>> inverse_of(const std::vector<T>& a, std::size_t n)
     return inverse;
 }
 
-/// The balance of a whole chain in the tangents of its links in one posture, s the sines:
+/// The balance of a whole chain in the tangents of its links in one posture, with s the sines:
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,  B_mr = sigma_min(m,r) a_r - (m = r) X_m a_m.
-/// It is linear but for the sines, so its derivative over a box is as sharp as theirs, and regular
-/// at joints of branches. In a rig, sigma in B is of the moving weights; with W their sum the
-/// highest pin is at
+/// It is linear except for the sines. So its derivative over a box is as sharp as theirs, and
+/// regular at joints of branches. In a rig, sigma in B is of the moving weights. With W their sum
+/// the highest pin is at
 ///     y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/(lambda E)),
-/// and F_m is less by sigma_m y.
+/// and sigma_m y is subtracted from F_m.
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
@@ -123,10 +123,10 @@ class WholeBalance {
         return signed_(m, Sine<T>(t).value);
     }
 
-    /// Encloses all zeros of F in the box (Krawczyk); if the result is strictly within the box,
-    /// there is exactly one. None if the derivative has no inverse. Cost N^3. The tests of two forces
-    /// (finite/held) and of all pins (verification.hpp) stay apart: one template for all four took
-    /// 59 lines more than it saved.
+    /// Encloses all zeros of F in the box (Krawczyk). If the result is strictly within the box,
+    /// there is exactly one. Returns none if the derivative has no inverse. Cost N^3. The tests of
+    /// two forces (finite/held) and of all pins (verification.hpp) stay separate: one template for
+    /// all four took 59 lines more than it saved.
     std::optional<TangentBox<T>> narrowed(const TangentBox<T>& box) const {
         const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);
@@ -154,7 +154,8 @@ class WholeBalance {
         return result;
     }
 
-    /// One step of Newton's method in T; returns the largest change of an inclination, if any.
+    /// Makes a step of Newton's method in T. Returns the largest change of an inclination; none on
+    /// failure.
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -169,7 +170,7 @@ class WholeBalance {
         return largest;
     }
 
-    /// Largest change of an inclination (rad) for relative changes 1 of the terms of F.
+    /// Returns the largest change of an inclination (rad) for relative changes 1 of the terms of F.
     std::optional<double> condition(const std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -192,7 +193,7 @@ class WholeBalance {
     }
 
    private:
-    /// Sets the topmost pin of a rig; returns the sigma of its moving weights.
+    /// Sets the topmost pin of a rig. Returns the sigma of its moving weights.
     std::vector<Interval<T>> hold(const EnclosedLinks<T>& links, const End& support) {
         Interval<T> below(T(0));
         std::vector<Interval<T>> moving;
@@ -226,7 +227,7 @@ class WholeBalance {
         }
         return F;
     }
-    /// The inverse of the derivative, in T: double would not do near a critical height.
+    /// Returns the inverse of the derivative in T: double is too coarse near a critical height.
     std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
         using std::sqrt;
         std::vector<T> jacobian(size_ * size_);
@@ -254,7 +255,7 @@ class WholeBalance {
     std::vector<T> middle_;
     struct {
         Interval<T> at_rest;        // offset of the topmost pin under vertical links
-        TangentBox<T> drawn, load;  // what each sine adds to it; sigma times `at_rest`
+        TangentBox<T> drawn, load;  // offset per unit of each sine; sigma times `at_rest`
         bool symmetric = true;
     } top_;
 };

@@ -13,11 +13,11 @@ struct Verified {
     double condition;  ///< largest change of an inclination (rad) per relative change of forces
 };
 
-/// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a
-/// tangent stiffness for each link and a mass for each pin.
+/// lambda times the forces at the pins for offsets in intervals, and the parts of their derivative:
+/// a tangent stiffness for each link and a mass for each pin.
 struct Forces {
     std::vector<Span> force, stiffness, mass;
-    std::vector<double> size, cosine;  ///< sum of sizes of each force; lower bound for each link
+    std::vector<double> size, cosine;  ///< sizes of each force's terms; lower bounds of cosines
     bool known = true;
 
     template <class End>
@@ -57,7 +57,7 @@ struct Forces {
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
-    /// Row m of the derivative times a vector that is 0 at the support.
+    /// Returns row m of the derivative times a vector that is 0 at the support.
     Span row(std::size_t m, const std::vector<Far>& x) const {
         Span result = stiffness[m] * (Span(x[m]) - Span(x[m + 1])) - mass[m] * Span(x[m]);
         if (m > 0) result = result - stiffness[m - 1] * (Span(x[m - 1]) - Span(x[m]));
@@ -65,14 +65,14 @@ struct Forces {
     }
 };
 
-/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it upwards, q downwards.
+/// The inverse of the derivative, p_i q_j / w for i <= j. p solves it upwards, q downwards.
 struct Inverse {
     std::vector<Far> p, q;
     Far w;
 
     explicit Inverse(const Forces& at) : p(at.force.size() + 1, Far(0)), q(p), w(0) {
         const std::size_t n = at.force.size();
-        Far pull(0);  // between pin m and the next above
+        Far pull(0);  // between pin m and the next pin above
         p[0] = Far(1);
         for (std::size_t m = 0; m + 1 < n; ++m) {
             pull = pull + at.mass[m].middle() * p[m];
@@ -101,7 +101,8 @@ struct Inverse {
         }
         return result;
     }
-    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|.
+    /// Returns for each pin |q| times the sum of `of_p` below plus |p| times that of `of_q` above,
+    /// over |w|.
     std::vector<double> spread(const std::vector<double>& of_p,
                                const std::vector<double>& of_q) const {
         const std::size_t n = of_p.size();
@@ -123,8 +124,8 @@ struct Balance {
     Inverse inverse;
 };
 
-/// Newton's method to the last digit of double-double; none if an offset is out of reach. It uses
-/// the inverse and the enclosed forces that the test below needs.
+/// Returns the balance by Newton's method to the last digit of double-double; none if an offset is
+/// out of reach. It uses the inverse and the enclosed forces that the test below needs.
 template <class End>
 std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& height,
                               std::vector<Far> offset, const End& support) {
@@ -146,7 +147,7 @@ std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& heigh
     }
 }
 
-/// Krawczyk's test on all pins at once: bounds the error of each offset; none if it fails.
+/// Bounds the error of each offset by Krawczyk's test on all pins at once; none if the test fails.
 template <class End>
 std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links,
                                                  const Span& height, const Balance& found,
@@ -171,7 +172,7 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     const Forces over(links, height, box, support);
     if (!over.known) return std::nullopt;
 
-    // rows of 1 - inverse times derivative: off the diagonal p_i or q_i times residuals of p and q
+    // rows of 1 - inverse times derivative: off the diagonal, p_i or q_i times residuals of p and q
     const Span one(Far(1)), W(w);
     for (std::size_t m = 0; m < n; ++m) {
         const Span rest = over.row(m, q), P(p[m]), Q(q[m]);
@@ -189,9 +190,9 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     return radius;
 }
 
-/// Newton's method, then Krawczyk's test (Computing 4 (1969) 187, doi:10.1007/BF02234767), on all
-/// pins at once. The inverse of the tridiagonal derivative is two vectors: O(N), 4 microseconds a
-/// link, and intervals do not grow from link to link as in a sweep.
+/// Returns a shape with proved errors, by Newton's method and Krawczyk's test (Computing 4 (1969)
+/// 187, doi:10.1007/BF02234767) on all pins at once. The inverse of the tridiagonal derivative is
+/// two vectors: O(N), 4 microseconds a link. Intervals do not grow from link to link as in a sweep.
 template <class End = OnAxis>
 Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                   const End& support = {}) {
@@ -224,16 +225,16 @@ Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vect
     return result;
 }
 
-/// Mirrors a shape, where that is a shape too, so that its free end has a positive offset.
+/// Mirrors a shape, if its mirror image is a shape too, so that its free end has a positive offset.
 template <class End>
 void turn_outwards(Balanced<Fine>& shape, const End& support) {
     if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();
 }
 
-/// A shape found by Newton's method, all links hanging, with error bound and condition of
+/// Returns a shape found by Newton's method, all links hanging, with error bound and condition of
 /// `verified` at heights in `within`. The bound is infinite if nothing is proved. At a given height
-/// the digits are those of `verified`. At a found height they stay, since near the vertical the
-/// rounding of the height moves the shape; the bound then includes the difference.
+/// the digits are those of `verified`. At a found height the given digits stay, since near the
+/// vertical the rounding of the height moves the shape; the bound then includes the difference.
 template <class Shape = SteadyShape, class AnyLinks>
 Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links,
                      const Fine& height, const Span& within, Balanced<Fine> found,
@@ -257,7 +258,7 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     Shape shape = described<Shape>(chain, height, found);
     const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) !=
                         found.posture.end();
-    // the last term: two roundings of an angle
+    // the last term covers two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;
     return shape;

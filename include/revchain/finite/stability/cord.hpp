@@ -17,11 +17,11 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;   ///< ascending; inclination and tension are smooth between
-    std::vector<double> pieces;  ///< the same of the density; empty if it is uniform
+    std::vector<double> steps;   ///< ends of steps, ascending, with a smooth shape between
+    std::vector<double> pieces;  ///< ends of pieces of the density; empty if uniform
     std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
-    std::function<double(double)> density, weight_below;  ///< of the arc
-    bool is_held = false;                                 ///< the lower end too
+    std::function<double(double)> density, weight_below;  ///< functions of the arc
+    bool is_held = false;                                 ///< whether the lower end is held too
 };
 
 REVCHAIN_LAZY
@@ -56,18 +56,18 @@ CordProfile profile_of(const HeldCordShape& shape) {
 }
 
 /// A cord disturbed from a shape: its tangent turns by a in the plane of the shape and by b out of
-/// it. The displacements xi, eta, zeta (across the axis in the plane, out of the plane, along the
-/// axis) satisfy from the support down
+/// it. The displacements are xi across the axis in the plane, eta out of the plane and zeta along
+/// the axis. From the support down they satisfy
 ///     xi' = -a cos(psi),   zeta' = -a sin(psi),   eta' = b    (' by sigma, psi the inclination).
 /// With times in 1/n and T lambda times the tension, the Lagrangian of second order in the turning
 /// frame is
 ///     1/2 sum of m (xi'^2 + eta'^2 + zeta'^2) + m (xi eta' - eta xi') + 1/2 m (xi^2 + eta^2)
 ///     - 1/2 integral of T (a^2 + b^2)    (here ' by time).
 /// A held lower end must not move. On panels a and b are polynomials, given at the nodes of Gauss's
-/// rule; they need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
-/// rule on panels, or on each piece of the density in a panel, since near a free end it may be a
-/// power of the arc. The order is twice the number of nodes for smooth shapes.
-template <int = 0>  // compiled where it is used
+/// rule. They need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
+/// rule on panels, or on each piece of the density in a panel, since near a free end the density
+/// may be a power of the arc. The order is twice the number of nodes for smooth shapes.
+template <int = 0>  // a template, so that it is compiled only where it is used
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)
@@ -84,7 +84,7 @@ class DisturbedCord {
         const Index n = wide_.size(), m = static_cast<Index>(points_.size());
         const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // orthonormal basis
         Matrix<double> value = Matrix<double>::Zero(m, n);
-        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: all
+        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: whole
         Vector<double> mass(m + 1), length(m + 1), tension(m);
         for (Index i = 0; i < m; ++i) {
             const Point& point = points_[static_cast<std::size_t>(i)];
@@ -125,7 +125,7 @@ class DisturbedCord {
     }
 
    private:
-    /// Ends of panels: at steps of the path, except those along which the cord hardly turns.
+    /// Returns the ends of panels: ends of steps, except steps along which the cord hardly turns.
     std::vector<double> panel_ends() const {
         const double length = shape_.length, longest = length / (2 * shape_.half_waves + 2);
         std::vector<double> ends{0};
@@ -150,7 +150,7 @@ class DisturbedCord {
         add_jumps(ends);
         return ends;
     }
-    /// Adds the jumps of the density, unless there would be too many unknowns.
+    /// Adds the jumps of the density to `ends`, unless there would be too many unknowns.
     void add_jumps(std::vector<double>& ends) const {
         constexpr std::size_t most = 16;
         std::vector<double> jumps;
@@ -170,7 +170,7 @@ class DisturbedCord {
         ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
         std::sort(ends.begin(), ends.end());
     }
-    /// The Lagrange polynomials of the nodes at x, 0 ... 1 over a panel.
+    /// Returns the Lagrange polynomials of the nodes at x, which goes from 0 to 1 over a panel.
     Vector<double> lagrange(double x) const {
         Vector<double> values = Vector<double>::Ones(nodes_);
         for (Index j = 0; j < nodes_; ++j)
@@ -199,7 +199,7 @@ class DisturbedCord {
                 add_points(panel, low, high, from, end), from = end;
         add_points(panel, low, high, from, high);
     }
-    /// Points in a part of a panel, with the exact weight of that part.
+    /// Adds points in a part of a panel, with the exact weight of that part.
     void add_points(Index panel, double low, double high, double from, double to) {
         const std::size_t first = points_.size();
         double sum = 0;
@@ -224,10 +224,10 @@ class DisturbedCord {
     Index nodes_;
     std::vector<std::pair<double, double>> rule_;
     Vector<double> wide_, cosine_, sine_;  // at the nodes
-    std::vector<Point> points_;            // at which integrals are taken
+    std::vector<Point> points_;            // points of integration
 };
 
-/// The result on which two discretisations agree.
+/// Returns the stability on which two discretisations agree.
 template <class Shape>
 Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     if (!(std::abs(shape.length - cord.length()) <= 1e-14 * cord.length()))
@@ -250,7 +250,7 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     }
     if (result.negative_directions != coarse.negative_directions)
         result.verdict = Verdict::undecided;
-    // the slowest exponents, up to the first that only one discretisation has
+    // keep the slowest exponents, up to the first that only one discretisation has
     const auto unconfirmed = [](const Stability& of, const Stability& by) {
         double slowest = std::numeric_limits<double>::infinity();
         for (const std::complex<double>& s : of.exponents) {

@@ -22,7 +22,7 @@ bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An orthonormal basis of the complement of the columns.
+/// Returns an orthonormal basis of the complement of the columns.
 template <class S>
 Matrix<S> complement(const Matrix<S>& columns) {
     const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
@@ -34,18 +34,18 @@ Matrix<S> congruent(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));
 }
 
-/// Links disturbed from a shape by angles q in its plane and angles b out of it, time in 1/n:
+/// Links disturbed from a shape by angles q in its plane and angles b out of it, with time in 1/n:
 ///     A q'' - 2 B b' + (diag(a P) - X'MX) q = 0,
-///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY,
-/// P lambda times the pull along each link, M the masses of the pins, X q and Z q their motions
-/// across and along the axis, Y b those out of the plane, A = X'MX + Z'MZ, B = X'MY - diag(p)/2, p
-/// lambda n times the angular momentum of a link about its own axis. A link moves all pins below
-/// it: X = U diag(a cos), Y = U diag(a), U upper triangular of ones, and G = U'MU is computed link
-/// by link without cancellation. A support that yields moves by the last q and b, which are
-/// lengths: it adds lambda E to both stiffnesses and its carriage to M. So does a lower end on a
-/// spring, by the motion of the lowest pin. Angles are scaled so that stiffness and mass are about
-/// 1, for light links too. Damping adds rates of dissipation: F q', H b' at the pins, drag by
-/// length and velocity.
+///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY.
+/// P is lambda times the pull along each link and M the masses of the pins. X q and Z q are the
+/// motions of the pins across and along the axis, Y b those out of the plane. A = X'MX + Z'MZ and B
+/// = X'MY - diag(p)/2, with p lambda n times the angular momentum of a link about its own axis. A
+/// link moves all pins below it: X = U diag(a cos), Y = U diag(a), with U upper triangular of ones.
+/// G = U'MU is computed link by link without cancellation. A support that yields moves by the last
+/// q and b, which are lengths. It adds lambda E to both stiffnesses and its carriage to M. So does
+/// a lower end on a spring, by the motion of the lowest pin. Angles are scaled so that stiffness
+/// and mass are about 1, for light links too. Damping adds rates of dissipation: F q', H b' at the
+/// pins, and drag by length and velocity.
 template <class S>
 struct DisturbedIn {
     Matrix<S> inertia, coupling, mass;  // A, B, N
@@ -55,8 +55,8 @@ struct DisturbedIn {
     Matrix<S> drag_in_plane, drag_coupling, drag_across;
     Matrix<S> ends;               // how the lower end moves with q, across the axis and along it
     Vector<S> lower_end;          // how it moves with b
-    Vector<S> stiffness;          // lambda times that of links and support, against q as against b
-    Vector<S> offset;             // the shape: out of plane, a rotation
+    Vector<S> stiffness;          // lambda times that of links and support, for q and for b
+    Vector<S> offset;             // the shape; as b, it is a rotation
     std::vector<Index> massless;  // pins without mass, lowest first
     double doubt = 0;             // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
@@ -74,7 +74,7 @@ struct DisturbedIn {
         };
         Matrix<S> G(pins, pins), length(pins, pins);
         Fine below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
-        for (Index m = 0; m < pins; ++m) {  // sums of masses, and of a third and a half of lengths
+        for (Index m = 0; m < pins; ++m) {  // sums of masses, and thirds and halves of lengths
             const bool is_link = m < n;
             const Fine zero(0.0), a = is_link ? link(m).length : zero;
             const Fine own = is_link ? link(m).moment - link(m).cross : Fine(shape.carriage);
@@ -152,16 +152,17 @@ struct DisturbedIn {
             *of = congruent(*of, Y);
     }
 
-    /// Keeps the lower end fixed; on a spring it may move across the axis.
+    /// Keeps the lower end fixed; if it is on a spring it may move across the axis.
     void hold_lower_end(bool yields) {
         const Index count = offset.size();
-        if (yields) return keep(complement(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
+        if (yields)
+            return keep(complement(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
         const Matrix<S> held = complement(Matrix<S>(lower_end));
         keep(complement(ends), held);
         offset = (held.transpose() * offset).eval();
     }
 
-    /// Eliminates a yielding upper end without mass: spring and top link are in series.
+    /// Eliminates an upper end on a spring and without mass: spring and top link are in series.
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
@@ -173,15 +174,16 @@ struct DisturbedIn {
     }
 
    private:
-    /// Twice the dissipation of unit damping at the pins by angles b. A link turns across itself at
-    /// b, and about itself to dissipate least, unless it has a moment of inertia there; so does a
-    /// support without torque about the axis. A rotation dissipates nothing.
+    /// Returns twice the dissipation of unit damping at the pins by angles b. A link turns across
+    /// itself at the rate b. Without a moment of inertia about itself it also turns so that it
+    /// dissipates least. So does a support without torque about the axis. A rotation dissipates
+    /// nothing.
     static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index joints = n + shape.held;
         Matrix<double> given = Matrix<double>::Zero(2 * joints, pins),
                        left = Matrix<double>::Zero(2 * joints, n + 2);
-        const auto between = [&](Index m, auto&& place) {  // the joints of link m, below and above
+        const auto between = [&](Index m, auto&& place) {  // calls place for both joints of m
             if (m > 0 || shape.held) place(m - 1 + shape.held, 1.0);
             place(m + shape.held, -1.0);
         };

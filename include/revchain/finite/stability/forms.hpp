@@ -7,8 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Signs of the second variation of the energy, in and out of the plane: number of negative
-/// directions, whether all are positive, whether all are certain despite rounding.
+/// Signs of the second variation of the energy, in and out of the plane: the number of negative
+/// directions, whether all are positive, and whether one is certainly negative despite rounding.
 struct EnergySigns {
     Index negative;
     bool is_minimum, is_certain;
@@ -24,7 +24,7 @@ EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& a
     return {inside.negative + outside.negative, least > rounding, least < -rounding};
 }
 
-/// p'A q of complex vectors, without conjugation.
+/// Returns p'A q of complex vectors, without conjugation.
 template <class S>
 std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A,
                          const pencil::ComplexColumns<S>& q, Index j) {

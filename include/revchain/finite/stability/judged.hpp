@@ -16,18 +16,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
-/// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
-/// 1000 times the error; for almost equal motions, as of a light link in and out of the plane, up
-/// to 40 times less (tests/python/test_light_links.py).
+/// A verdict, and whether an exponent lost digits. It lost digits if its estimated error is above
+/// 5e-11 of the largest exponent, or 5e-9 near 1, and in proportion more beyond 16 unknowns. The
+/// estimate is usually about 1000 times the error. For almost equal motions, as of a light link in
+/// and out of the plane, it is up to 40 times less (tests/python/test_light_links.py).
 struct Judgement {
     Stability stability;
     bool is_spoilt = false;
 };
 
-/// The verdict from squares of exponents and their errors. A square farther from the negative
-/// numbers than its error is unstable. A negative square separated from all others stays imaginary:
-/// squares leave the real axis in pairs, and those of a symmetric matrix never.
+/// Returns the verdict from squares of exponents and their errors. A square farther from the
+/// negative numbers than its error is unstable. A negative square separated from all others stays
+/// imaginary. Squares leave the real axis in pairs, and those of a symmetric matrix never leave it.
 REVCHAIN_LAZY
 Verdict verdict_by(const std::vector<std::complex<double>>& square,
                    const std::vector<double>& error, bool is_symmetric) {
@@ -42,12 +42,13 @@ Verdict verdict_by(const std::vector<std::complex<double>>& square,
     return still ? Verdict::spectrally_stable : Verdict::undecided;
 }
 
-/// The verdict on a disturbed shape. To first order damping c (F, H) changes an exponent by
+/// Returns the verdict on a disturbed shape; none if rounding leaves a mass matrix indefinite. To
+/// first order damping c (F, H) changes an exponent by
 ///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'N Y - 2 q'B Y)),    Y = s b,
-/// since (q, -b) is the left mode; drag in space adds -2 q'X'E Y to the numerator, X'E the
-/// `drag_coupling`. Changes of the matrices move s^2 alike. The error of s^2 adds the residual of a
-/// mode and its rounding, the error of the eigenvalue solver, and the effect of relative errors of
-/// masses and pulls. None if rounding leaves a mass matrix indefinite.
+/// since (q, -b) is the left mode. Drag in space adds -2 q'X'E Y to the numerator, with X'E the
+/// `drag_coupling`. Changes of the matrices move s^2 by the same formula. The error of s^2 adds the
+/// residual of a mode and its rounding, the error of the eigenvalue solver, and the effect of
+/// relative errors of masses and pulls.
 template <class S>
 std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d,
                                    const ChainUnits& units) {
@@ -141,7 +142,7 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     double largest = 0;
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
-        for (std::size_t k = 0; k < square.size(); ++k)  // equal ones have no mode each
+        for (std::size_t k = 0; k < square.size(); ++k)  // equal squares have no separate modes
         {
             const double near = 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]);
             if (k == j || !(std::abs(square[j] - square[k]) <= near)) continue;
@@ -186,7 +187,7 @@ Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& uni
     return found ? found->stability : Stability();
 }
 
-/// Disturbed links with the constraints of their ends.
+/// Returns disturbed links with the constraints of their ends.
 template <class S>
 DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     DisturbedIn<S> d(links);
@@ -195,7 +196,7 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     return d;
 }
 
-/// Throws InvalidArgument if a moving pin has no mass, but for a balanced upper end.
+/// Throws InvalidArgument if a moving pin has no mass, except a balanced upper end.
 REVCHAIN_LAZY
 void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
@@ -210,19 +211,19 @@ void require_mass(const PulledLinks& links, const Disturbed& d) {
             0.0);
 }
 
-/// The verdict on a shape, in double or, by thorough means and if rounding spoils that, in
-/// double-double.
+/// Returns the verdict on a shape, in double. With thorough means it is in double-double if
+/// rounding spoils the result in double.
 template <class Means>
 Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
-    if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
+    if (d.in_plane.size() == 0) {  // two links held at both ends can only rotate
         Stability still;
         still.frame = frame, still.verdict = Verdict::minimum;
         return still;
     }
     auto found = judged_in(frame, d, links.units);
-    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
+    constexpr Index most_in_words = 100;  ///< unknowns; so many take half a second
     if constexpr (detail::is_thorough<Means>)
         if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
             if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units))
@@ -245,7 +246,8 @@ Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& 
     return judged(frame, pulled_links(links_of(chain), shape), means);
 }
 
-/// The shape of a rig. Momentum p of a link about its own axis adds p/a to the pull.
+/// Returns the shape of a rig as pulled links. Momentum p of a link about itself adds p/a to the
+/// pull.
 REVCHAIN_LAZY
 PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape,
                          double height) {
@@ -265,7 +267,7 @@ PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyS
         const double about =
             in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
         Link<Fine> link = given.links[i];
-        // as a body: inertia that turns with it had lessened its resistance
+        // as a body: in `given`, inertia that turns with the link lessens its resistance
         link.cross = given.given[i].cross - Fine(about) / (link.length * given.given[i].length);
         const double kept = height * as_double(given.speed * given.given[i].spin),
                      a = links[i].length;
@@ -283,8 +285,8 @@ bool displaces_turning_fluid(const Rig& rig) {
     return false;
 }
 
-/// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
-/// shape with minimal potential energy, but for a rotation, is stable.
+/// Returns the verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning
+/// frame. A shape with minimal potential energy, apart from a rotation, is stable.
 REVCHAIN_LAZY
 Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;

@@ -14,32 +14,32 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A shape as its links, their inclinations and lambda times the pulls along them.
+/// A shape given by its links, their inclinations and lambda times the pulls along them.
 struct PulledLinks {
     std::vector<Link<Fine>> links;
     std::vector<double> inclination, pull;
     std::vector<double> doubt;  // errors of pulls over rounding
     double upper_offset = 0;
     std::vector<double> momentum, axial;  // of flywheels: lambda n times momentum, inertia
-    double stiffness = std::numeric_limits<double>::infinity();  // lambda times the support's
+    double stiffness = std::numeric_limits<double>::infinity();  // lambda times that of the support
     double carriage = 0;
     double lower_stiffness = std::numeric_limits<double>::infinity();  // of a held lower end
     double lower_carriage = 0;
-    bool held = false;         // the lower end too
-    bool turns_freely = true;  // no torque about the axis
+    bool held = false;         // whether the lower end is held too
+    bool turns_freely = true;  // whether the support exerts no torque about the axis
     ChainUnits units;
 
     explicit PulledLinks(const ChainUnits& of) : units(of) {}
 
     bool yields() const { return !std::isinf(stiffness); }
-    /// Whether the upper end is on a spring and moves no mass.
+    /// Returns true if the upper end is on a spring and moves no mass.
     bool top_is_massless() const {
         return yields() && carriage == 0 && is_zero(links.back().rest) &&
                is_zero(links.back().cross);
     }
     bool lower_yields() const { return held && !std::isinf(lower_stiffness); }
 
-    /// Adds a link, or merges it with the last if they are in line and their pin has no mass.
+    /// Adds a link. Merges it with the last if they are in line and their pin has no mass.
     void add(const Link<Fine>& link, double delta, double pulled, double off, double turning = 0,
              double about = 0) {
         if (!links.empty()) {
@@ -68,8 +68,8 @@ struct Pulls {
     std::vector<double> pull, doubt;
 };
 
-/// The pulls of a shape, from the force (H, tau) on the lowest pin, in the given units: load over
-/// cosine or, for a nearly level link, the load resolved along the link.
+/// Returns the pulls of a shape, from the force (H, tau) on the lowest pin, in the given units. A
+/// pull is the load over the cosine or, for a nearly level link, the load resolved along the link.
 template <class Shape>
 Pulls pulls(const std::vector<Link<double>>& links, const Shape& shape, const ChainUnits& units,
             double H = 0, double tau = 0) {

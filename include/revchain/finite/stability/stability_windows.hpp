@@ -29,7 +29,7 @@ Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShape& shap
     return stability(rig, shape, options).verdict;
 }
 
-/// The verdict at an arc after point `index`, at most that of the next.
+/// Returns the verdict at an arc after point `index`, at most that of the next point.
 template <class System>
 JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector,
                       std::size_t index, double arc, StabilityFrame frame) {
@@ -75,7 +75,7 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
     };
     Judged last = judge(first, branch.arc[first]);
     windows.push_back({last.arc, last.arc, last.height, last.height, last.verdict});
-    // extends the windows to a judged point, by bisection until a part is short or of one verdict
+    // extends the windows to a judged point, by bisection until a part is short or has one verdict
     const auto extend = [&](std::size_t index, const Judged& to) {
         std::vector<Judged> ahead{to};
         while (!ahead.empty()) {

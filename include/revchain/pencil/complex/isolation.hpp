@@ -4,10 +4,11 @@
 #include "revchain/numeric/interval.hpp"
 #include "revchain/pencil/complex/roots_in_lanes.hpp"
 
-/// Values of det Q with error bounds, and distances between approximate roots, to prove all roots.
+/// This header computes values of det Q with error bounds, and distances between approximate roots,
+/// to prove all roots.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A complex number of two double words; std::complex is for built-in scalars only.
+/// A complex number of two double words. (std::complex is for built-in scalars only.)
 struct ComplexWord {
     using S = DoubleWord<double>;
     S real{}, imag{};
@@ -30,7 +31,7 @@ struct ComplexWord {
     friend ComplexWord operator*(const ComplexWord& x, const ComplexWord& y) {
         return {x.real * y.real - x.imag * y.imag, x.real * y.imag + x.imag * y.real};
     }
-    /// Smith's rule: the square of the divisor cannot leave the range.
+    /// Divides by Smith's rule: the square of the divisor cannot overflow.
     friend ComplexWord operator/(const ComplexWord& x, const ComplexWord& y) {
         if (abs(y.real) < abs(y.imag)) {
             const S r = y.real / y.imag, size = y.imag + y.real * r;
@@ -39,7 +40,7 @@ struct ComplexWord {
         const S r = y.imag / y.real, size = y.real + y.imag * r;
         return {(x.real + x.imag * r) / size, (x.imag - x.real * r) / size};
     }
-    /// The absolute value, to a few ulp of double.
+    /// Returns the absolute value, to a few ulp of double.
     friend double size_of(const ComplexWord& x) { return std::abs(std::complex<double>(x)); }
 };
 
@@ -47,7 +48,7 @@ namespace detail {
 
 inline constexpr std::size_t value_lanes = most_doubles;
 
-/// A complex number times 2^exponent with a relative error; infinite where nothing is known.
+/// A complex number times 2^exponent with a relative error, which is infinite if it is unknown.
 struct ScaledValue {
     std::complex<double> fraction{1.0};
     double exponent = 0, error = 0;
@@ -62,7 +63,7 @@ struct ScaledValue {
     }
 };
 
-/// A product of complex numbers in each lane; its error, 4 ulp a factor, is not tracked.
+/// A product of complex numbers in each lane. Its error, 4 ulp a factor, is not tracked.
 template <class V>
 struct ProductInLanes {
     ComplexLanes<V> fraction{V(1.0), V(0.0)};
@@ -82,8 +83,9 @@ struct ProductInLanes {
     }
 };
 
-/// det Q at the x in each lane, with the running bound of `certified_count`, which holds in the
-/// complex plane too, by the mean value inequality; a complex operation has at most 16 roundings.
+/// Computes det Q at the x in each lane, with the running bound of `certified_count`. By the mean
+/// value inequality it holds in the complex plane, too. A complex operation has at most 16
+/// roundings.
 template <class Where>
 [[gnu::always_inline]] inline void values_in_lanes(Where, const SignedPencil<Wide<double>>& pencil,
                                                    const ComplexWord* at, ScaledValue* values) {
@@ -156,7 +158,7 @@ template <class Where>
                               : std::numeric_limits<double>::infinity();
 }
 
-/// All approximations, parts separate so that lanes load them, and the radii of their discs.
+/// All approximations, with separate parts for loads into lanes, and the radii of their discs.
 struct SplitWords {
     std::vector<double> re, im, re_low, im_low, radius;
     explicit SplitWords(const std::vector<ComplexWord>& x) : radius(x.size()) {
@@ -168,7 +170,7 @@ struct SplitWords {
     std::size_t size() const { return re.size(); }
 };
 
-/// Calls f(x - x_j, j, whether j is itself) for every j; x in each lane is number `lane[i]`.
+/// Calls f(x - x_j, j, is x number j) for every j; x in each lane is number `lane[i]`.
 template <class V, class F>
 [[gnu::always_inline]] inline void for_differences(const SplitWords& all, const std::size_t* lane,
                                                    const F& f) {
@@ -189,7 +191,7 @@ template <class V, class F>
     }
 }
 
-/// In each lane the product of x - x_j over all others; factors have 4 ulp if high parts differ.
+/// Computes in each lane prod (x - x_j) over all others; a factor has 4 ulp if high parts differ.
 template <class Where>
 [[gnu::always_inline]] inline void products_in_lanes(Where, const SplitWords& all,
                                                      const std::size_t* lane,
@@ -205,7 +207,7 @@ template <class Where>
     product.store(products);
 }
 
-/// In each lane, over all others: the least d = |x - x_j| - r_j, and the sum of r_j/d.
+/// Computes in each lane, over all others, the least d = |x - x_j| - r_j, and the sum of r_j/d.
 template <class Where>
 [[gnu::always_inline]] inline void distances_in_lanes(Where, const SplitWords& all,
                                                       const std::size_t* lane, double* nearest,
@@ -224,8 +226,8 @@ template <class Where>
     least.store(nearest), sum.store(shares);
 }
 
-/// Degree and leading coefficient of det Q, its error infinite if the degree may be less. Elements
-/// that stiffen with x tie their pins together; the others have the masses between.
+/// The degree and leading coefficient of det Q; the error is infinite if the degree may be less.
+/// Elements that stiffen with x tie their pins together. The others have the masses between.
 struct LeadingTerm {
     Index degree = 0;
     ScaledValue coefficient;
@@ -241,7 +243,7 @@ inline LeadingTerm leading_term(const SignedPencil<Wide<double>>& pencil) {
         leading.degree += degree;
     };
     using revchain::detail::around;
-    I below;  // the dynamic stiffness of what hangs below, where all else is rigid
+    I below;  // the dynamic stiffness of everything below, with all else rigid
     for (const auto& e : pencil.elements) {
         const auto& off = e.error;
         const I lower = around(e.lower, off.lower), upper = around(e.upper, off.upper);

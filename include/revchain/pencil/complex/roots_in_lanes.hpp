@@ -12,7 +12,7 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// Unproved starts for all roots of det Q(x), in double, one in each lane of a pack.
+/// This header computes unproved starts for all roots of det Q(x), in double, one root a lane.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 template <class V>
@@ -47,7 +47,7 @@ namespace detail {
 
 using RoundedElement = SignedElement<double>;
 
-/// P'/P of P = det Q at x: the sum of p'/p over the pivots, by equation (1) and its derivative.
+/// Returns P'/P of P = det Q at x: the sum of p'/p over the pivots, by equation (1) differentiated.
 template <bool quadratic, class V>
 [[gnu::always_inline]] inline ComplexLanes<V> log_derivative_in_lanes(const RoundedElement* rows,
                                                                       std::size_t count,
@@ -73,7 +73,7 @@ template <bool quadratic, class V>
     return sum;
 }
 
-/// Roots in double, real and imaginary parts separate, so that lanes load them.
+/// Roots in double, with separate real and imaginary parts for loads into lanes.
 struct SplitRoots {
     std::vector<double> re, im;
 
@@ -84,7 +84,7 @@ struct SplitRoots {
     std::complex<double> operator[](std::size_t i) const { return {re[i], im[i]}; }
 };
 
-/// Moves roots by up to a tenth of their distances, because equal or real roots would stay so.
+/// Moves roots by up to a tenth of their distances: equal roots would stay equal, real roots real.
 inline void scatter(SplitRoots& roots) {
     for (std::size_t i = 0; i < roots.size(); ++i) {
         const double turn =
@@ -95,8 +95,8 @@ inline void scatter(SplitRoots& roots) {
     }
 }
 
-/// Newton steps of the roots listed in `active`, the other roots divided out (Ehrlich, Aberth); all
-/// from the same roots, so that results do not depend on the number of threads.
+/// Computes Newton steps of the roots listed in `active`, with the others divided out (Ehrlich,
+/// Aberth). All steps use the same roots, so results do not depend on the number of threads.
 inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros,
                          const SplitRoots& roots, const std::vector<std::size_t>& active,
                          SplitRoots& step) {
@@ -133,7 +133,7 @@ inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool qua
     });
 }
 
-/// Moves roots until no step exceeds the share `finest` or grows; returns the number of sweeps.
+/// Moves roots until no step exceeds the share `finest` or grows. Returns the number of sweeps.
 inline int aberth(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros,
                   SplitRoots& roots, double finest, int most,
                   const std::function<void()>& advance) {
@@ -158,7 +158,7 @@ inline int aberth(const RoundedElement* rows, std::size_t links, bool quadratic,
     return sweep;
 }
 
-/// Real roots of one element: of x k = A, or of x^2 k + x s = A.
+/// Returns the roots of one element: of x k = A, or of x^2 k + x s = A.
 inline SplitRoots roots_of(const RoundedElement& e, bool quadratic) {
     SplitRoots roots;
     if (e.stiffness == 0) {
@@ -176,7 +176,7 @@ inline SplitRoots roots_of(const RoundedElement& e, bool quadratic) {
     return roots;
 }
 
-/// Approximate roots of `links` elements, from those of the two halves, each held at its upper end.
+/// Returns approximate roots of `links` elements, from those of its halves, upper ends held.
 inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bool quadratic,
                                const std::function<void()>& advance) {
     if (links == 1) return roots_of(rows[0], quadratic);
@@ -188,7 +188,7 @@ inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bo
     return roots;
 }
 
-/// All `degree` roots in double except `zeros` at 0.
+/// Returns all `degree` roots in double, without the `zeros` roots at 0.
 inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil,
                                                      Index zeros, Index degree,
                                                      const std::function<void(double)>& advance) {
@@ -202,7 +202,7 @@ inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<dou
     const auto tick = [&] { advance(0.1); };
     if (half > 0) add(halved_roots(rows.data(), half, pencil.quadratic, tick));
     add(halved_roots(rows.data() + half, links - half, pencil.quadratic, tick));
-    // The smallest stands for those that are 0.
+    // The smallest root replaces the roots that are 0.
     std::sort(starts.begin(), starts.end(),
               [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
     if (starts.empty()) starts.emplace_back(1.0);

@@ -7,10 +7,10 @@
 
 #include "revchain/pencil/complex/isolation.hpp"
 
-/// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign.
+/// This header finds all x with det Q(x) = 0, real or not; the numbers of Q may have any sign.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A root x with the radius of a disc that holds the exact root.
+/// A root x, and the radius of a disc that holds the exact root.
 struct EnclosedRoot {
     ComplexWord x{};                                          ///< to about 30 digits if isolated
     std::complex<double> value{};                             ///< rounded
@@ -18,7 +18,7 @@ struct EnclosedRoot {
     bool is_real = false;
 };
 
-/// Roots by size, largest first. `proved`: each disc holds exactly one root, all others are 0.
+/// Roots by size, largest first. `proved`: each disc holds exactly one root, and all others are 0.
 struct ComplexSpectrum {
     std::vector<EnclosedRoot> roots;
     bool proved = false;
@@ -26,14 +26,14 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// Steps of Weierstrass's method: from approximate roots x_j to x_j - w_j with w_j = P(x_j)/(c prod
-/// (x_j - x_k)), c the leading coefficient of P = det Q without its zeros at 0.
+/// Steps of Weierstrass's method from approximate roots x_j to x_j - w_j: w_j = P(x_j)/(c prod (x_j
+/// - x_k)), with c the leading coefficient of P = det Q without its zeros at 0.
 struct WeierstrassSteps {
     std::vector<std::complex<double>> step;
-    std::vector<double> blur;  ///< the relative error of a step; infinite where unknown
+    std::vector<double> blur;  ///< the relative error of a step; infinite if unknown
 };
 
-/// Calls f(lanes, number of lanes in use) for all of `which`.
+/// Calls f(lanes, number of lanes in use) for all numbers in `which`.
 template <class F>
 void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
                const F& f) {
@@ -90,8 +90,8 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
     return result;
 }
 
-/// Moves the roots that are `meant` until they converge, by Weierstrass's steps, each divided by 1
-/// plus the sum of w_j/(x_i - x_j) over the others (Börsch-Supan); this also separates close roots.
+/// Moves the roots in `meant` until they converge: Weierstrass's steps, each divided by 1 plus the
+/// sum of w_j/(x_i - x_j) over the others (Börsch-Supan). This also separates close roots.
 inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros,
                    std::vector<ComplexWord>& roots, const std::vector<bool>& meant,
                    const std::function<void(double)>& advance) {
@@ -114,7 +114,7 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros,
             const double share = std::abs(step) / size_of(roots[i]);
             if (!std::isfinite(share)) continue;
             next[i] = roots[i] - ComplexWord(step);
-            // At the last digits steps no longer shrink.
+            // At the last digits the steps stop shrinking.
             if (!(share < 1e-29 || (share < 1e-20 && share > last[i] / 4))) left.push_back(i);
             last[i] = share;
         }
@@ -122,8 +122,8 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros,
     }
 }
 
-/// Roots of the real polynomial: first those on the real axis, within the share `flat`, then pairs.
-/// Absent unless as many roots are above the axis as below.
+/// Roots of the real polynomial: first the roots on the real axis, within the share `flat`, then
+/// pairs. The result is empty unless as many roots lie above the axis as below.
 struct Conjugates {
     std::vector<ComplexWord> roots;
     std::size_t real = 0;
@@ -143,10 +143,11 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
     return result;
 }
 
-/// Discs that hold exactly one root each. All roots lie within d |w_j| of the x_j, d the degree and
-/// w_j Weierstrass's steps; where such discs are apart each holds one (Smith). Then x_j - root =
-/// w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum of r_k/(|x_j -
-/// x_k| - r_k). Returns the discs that meet others; if none, `found` has the roots.
+/// Computes discs that hold exactly one root each. All roots lie within d |w_j| of the x_j; d is
+/// the degree and w_j are Weierstrass's steps. A disc that meets no other holds one root (Smith).
+/// Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1). Here s
+/// is the sum of r_k/(|x_j - x_k| - r_k). Returns marks of the discs that meet others; without any,
+/// `found` is valid.
 inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                  Conjugates& at, std::vector<EnclosedRoot>& found,
                                  const std::function<void(double)>& advance) {
@@ -157,7 +158,7 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (std::size_t i = 0; i < n; i += i < at.real ? 1 : 2) heads.push_back(i);
     std::vector<std::size_t> left = heads;
     std::vector<ScaledValue> values(n);
-    // At the exact root, or where a pivot vanishes, nothing is proved: then beside it.
+    // At the exact root, or where a pivot vanishes, there is no proof: points beside it are tried.
     for (const double aside : {0.0, 0x1p-64, 0x1p-56, 0x1p-48, 0x1p-40}) {
         for (const std::size_t i : left) {
             ComplexWord& x = at.roots[i];
@@ -218,12 +219,13 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
 
 }  // namespace detail
 
-/// Every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least one
-/// element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two halves),
-/// then one step in two words, with discs proved to hold one root each; where discs meet, roots are
-/// first refined in two words. A disc about a real approximation holds a real root, because it
-/// would also hold the conjugate of another. Cost, N elements (AVX-512): 0.15 microseconds N^2,
-/// with momentum 0.3. `advance(share)` is called after every sweep and may throw, on any thread.
+/// Returns every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least
+/// one element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two
+/// halves), then one step in two words, with discs proved to hold one root each. Where discs meet,
+/// roots are first refined in two words. A disc about a real approximation holds a real root,
+/// because it would also hold the conjugate of a complex one. Cost, N elements (AVX-512): 0.15
+/// microseconds N^2, with momentum 0.3. `advance(share)` is called after every sweep and may throw,
+/// on any thread.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
     const Index degree = detail::leading_term(pencil).degree - zeros;
@@ -242,7 +244,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);
-            // Two roots on the real axis may be a pair off it, and a pair two on it.
+            // Two roots on the real axis may be a complex pair, and a pair may be two real roots.
             for (std::size_t i = 0; i < words.size(); ++i) {
                 if (!meets[i]) continue;
                 if (i < there->real)

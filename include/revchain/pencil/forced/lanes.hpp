@@ -6,7 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The pins wanted, and room for the ratios between them.
+/// The requested pins, and scratch for the ratios between them.
 struct DrivenPins {
     std::vector<std::size_t> pins;  ///< ascending, all below the moved end
     std::vector<double> ratio{};
@@ -33,13 +33,13 @@ template <bool fused, class V>
 template <class V>
 struct DrivenWalk {
     DoubleWord<V> height, spin, below, product;
-    V error;  ///< of `below`
+    V error;  ///< error of `below`
     V row;    ///< the part of `error` from the last element
     V doubt;  ///< sum of the relative errors of the ratios
     typename V::Mask proved, negative, turned;
 };
 
-/// For the sharper bound of a pin: y over y above, one over the pivot, errors of the row and of D.
+/// Numbers for a pin's sharper bound: y over y above, 1 over the pivot, errors of the row and of D.
 template <class V>
 struct DrivenRow {
     V ratio, inverse, row, below;
@@ -107,10 +107,10 @@ template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
 inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 
-/// `driven` for `driven_together` drives, one to a SIMD lane, in words of two doubles, with a
-/// running bound like that of `certified_count`. All elements are in one unit. Drives near a
+/// Computes `driven` for `driven_together` drives, one in a SIMD lane, in words of two doubles,
+/// with a running bound like that of `certified_count`. All elements are in one unit. Drives near a
 /// resonance, or with a pin nearly a node, are left undecided. Calls `offset(lane, which, value)`
-/// for each pin wanted, highest first; the bound is the relative error of the value. Cost a link
+/// for each requested pin, highest first. The bound is the relative error of the value. Cost a link
 /// and drive: 8 to 20 ns with AVX-512, 26 to 40 ns with two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
 [[gnu::always_inline]] inline void driven_lanes(
@@ -122,7 +122,7 @@ template <bool turning, bool fused, class V, class Offsets>
     const std::size_t n = elements.size(), count = wanted.pins.size();
     wanted.ratio.resize(std::max(wanted.ratio.size(), count * 2 * P * L));
     double* const ratios = wanted.ratio.data();
-    std::size_t next = 0;  // of the pins wanted
+    std::size_t next = 0;  // the index of the next requested pin
     const auto put_away = [&](std::size_t which) REVCHAIN_INLINED {
         for (std::size_t p = 0; p < P; ++p) {
             walks[p].product.high.store(ratios + (which * P + p) * 2 * L);
@@ -165,14 +165,15 @@ template <bool turning, bool fused, class V, class Offsets>
         }
 }
 
-/// Sharper bounds for drives that `driven_lanes` decided: of first order in the errors, and
-/// rigorous by the known bounds of ratios and pivots. With G = (height K - M)^-1, the moved end
-/// held, its diagonal g from the top down by  g = 1/p + (y/y')^2 g',  r the error of each row over
-/// its offset, and E the error of D, which contains the rows below,
+/// Computes sharper bounds for drives that `driven_lanes` decided. They are of first order in the
+/// errors, and rigorous by the known bounds of ratios and pivots. Let G = (height K - M)^-1 with
+/// the moved end held. Its diagonal g follows from the top down by  g = 1/p + (y/y')^2 g'.  Let r
+/// be the error of each row over its offset, and E the error of D, which contains the rows below.
+/// Then
 ///
 ///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i).
 ///
-/// The error of a coupling enters the row of its lower pin by the offset of the upper one. `end` as
+/// A coupling's error enters the row of its lower pin by the offset of the upper one. `end` is as
 /// for `driven`. The errors of ratios that `driven_lanes` adds up count both sides of a node twice,
 /// without signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>

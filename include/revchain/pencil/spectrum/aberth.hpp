@@ -18,7 +18,7 @@ struct AberthSpectrum {
 
 namespace aberth {
 
-/// Shifts of all roots, padded with copies of the last one.
+/// Shifts of all roots, padded with copies of the last shift.
 struct Roots {
     static constexpr std::size_t room = most_walked;
     std::size_t count;
@@ -31,7 +31,7 @@ struct Roots {
         if (!std::is_sorted(shift, shift + count)) std::sort(shift, shift + count);
         fill_up();
     }
-    /// False also if a NaN is among them.
+    /// Returns true if all shifts lie in the range. A NaN gives false.
     bool lie_between(double lower, double upper) const {
         bool all = true;
         for (std::size_t i = 0; i < count; ++i) all = all && shift[i] >= lower && shift[i] <= upper;
@@ -39,8 +39,9 @@ struct Roots {
     }
 };
 
-/// First approximations: signs of the polynomial from pin to pin at 2 or 3 N points between the
-/// bounds, even in a root of mu, count the zeros below each (Sturm). Single zeros are interpolated.
+/// Computes first approximations. Signs of the polynomial from pin to pin at 2 or 3 N points
+/// between the bounds, uniform in a root of mu, count the zeros below each (Sturm). Single zeros
+/// are interpolated.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool first_roots(const LumpedLinks& links, Roots& roots) {
     const std::size_t points = 4 * (((rigid || links.size > 12 ? 3 : 2) * links.size + 7) / 4);
@@ -87,7 +88,7 @@ template <bool rigid, bool several>
         const Four kept = max(Four(0.05), if_less(share, Four(0.95), share, Four(0.95)));
         (from + (Four::load(at + i + 1) - from) * kept).store(guess + i);
     }
-    // The last point with j zeros below is the one before zero j.
+    // The last point with j zeros below it is the one before zero j.
     double highest = 0;
     for (std::size_t i = 0; i + 1 < points; ++i) {
         const double number = below[i];
@@ -100,7 +101,7 @@ template <bool rigid, bool several>
         roots.fill_up();
         return true;
     }
-    for (std::size_t i = 0; i + 1 < points; ++i) {  // several zeros between two points
+    for (std::size_t i = 0; i + 1 < points; ++i) {  // several zeros lie between two points
         const double more = below[i + 1] - below[i];
         for (double j = 0; more > 1 && j < more; ++j)
             roots.shift[static_cast<std::size_t>(below[i] + j)] =
@@ -110,11 +111,12 @@ template <bool rigid, bool several>
     return true;
 }
 
-/// All zeros at once by Newton steps with the others divided out (Ehrlich, Aberth), which cube the
-/// error, until steps are small. Jacobi, so that rounds do not depend on what else is in a pack.
+/// Improves all zeros at once by Newton steps with the others divided out (Ehrlich, Aberth), until
+/// steps are small. A step cubes the error. All steps use the zeros of the round before (Jacobi),
+/// so results do not depend on the other lanes of a pack.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline void improve(const LumpedLinks& links, Roots& roots) {
-    constexpr std::size_t chunk = 12;  // differences multiplied before they are divided
+    constexpr std::size_t chunk = 12;  // differences multiplied before one division
     constexpr double last_step = 2e-4;
     alignas(Four) double next[Roots::room];
     for (int round = 0; round < 16; ++round) {
@@ -155,7 +157,7 @@ template <bool rigid, bool several>
     }
 }
 
-/// Quotients and squared residuals of the vectors at all shifts; false where a number is unusable.
+/// Sets quotients and squared residuals at all shifts. Returns false if a number is unusable.
 template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links,
                                                  const double* flexibility_above,
@@ -167,7 +169,7 @@ template <bool rigid, bool several>
         std::array<Four, P> mu;
 #pragma GCC unroll 3
         for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-        // If compiled, the form for a chain of one leg needs no sums of legs.
+        // The form for a chain of one leg, if compiled, needs no sums of legs.
         const auto all = several && links.size <= leg
                              ? quotients<rigid, !several, P>(links, flexibility_above, mu)
                              : quotients<rigid, true, P>(links, flexibility_above, mu);
@@ -186,10 +188,11 @@ template <bool rigid, bool several>
     return odd[0] + odd[1] + odd[2] + odd[3] == 0;
 }
 
-/// The bounds from the quotients and their residuals; false where one exceeds the goal. Disjoint
-/// intervals, as many as eigenvalues, hold one each; then Kato and Temple. `rounding`: of the
-/// quotients. With `prove`, which needs lists, all modes of up to 10 links took 1.15 to 1.25 times
-/// as long, and with the quotients of `proved_roots` too, twice.
+/// Sets the bounds from quotients and residuals. Returns false if one exceeds the goal. Disjoint
+/// intervals, as many as eigenvalues, hold one each; then the bounds follow (Kato, Temple).
+/// `rounding` is the rounding error of the quotients. With `prove`, which needs lists, all modes of
+/// up to 10 links took 1.15 to 1.25 times as long, and with the quotients of `proved_roots`, too,
+/// twice as long.
 inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* residual,
                        double rounding, double goal) {
     constexpr double slack = 1 + 0x1p-30;
@@ -209,7 +212,7 @@ inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* resi
     return good;
 }
 
-/// See `aberth_spectrum`; for the constants docs/theory/spectrum.md, "Small chains".
+/// Implements `aberth_spectrum`. For the constants see docs/theory/spectrum.md, "Small chains".
 template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
@@ -242,7 +245,7 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
                                 (links.roundings.energies + (rigid ? 18 : 15) + 2 * additions +
                                  links.roundings.centroid) *
                                 slack;
-        const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would matter
+        const double goal = std::min(tolerance, 0x1p-32);  // else squares of bounds would matter
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
             if (!set_quotients<rigid, several>(links, above, roots, result, residual)) return false;
@@ -264,17 +267,17 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
 
 }  // namespace aberth
 
-/// All eigenvalues lambda of lambda K y = M y for a small chain, each with a proved bound of at
-/// most `tolerance` and 2^-32. False, with no valid result, where neighbours are too close or
-/// numbers leave the range of double.
+/// Computes all eigenvalues lambda of lambda K y = M y for a small chain, each with a proved bound
+/// of at most `tolerance` and 2^-32. Returns false, with no valid result, if neighbours are too
+/// close or numbers leave the range of double.
 ///
-/// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its
-/// zeros at once by Ehrlich's and Aberth's iteration, mostly three rounds; Rayleigh quotients of
-/// twisted vectors, whose error is the square of the vectors'; residuals that give as many disjoint
-/// intervals as eigenvalues, and so number them. Accuracy, measured: 4 ulp; proved: about 20 ulp
-/// for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54
-/// and 80 for 100 (bench_small). Preconditions: 1 <= size <= most_links; X >= 0, M positive
-/// definite. Also refused: numbers beyond 2^-64 ... 2^64.
+/// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue.
+/// Ehrlich's and Aberth's iteration finds all zeros at once, mostly in three rounds. Then come
+/// Rayleigh quotients of twisted vectors, whose error is the square of the vectors'. Residuals give
+/// as many disjoint intervals as eigenvalues, and so number them. Accuracy, measured: 4 ulp;
+/// proved: about 20 ulp for 10 links, 33 for 100. Cost (AVX-512): 0.7 microseconds for 10 plummets,
+/// 0.9 for 10 rods, 54 and 80 for 100 (bench_small). Preconditions: 1 <= size <= most_links; X >=
+/// 0, M positive definite. Numbers beyond 2^-64 ... 2^64 also give false.
 inline bool aberth_spectrum(const aberth::LumpedLinks& links, double tolerance,
                             AberthSpectrum& result) {
     return links.rigid ? aberth::solve<true>(links, tolerance, result)

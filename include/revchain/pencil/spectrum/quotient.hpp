@@ -16,13 +16,14 @@ struct Quotient {
     std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
-/// Packs of shifts walked together. With the quotients of `proved_roots`, which take 2.4 to 6 times
-/// as long, all modes of 300 links took 1.2 to 1.5 times as long, of 1000 1.6 to 2.2 times.
+/// The number of packs of shifts walked together. The quotients of `proved_roots` take 2.4 to 6
+/// times as long; with them all modes of 300 links took 1.2 to 1.5 times as long, of 1000 1.6 to
+/// 2.2 times.
 inline constexpr std::size_t quotient_packs = 4;
 
 /// Vectors from one end, one for each shift of a pack: offset y, mu times the spring force G of the
-/// link ahead, and y^T M y (without cross masses mu times it) and y^T K y so far. The sums belong
-/// to the stored offsets and their differences: they are its energies.
+/// next link, and y^T M y (without cross masses mu times it) and y^T K y so far. The sums belong to
+/// the stored offsets and their differences: they are the energies of these offsets.
 template <class V>
 struct Walk {
     V mu, offset, force;
@@ -32,7 +33,7 @@ struct Walk {
 };
 
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin
-/// `end`. Upwards a walk has passed the mass of its pin, downwards not.
+/// `end`. Upwards a walk has passed the mass of its pin, downwards it has not.
 template <bool has_cross, bool up, class V>
 [[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin,
                                              std::size_t end, Walk<V>* walk) {
@@ -90,7 +91,7 @@ template <bool has_cross, bool up, class V>
     }
 }
 
-/// A walk at a pin where it may be joined to one from the other end.
+/// The state of a walk at a pin where it may be joined to a walk from the other end.
 template <class V>
 struct AtPin {
     V offset, force, inertia, stiffness, forces, offsets;
@@ -99,10 +100,10 @@ struct AtPin {
     }
 };
 
-/// The residual from rounding and the pencil's error; `forces`, `offsets`: sums over |y|^2.
+/// Returns the residual from rounding and the pencil's error; `forces`, `offsets`: sums over |y|^2.
 template <bool has_cross>
 double vector_rounding(const LumpedChain& chain, double mu, double forces, double offsets) {
-    // for pins without mass: y_m^2 <= Phi_m |y|_K^2
+    // This bound covers pins without mass: y_m^2 <= Phi_m |y|_K^2.
     const double most = (1 + mu * chain.largest_cross_ratio) * chain.rounding_root;
     const double force_part = has_cross ? std::sqrt(forces) : 1.0;
     const double offset_part =
@@ -111,7 +112,8 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// `leg` links between checks; twists at pins 0, leg, ... `last` leg < n, number `low` to `high`.
+/// `leg` links between checks. Twists are at pins 0, leg, ... `last` leg < n, number `low` to
+/// `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
@@ -125,9 +127,10 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
     return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
 }
 
-/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined
-/// at the pin of least residual from `lowest` to `highest` that `longest`, a power of 2, divides.
-/// Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86 ns a link.
+/// Computes for each shift the Rayleigh quotient of its twisted vector, whose error is the square
+/// of the vector's. Recurrences from both ends are joined at the pin of least residual from
+/// `lowest` to `highest` that `longest`, a power of 2, divides. Cost (AVX-512) a link: 0.45 ns,
+/// with cross masses 0.86 ns.
 template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts,
                                              std::size_t lowest, std::size_t highest,
@@ -167,7 +170,7 @@ template <bool has_cross, class V>
         for (std::size_t p = 0; p < P; ++p) {
             const AtPin<V>& up = scratch[(at - low) * P + p];
             const AtPin<V> down = AtPin<V>::of(walk[p]);
-            // each scaled by the other's offset, so that they meet
+            // Each vector is scaled by the other's offset, so that they meet.
             const V gap = up.force * down.offset - down.force * up.offset;
             const V scale_up = down.offset * down.offset, scale_down = up.offset * up.offset;
             const V energy = up.stiffness * scale_up + down.stiffness * scale_down;
@@ -192,7 +195,7 @@ template <bool has_cross, class V>
             const double energy = stiffness[p][i];
             const double rounding = vector_rounding<has_cross>(
                 chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
-            // Terms of second order are covered by the factor 1.01 only where this is small.
+            // The factor 1.01 covers terms of second order only where `rounding` is small.
             const double residual = rounding < 0x1p-10
                                         ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
                                         : std::numeric_limits<double>::infinity();
@@ -202,9 +205,10 @@ template <bool has_cross, class V>
     }
 }
 
-/// For any number of shifts the results of `solve(registers, has_cross, shifts, lowest, highest,
-/// results)` for `packs` packs of them, each joined near its entry in `places`, or anywhere if that
-/// is empty. Shifts are sorted by place, because links between the places are walked twice.
+/// Returns the results of `solve(registers, has_cross, shifts, lowest, highest, results)` for any
+/// number of shifts; each call takes `packs` packs. Each shift is joined near its entry in
+/// `places`, or anywhere if that is empty. Shifts are sorted by place, because links between the
+/// places are walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {

@@ -5,10 +5,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The results of a twisted vector at a shift mu to more digits than double: see `Quotient`.
+/// The results of a twisted vector at a shift mu, to more digits than double: see `Quotient`.
 struct FineQuotient {
     double excess = 0;    ///< Rayleigh quotient times mu, less 1
-    double error = 0;     ///< bound of its error, with the pencil's own
+    double error = 0;     ///< bound of its error, with the pencil's error
     double residual = 0;  ///< as in `Quotient`, but evaluated, with a bound of second order
     std::size_t twist = 0;
 };
@@ -16,7 +16,7 @@ struct FineQuotient {
 inline constexpr std::size_t fine_packs = 2;
 
 /// A vector as in `Walk`: offset y, and the sum of m y over pins in two words. Rounding residuals
-/// are evaluated: with d the difference of the stored offsets, f = mu (sum of m y) - (k + mu X) d
+/// are evaluated. With d the difference of the stored offsets, f = mu (sum of m y) - (k + mu X) d
 /// of each link is the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
 template <class V>
 struct FineWalk {
@@ -97,8 +97,8 @@ template <bool has_cross, bool up, bool fused, class V>
     }
 }
 
-/// `quotients` to twice the digits: the same vector but for rounding, with a residual that includes
-/// roundings. Walks join at a pin that `longest`, a power of 2, divides. Accuracy:
+/// Computes `quotients` to twice the digits: the same vector up to rounding, with a residual that
+/// includes roundings. Walks join at a pin that `longest`, a power of 2, divides. Accuracy:
 /// docs/theory/spectrum.md, "To the last digit". Cost: about three times `quotients`.
 template <bool has_cross, bool fused, class V>
 [[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts,
@@ -140,7 +140,7 @@ template <bool has_cross, bool fused, class V>
         for (std::size_t p = 0; p < P; ++p) {
             const FineWalk<V>&a = scratch[(at - low) * P + p], &b = walk[p];
             FineWalk<V>& j = joined[p];
-            // each scaled by the other's offset, so that they meet
+            // Each vector is scaled by the other's offset, so that they meet.
             const DoubleWord<V> up = two_product<fused>(a.sum, b.offset);
             const DoubleWord<V> down = two_product<fused>(b.sum, a.offset);
             const V gap = b.mu * ((up.high - down.high) +
@@ -174,7 +174,7 @@ template <bool has_cross, bool fused, class V>
             const double evaluated =
                 std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i]);
             const double residual = evaluated * (1 + 0x1p-20) + second;
-            // at least mu X d^2 over |y|^2
+            // This is at least mu X d^2 over |y|^2.
             const double swung = has_cross ? std::sqrt(joined[p].forces[i] / energy) : 1.0;
             const double data = chain.data_error * (3 + 3 * swung);
             const double error = second + sums * residual + data;

@@ -9,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The characteristic polynomial at a shift, value * 2^exponent, and the eigenvalues mu below.
+/// The characteristic polynomial at a shift, value * 2^exponent, and the count of lower eigenvalues
+/// mu.
 struct Sample {
     double value = 0;
     int exponent = 0;
@@ -22,15 +23,15 @@ inline std::size_t history_words(std::size_t links) { return links / history_ste
 inline constexpr std::size_t sample_packs = 6;
 
 /// The offset of the held pin for a free end at 1, as a function of mu = 1/lambda, times the
-/// product of s = 1 + mu X/k over the links: a polynomial whose zeros are the eigenvalues.
-/// Division-free:
+/// product of s = 1 + mu X/k over the links. It is a polynomial whose zeros are the eigenvalues,
+/// without division:
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// With `count` it also counts eigenvalues below the shift. Without, it stores in `history` the sign
-/// of the offset after every `history_step` links from the free end: 64 signs in a word, the first
-/// sign in the highest of the bits that are used. Cost per shift and link (AVX-512): 0.13 ns without
-/// cross masses, 0.23 ns with them.
+/// With `count` this function also counts eigenvalues below the shift. Without, it stores in
+/// `history` the sign of the offset after every `history_step` links from the free end: 64 signs in
+/// a word, the first sign in the highest used bit. Cost per shift and link (AVX-512): 0.13 ns
+/// without cross masses, 0.23 ns with them.
 template <class V, bool has_cross, bool count>
 [[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts,
                                           Sample* samples, std::uint64_t* history) {
@@ -80,7 +81,7 @@ template <class V, bool has_cross, bool count>
             least = min(least, size[p]), most = max(most, size[p]);
         }
         if (!strays(least, most)) continue;
-        for (std::size_t p = 0; p < sample_packs; ++p) {  // powers of two: nothing is rounded
+        for (std::size_t p = 0; p < sample_packs; ++p) {  // powers of two: exact
             exponents[p] += exponent(size[p]);
             const V scale = inverse_power(size[p]);
             offset[p] *= scale;
@@ -93,7 +94,7 @@ template <class V, bool has_cross, bool count>
                                         static_cast<Index>(changes[p][i])};
 }
 
-/// Samples any number of shifts, with counts or, given `history`, `history_words` for each.
+/// Samples any number of shifts, with counts or, given `history`, with `history_words` for each.
 inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                       std::vector<std::uint64_t>* history = nullptr) {
     std::vector<Sample> samples(shifts.size());
@@ -130,12 +131,12 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
     return samples;
 }
 
-/// The number of links below the mode whose eigenvalue is the only one between two shifts: a guess,
-/// because nearby modes interfere. The chain below some pin has an eigenvalue between the shifts
-/// too only if it contains the mode; from there on the offsets, given by signs, differ.
+/// Returns the number of links below a mode whose eigenvalue is the only one between two shifts: a
+/// guess, because nearby modes interfere. The chain below some pin also has an eigenvalue between
+/// the shifts only if it contains the mode. From there on the offsets, given by signs, differ.
 inline std::size_t place(const std::uint64_t* one, const std::uint64_t* other, std::size_t links) {
     const std::size_t steps = links / history_step;
-    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and their least
+    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and the least balance
     std::size_t at = 0;
     for (std::size_t i = 0; i < steps; ++i) {
         const std::size_t word = i / 64, used = std::min<std::size_t>(64, steps - word * 64);

@@ -14,7 +14,7 @@ struct Window {
     Index size() const { return last - first; }
 };
 
-/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`; drops pieces without eigenvalues.
+/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`. Omits pieces without eigenvalues.
 template <class Cuts, class At>
 std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows,
                         const Cuts& cuts, const At& at) {
@@ -27,7 +27,8 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
     for (const Window& w : windows) {
         Window rest = w;
         for (int c = 1; c <= cuts(w); ++c, ++next) {
-            // rounding may shift counts within a few ulp: clamped, no eigenvalue is lost
+            // Rounding may shift counts within a few ulp. Clamping prevents the loss of
+            // eigenvalues.
             const Index below = std::clamp(counted[next].below, rest.first, rest.last);
             if (below > rest.first) pieces.push_back({rest.lower, shifts[next], rest.first, below});
             rest.lower = shifts[next], rest.first = below;
@@ -38,12 +39,12 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
 }
 
 /// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
-/// `most` eigenvalues, by counts; the end ones may hold more. Cost: about 2 (last - first)/most
+/// `most` eigenvalues, by counts. The end ones may hold more. Cost: about 2 (last - first)/most
 /// counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
-    // The whole range: mu by powers of 4 until the count suffices. Not round numbers: part of a
-    // chain of equal links may have an eigenvalue there, and no count is proved.
+    // The whole range: mu grows by powers of 4 until the count suffices. Round numbers are avoided:
+    // part of a chain of equal links may have an eigenvalue there, and no count is proved.
     double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
@@ -93,16 +94,18 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     return merged;
 }
 
-/// Nodes for a window, a multiple of 8: pi/2 a zero, as for a sine, and a margin (cube root).
+/// Returns a number of nodes, a multiple of 8: pi/2 a zero, as for a sine, plus a margin (cube
+/// root).
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
 }
 
-/// Approximate eigenvalues of a window, ascending, from samples of the characteristic polynomial f
-/// at its Chebyshev nodes: zeros of the interpolant of f exp(-trend), whose trend, quadratic in the
-/// shift, removes the exponential growth of f. Empty if their number is not that of the counts or,
-/// with `sure`, if one is less certain than 1/1000 of its distance to the next.
+/// Returns approximate eigenvalues of a window, ascending, from samples of the characteristic
+/// polynomial f at its Chebyshev nodes. They are zeros of the interpolant of f exp(-trend); the
+/// trend, quadratic in the shift, removes the exponential growth of f. The result is empty if their
+/// number differs from the counts or, with `sure`, if one is less certain than 1/1000 of its
+/// distance to the next.
 inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n,
                                         bool sure) {
     std::vector<double> values(n), nodes(n);
@@ -118,12 +121,12 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     const double count = static_cast<double>(n);
     const int level = static_cast<int>(t0 / count);
     t1 *= 2 / count, t2 *= 2 / count;
-    for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
+    for (std::size_t i = 0; i < n; ++i)  // large exponents cancel before any rounding
         values[i] *= std::exp2((exponents[i] - level) -
                                (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
     std::vector<double> roots;
     simd([&](auto registers) REVCHAIN_INLINED {
-        // As many lanes as fill the latency of one fused multiply-add and fit in registers.
+        // The lanes fill the latency of one fused multiply-add and fit in registers.
         using V = Pack<double, registers.doubles, registers.bytes / 16>;
         const Chebyshev p = interpolant<V>(values);
         roots = zeros<V>(p, window.size());
@@ -134,9 +137,10 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     return roots;
 }
 
-/// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows,
-/// ascending, into `candidates[.].shift`, and the links below the mode into `.place`. Windows whose
-/// interpolant has too few or too many zeros are cut up; false if that does not end.
+/// Finds approximate shifts of the eigenvalues `first` ... `last - 1` and all others in their
+/// windows, ascending, in `candidates[.].shift`, and the links below the mode in `.place`. Windows
+/// whose interpolant has too few or too many zeros are cut. Returns false if the windows do not
+/// cover the range.
 template <class Candidate>
 bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
@@ -190,7 +194,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
                 candidates[number].shift = roots[i];
                 Neighbours around{number, at + cell, at + cell - 1};
-                if (i > 0 && before == cell) {  // two between nodes: another sample
+                if (i > 0 && before == cell) {  // two lie between nodes: another sample
                     placed.back().above = around.below = samples.size() + between_roots.size();
                     between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
                 }
@@ -206,7 +210,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
-    // What is left has a bracket too narrow for the interpolant: counts have to separate its zeros.
+    // The remaining brackets are too narrow for the interpolant: counts must separate their zeros.
     for (const Window& w : work)
         for (Index j = w.first; j < w.last; ++j)
             candidates[static_cast<std::size_t>(j - begin)].shift =
