@@ -16,7 +16,7 @@ using revchain::detail::zero_of_j0;
 /// (9), (10). The error bound follows from the limit of N links, with J = J_1(j). For plummets it
 /// is (1/2)/N and the terms of order 1/N^2. For rods (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4,
 /// is subtracted, and a bound of order log N/N^4 remains (straight_links.hpp). Measured:
-/// tests/cpp/models/models.cpp, tapered.cpp. Cost: 5 ns a mode, 30 ns for rods.
+/// tests/cpp/models/models.cpp, tapered.cpp. Cost: 12 ns a mode, 30 ns for rods.
 struct ContinuousChain {
     static constexpr std::string_view name = "continuous chain";
 

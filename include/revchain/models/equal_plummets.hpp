@@ -17,7 +17,7 @@ using revchain::detail::zero_of_j0;
 /// from u'' + u'/z + (1 - z^2/nu^2) u = 0, z^2 = nu x, solved by powers of 1/nu^2 in z^m J_0(z) and
 /// z^m J_1(z).
 /// Error bound: twice the last term, which is left out, plus 4 ulp. Measured for N = 1 to 1e6: 0.93
-/// of the last term if j < nu/2 (tests/cpp/models/models.cpp). Cost: 10 ns a mode.
+/// of the last term if j < nu/2 (tests/cpp/models/models.cpp). Cost: 20 ns a mode.
 struct EqualPlummets {
     static constexpr std::string_view name = "Laguerre asymptotics";
 

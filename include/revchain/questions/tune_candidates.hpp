@@ -126,7 +126,15 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
         range.high = std::min(range.high, -a * below / h * (1 - inside));
     if (datum == Datum::length && h < 0)
         range.low = std::max(range.low, -W * h / below * (1 + inside));
-    if (!(range.low < range.high)) refuse("the link would stand, not hang, up to", range.high);
+    // Links above whose centroids are above their pins need a weight below them.
+    for (Index m = number + 1; datum == Datum::weight && m < chain.size(); ++m) {
+        const Link<double> above = chain.link(m);
+        if (above.centroid >= 0) continue;
+        const double needed = -above.weight * above.centroid / above.length * (1 + inside);
+        const Wide<double> others = chain.weight_below(m) - Wide<double>(W);
+        range.low = std::max(range.low, needed - static_cast<double>(others));
+    }
+    if (!(range.low < range.high)) refuse("a link would stand, not hang, up to", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }

@@ -84,7 +84,7 @@ struct SplitRoots {
     std::complex<double> operator[](std::size_t i) const { return {re[i], im[i]}; }
 };
 
-/// Moves roots by up to a tenth of their distances: equal roots would stay equal, real roots real.
+/// Moves each root by up to 0.04/n of its size: equal roots would stay equal, real roots real.
 inline void scatter(SplitRoots& roots) {
     for (std::size_t i = 0; i < roots.size(); ++i) {
         const double turn =
