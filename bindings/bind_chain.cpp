@@ -57,7 +57,7 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
     try {
         while (static_cast<Index>(values.size()) < size) {
             const auto m = static_cast<Index>(values.size());
-            if (m % 1024 == 0) revchain::detail::look();
+            if (m % 1024 == 0) revchain::detail::check_interrupt();
             values.push_back(make("Chain", columns[m]...));
         }
     } catch (const revchain::InvalidArgument&) {  // once more, with the place
@@ -102,7 +102,7 @@ py::array to_numpy(bool is_scalar, Index size, auto value) {
     py::array_t<double> array(is_scalar ? std::vector<py::ssize_t>{} : std::vector<py::ssize_t>{size});
     double* const to = array.mutable_data();
     for (Index m = 0; m < (is_scalar ? 1 : size); ++m) {
-        if (m % 1024 == 0) revchain::detail::look();
+        if (m % 1024 == 0) revchain::detail::check_interrupt();
         to[m] = value(m);
     }
     return frozen(std::move(array));

@@ -41,7 +41,7 @@ py::array along(const CordModes& found, const Array& arc) {
     {
         const py::gil_scoped_release release;
         for (Index j = 0; j < found.size(); ++j) {
-            revchain::detail::look();
+            revchain::detail::check_interrupt();
             table.row(j) = (found.*value)(j, Vector<double>(at)).transpose();
         }
     }

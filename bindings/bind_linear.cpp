@@ -192,7 +192,7 @@ py::array_t<std::int64_t> counts(const Chain& chain, const Array& like,
     const py::gil_scoped_release release;
     const revchain::ModeCounter<double> counter(chain);
     for (py::ssize_t i = 0; i < size; ++i) {
-        revchain::detail::look();
+        revchain::detail::check_interrupt();
         out[i] = count(counter, i);
     }
     return result;

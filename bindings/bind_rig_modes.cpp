@@ -208,7 +208,7 @@ void bind_rig_modes(py::module_& module) {
             const py::gil_scoped_release release;
             const revchain::RigModeCounter counter(rig, gravity);
             std::transform(values.data(), values.data() + values.size(), result.mutable_data(), [&](double x) {
-                revchain::detail::look();
+                revchain::detail::check_interrupt();
                 return by_height ? counter.above_height(x) : counter.below_speed(x);
             });
             return result;

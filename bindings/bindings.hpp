@@ -59,7 +59,7 @@ py::tuple columns(const Function& function, const Array& first, const Arrays&...
     std::array<double*, count> to{};
     for (std::size_t j = 0; j < count; ++j) out[j] = py::array_t<double>(shape), to[j] = out[j].mutable_data();
     for (py::ssize_t i = 0; i < first.size(); ++i) {
-        if (i % 64 == 0) revchain::detail::look();
+        if (i % 64 == 0) revchain::detail::check_interrupt();
         const std::array<double, count> row = function(first.data()[i], rest.data()[rest.ndim() == 0 ? 0 : i]...);
         for (std::size_t j = 0; j < count; ++j) to[j][i] = row[j];
     }
@@ -74,7 +74,7 @@ auto vectorized(Function function) {
     return [&]<class Result, class... Numbers>(Result (*call)(Numbers...)) {
         return py::vectorize([call](Numbers... numbers) -> Result {
             static thread_local unsigned calls = 0;
-            if (++calls % 64 == 0) revchain::detail::look();
+            if (++calls % 64 == 0) revchain::detail::check_interrupt();
             return call(numbers...);
         });
     }(static_cast<py::detail::function_signature_t<Function>*>(function));
@@ -113,7 +113,7 @@ py::array_t<std::int64_t> counts_above(const System& system, const Array& height
     std::int64_t* out = result.mutable_data();
     const py::gil_scoped_release release;
     std::transform(height.data(), height.data() + height.size(), out, [&](double h) {
-        revchain::detail::look();
+        revchain::detail::check_interrupt();
         return count_modes(system, {.conical_height = h, .gravity = gravity});
     });
     return result;

@@ -27,7 +27,7 @@ auto aside(const revchain::Progress* progress, Solve solve) {
     std::thread(std::move(task)).detach();
     try {
         while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-            revchain::detail::look();
+            revchain::detail::check_interrupt();
             if (progress != nullptr && progress->cancelled()) throw revchain::Cancelled("revchain: cancelled");
         }
     } catch (...) {

@@ -26,7 +26,9 @@ struct BatchColumn {
     Index chain_stride = 0;
     Index link_stride = 0;
 
-    const T& operator()(Index chain, Index m) const { return data[chain * chain_stride + m * link_stride]; }
+    const T& operator()(Index chain, Index m) const {
+        return data[chain * chain_stride + m * link_stride];
+    }
 };
 
 /// Many chains with equal numbers of links. Without `centroid` the links are plummets. With it give
@@ -53,19 +55,20 @@ struct BatchOptions {
 /// unit of length. Greenhill (1908) §8 (21) with sec delta = 1.
 ///
 /// Method: in float and double, one chain to a SIMD lane (pencil/batch/spectrum.hpp). `modes`
-/// solves one by one the chains for which that proves nothing, those with massless links or
-/// centroids at or above the pin, and all chains in other scalars.
+/// solves the other chains one by one: those for which the lanes prove nothing, those with massless
+/// links or centroids at or above the pin, and all chains in other scalars.
 /// Accuracy: 2.8 ulp for plummets and rods up to N = 100. In a million chains of all kinds of 1 to
-/// 6 links 29 heights had errors above 4 ulp, at most 4.8, all with weights spanning 1e12 or with
-/// the mass of a link at one point between its pins; with such masses 7 ulp for 40 to 100 links (80
-/// chains). Verified by counts to 16 + N/4 ulp. Results are bitwise the same for any number of
-/// threads and any order of the chains; another `count` or processor may change last digits.
+/// 6 links, 29 heights had errors above 4 ulp, at most 4.8. All had weights spanning 1e12 or a link
+/// with its mass at one point between its pins. With such masses errors reached 7 ulp for 40 to 100
+/// links (80 chains). Counts verify heights to 16 + N/4 ulp. Results are bitwise the same for any
+/// number of threads and any order of the chains; another `count` or processor may change last
+/// digits.
 /// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp).
 /// Memory: the result, and a few numbers for each link of 16 chains a thread.
-/// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and
-/// first of all for a number that `Chain` refuses, naming chain, link and value; for a count beyond
-/// the modes of some chain (massless links cost modes, and chains with different numbers of modes
-/// need a count); and for a chain whose heights cannot be proved to half the digits of T.
+/// Throws InvalidArgument, first of all, for a number that `Chain` refuses, naming chain, link and
+/// value. Also throws for an empty batch, a count below 1 or beyond the modes of some chain, a
+/// negative number of threads, and a chain whose heights cannot be proved to half the digits of T.
+/// Massless links cost modes; chains with different numbers of modes need a count.
 template <Real T>
 [[nodiscard]] Table<T> conical_heights(const ChainBatch<T>& batch,
                                        const BatchOptions& options = {});

@@ -60,10 +60,11 @@ struct BellAndClapper {
 template <Real T>
 [[nodiscard]] BellAndClapper<T> bell_and_clapper(const Chain<T>& chain);
 
-/// For each datum the value nearest to the present one that gives the slower mode the inclination
-/// ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1 makes bell and
-/// clapper one piece; a bell rings with a ratio far enough from 1. Each value is a root of a
-/// quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio <= 0.
+/// Returns, for each datum, the value nearest to the present one that gives the slower mode the
+/// inclination ratio `ratio`, with all other data constant; NaN if there is none. A ratio of 1
+/// makes bell and clapper one piece; a bell rings with a ratio far enough from 1. Each value is a
+/// root of a quadratic. Cost O(1). Throws InvalidArgument as `bell_and_clapper`, and for a ratio <=
+/// 0.
 template <Real T>
 [[nodiscard]] ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio);
 

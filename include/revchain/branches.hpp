@@ -40,7 +40,8 @@ enum class BranchEnd {
     closed,    ///< at its first point
     budget,    ///< after `max_points` points
     stuck,     ///< no step passes every check
-    slow,  ///< on the way to rest, at a tenth of the first critical speed, or of a slower one given
+    slow,   ///< on the way to rest, at a tenth of the first critical speed, or of the given one if
+            ///< slower
     slack,  ///< flywheels make the effective tension of a link 0: it becomes horizontal
     loose,  ///< the spring at the support cannot hold the rig: it is stretched to 1000 lengths
 };
@@ -54,7 +55,7 @@ enum class BranchEnd {
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
     rest,      ///< at rest: the support is off the axis, and the rig starts to turn
-    fold,      ///< isolated: at a fold, where two shapes appear together, or it is closed
+    fold,      ///< isolated: it begins at a fold, where two shapes appear together, or is closed
 };
 [[nodiscard]] inline std::string_view to_string(BranchBirth birth) noexcept {
     constexpr std::string_view names[]{"vertical", "rest", "fold"};
@@ -67,8 +68,9 @@ enum class BranchBirth {
 struct Branch {
     Index mode = 0;  ///< at which it leaves the vertical; 1 also from rest; 0 if isolated
     BranchBirth birth = BranchBirth::vertical;
-    /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free
-    /// end; `top_tension`: magnitude of the reaction at the support; the others as in SteadyShape.
+    /// For each point. `tip_inclination` is that of the lowest link, rad, `tip_radius` the offset
+    /// of the free end, `top_tension` the magnitude of the reaction at the support. Others are as
+    /// in SteadyShape.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension,
         moment_of_inertia, effective_energy;
     std::vector<int> half_waves;     ///< number of sign changes of the offsets, plus 1
@@ -94,7 +96,8 @@ struct Branch {
     finite::BranchTrace trace_;
 };
 
-/// Which branch, and how far. Give either `min_conical_height` or `max_angular_speed`.
+/// Selects a branch, and how far to follow it. Give either `min_conical_height` or
+/// `max_angular_speed`.
 struct BranchOptions {
     Index mode = 1;  ///< of the critical speed: 1 is the slowest, as in `modes`
     std::optional<double> min_conical_height{};
@@ -104,14 +107,14 @@ struct BranchOptions {
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
-/// Which branch of a rig `branch` follows, and how far: as `BranchOptions`.
+/// Selects a branch of a rig, and how far to follow it. Members are as in `BranchOptions`.
 struct RigBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;
     double max_step = 0.1;
-    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Rotation direction = Rotation::forward;
 };
 
@@ -122,9 +125,9 @@ struct RigBranchOptions {
 /// Each step is checked: see finite::BranchWalk.
 /// Accuracy: points about 1e-12 (measured: tests/cpp/finite/branch/shape_on_branch.cpp), `shape` in
 /// double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If
-/// the part wanted is inclined by less than 1e-3 rad, it has two points: the vertical, and the end
-/// by the asymptotic law of the onset, balanced in double-double. If double cannot tell that end
-/// from the vertical, the vertical is the only point (`stuck`).
+/// the requested part is inclined by less than 1e-3 rad, it has two points. They are the vertical
+/// and the end by the asymptotic law of the onset, balanced in double-double. If double cannot tell
+/// that end from the vertical, the vertical is the only point (`stuck`).
 /// Cost: 4 to 7 O(N) Newton steps a point, 0.1 microseconds a link each; 3 N numbers a point.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
 /// of height and speed is given, positive and finite, and for a height not below that of the mode.
@@ -135,29 +138,31 @@ REVCHAIN_DECLARE
 ///
 /// On the axis, modes are numbered as by `modes` in the direction of rotation. Off the axis no
 /// shape is straight. The branch from rest, `mode` 1, begins at a tenth of the first critical speed
-/// (of the rig with its support on the axis), or of the given speed if that is slower; `branches`
-/// finds the others. If links stand or lean against their load, a branch may begin towards slower
-/// speeds; it is followed down to a tenth of the speed of its mode. Along a branch every link keeps
-/// its posture. In the arc, the stretch of a spring over the length of the chain is tau of one more
-/// link.
+/// (of the rig with its support on the axis), or of the given speed if that is slower. `branches`
+/// finds the other branches. If links stand or lean against their load, a branch may begin towards
+/// slower speeds; it is followed down to a tenth of the speed of its mode. Along a branch every
+/// link keeps its posture. In the arc, the stretch of a spring over the length of the chain is tau
+/// of one more link.
 /// Accuracy and cost: as for chains (tests/cpp/finite/branch/rigs.cpp). Throws InvalidArgument as
 /// for chains, and off the axis for a `mode` other than 1.
 REVCHAIN_DECLARE
 [[nodiscard]] Branch branch(const Rig& rig, const RigBranchOptions& options);
 
-/// How far branches go, and proof limits. Give either `min_conical_height` or `max_angular_speed`.
+/// Sets how far to follow branches, and limits of proofs. Give either `min_conical_height` or
+/// `max_angular_speed`.
 struct DiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< heights, evenly spaced in the logarithm, with a proved list
-    long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
+    int lists = 16;           ///< heights, evenly spaced in the logarithm, with a proved list
+    long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
+    long proof_budget =
+        1'000'000;  ///< link evaluations in the proof, 0.1 to 1 us each; with `thorough`
     double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
 };
 
-/// How far `branches` of a rig go: as `DiagramOptions`, in one direction of rotation.
+/// Sets how far to follow branches of a rig, in one direction of rotation. See `DiagramOptions`.
 struct RigDiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
@@ -166,7 +171,7 @@ struct RigDiagramOptions {
     int lists = 16;
     long budget = 3'000'000;
     long proof_budget = 1'000'000;
-    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Rotation direction = Rotation::forward;
 };
 
@@ -191,38 +196,39 @@ struct Branches {
 /// heights from the end up. Each shape is matched with a crossing of a branch. A shape without one
 /// lies on an isolated branch, which is followed from it both ways. `consistent` is true if all
 /// lists are proved complete and every shape in them is met once. With `thorough` as the last
-/// argument, or revchain::compiled, finite::DiagramProver then proves that no loop opens and closes
-/// between two of the heights, or finds it, and sets `complete`.
+/// argument, or revchain::compiled, finite::DiagramProver then sets `complete`: it proves that no
+/// loop opens and closes between two of the heights, or finds it.
 /// `complete` is false if the budget of the proof is used up, or if links could hang at several
-/// inclinations; `remark` names the heights. The proof shows where branches are; that a computed
-/// branch is one of them is checked, not proved (see finite::BranchWalk).
+/// inclinations; `remark` names the heights. The proof shows where branches are. It is checked, not
+/// proved, that a computed branch is one of them (see finite::BranchWalk).
 /// Accuracy: as `branch`.
-/// Cost: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30 ms for six;
-/// eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with
-/// AVX-512; with SSE2 up to twice as long).
+/// Cost: down to 1/200 of the length, 4 to 8 ms for three links, 15 ms for five, 30 ms for six.
+/// Eight equal plummets to 5 sqrt(g/a) take 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s
+/// (with AVX-512; with SSE2 up to twice as long).
 /// Throws InvalidArgument unless one of height and speed is given, positive and finite, and `lists`
 /// >= 1; without `thorough` also for links that stand or may hang at several inclinations.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options);
 REVCHAIN_DECLARE
-[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough);
+[[nodiscard]] Branches branches(const Chain<double>& chain, const DiagramOptions& options,
+                                Thorough);
 
 /// The whole diagram of a rig in its own posture: the branches of its modes, or the one from rest
 /// if its support is off the axis, and isolated ones. Method and proof are those of chains.
 ///
-/// The proof covers rigs whose links all hang in tension, each at one inclination for its load, at
-/// every speed up to the one given: on springs, on an arm, with flywheels, in fluids. Below the
+/// The proof covers rigs on springs, on an arm, with flywheels and in fluids. All links must hang
+/// in tension, each at one inclination for its load, at every speed up to the given one. Below the
 /// first critical speed there is then one shape (none with the support on the axis), because the
 /// energy in the turning frame is a convex function of the sines of the inclinations. A spring
-/// cannot hold the rig where its stiffness times the conical height is less than the weight that
-/// moves: such heights are not proved, and `remark` says so.
+/// cannot hold the rig at heights where its stiffness times the conical height is less than the
+/// weight that moves. Such heights are not proved, and `remark` says so.
 /// Throws InvalidArgument as for chains, and if an effective tension is 0 at the height of a list.
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options);
 REVCHAIN_DECLARE
 [[nodiscard]] Branches branches(const Rig& rig, const RigDiagramOptions& options, Thorough);
 
-/// Which shape on a branch of a chain or a rig. Give exactly one of the five numbers from
+/// Selects a shape on a branch of a chain or a rig. Give exactly one of the five numbers from
 /// `conical_height` to `top_tension`.
 struct OnBranchOptions {
     Index mode = 1;  ///< of the branch, as in `BranchOptions`
@@ -237,7 +243,7 @@ struct OnBranchOptions {
     std::optional<double> min_conical_height{};
 };
 
-/// Which shapes of a rig on one branch are wanted: as `OnBranchOptions`.
+/// Selects shapes on a branch of a rig. Members are as in `OnBranchOptions`.
 struct RigOnBranchOptions {
     Index mode = 1;  ///< among those in the direction of rotation
     std::optional<double> conical_height{};
@@ -245,12 +251,12 @@ struct RigOnBranchOptions {
     std::optional<double> tip_inclination{};
     std::optional<double> tip_radius{};
     std::optional<double> top_tension{};
-    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels, too
+    double gravity = conical_pendulum::standard_gravity;  ///< for speeds and flywheels
     Rotation direction = Rotation::forward;
     std::optional<double> min_conical_height{};
 };
 
-/// As a number of shapes: all.
+/// The value of a number of shapes that means all.
 inline constexpr std::size_t all_shapes = std::numeric_limits<std::size_t>::max();
 
 /// Shapes of one branch, in the order of its arc.
@@ -261,21 +267,21 @@ struct ShapesOnBranch {
     bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
 };
 
-/// The first shape along the branch of a mode at which one number is as given: conical height,
-/// speed, tip inclination, tip radius or top tension.
+/// The first shape along the branch of a mode at which one number has its given value: conical
+/// height, speed, tip inclination, tip radius or top tension.
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the
-/// height in double-double, with the given number as a condition; near the vertical, from its
-/// onset.
+/// height in double-double, with the given number as a condition. Near the vertical it starts from
+/// the onset.
 /// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is
-/// proved (measured: 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed
-/// to a conical height of 1e-4 of the length: tests/cpp/finite/branch/shape_on_branch.cpp). That
-/// the shape is on this branch is checked step by step, not proved.
+/// proved. Measured: 0.7 of it, for 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical
+/// speed to a conical height of 1e-4 of the length (tests/cpp/finite/branch/shape_on_branch.cpp).
+/// It is checked step by step, not proved, that the shape is on this branch.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
 /// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one
-/// number is given, for one out of its range (`tip_radius` below the length, `top_tension` above
-/// the weight), for a `min_conical_height` not below the height of the mode, for a speed not above
-/// the mode's critical speed, and where the number is not reached.
+/// number is given, and if it is out of its range (`tip_radius` below the length, `top_tension`
+/// above the weight), or is not reached. Also throws for a `min_conical_height` not below the
+/// height of the mode, and for a speed not above the mode's critical speed.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Chain<double>& chain, const OnBranchOptions& options);
 
@@ -288,8 +294,8 @@ REVCHAIN_DECLARE
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options);
 
-/// All shapes on the branch at which the number is as given, in the order of the arc, at most
-/// `max_shapes`; none where the number is not reached. Otherwise as `steady_shape`.
+/// All shapes on the branch at which the number has its given value, in the order of the arc, at
+/// most `max_shapes`. The list is empty if the number is not reached. Otherwise as `steady_shape`.
 REVCHAIN_DECLARE
 [[nodiscard]] ShapesOnBranch shapes_on_branch(const Chain<double>& chain,
                                               const OnBranchOptions& options,

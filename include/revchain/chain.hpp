@@ -34,11 +34,11 @@ struct ChainUnits {
 /// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0
 /// is the free end, pin `size()` the support. The constructor checks it; a chain is immutable.
 ///
-/// Throws InvalidArgument, naming the link (from 0, lowest first), for: no links; numbers not
-/// finite; lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a
-/// link that would stand, not hang (W h + a S <= 0, S the weight below it); lengths, centroids or
-/// radii of gyration too far apart for T (2^(max_exponent/4): 1e77 in double). Cost O(N) once;
-/// memory one number per stored number.
+/// Throws InvalidArgument, naming the link (from 0, lowest first), for no links, numbers not
+/// finite, lengths <= 0, negative weights, a massless lowest link, and weights whose sum overflows.
+/// Also throws for a link that would stand, not hang (W h + a S <= 0, S the weight below it), and
+/// for lengths, centroids or radii of gyration too far apart for T (2^(max_exponent/4): 1e77 in
+/// double). Cost O(N) once, and the memory of the stored numbers.
 template <Real T>
 class Chain {
    public:
@@ -74,15 +74,17 @@ class Chain {
     /// system/tapered_links.hpp.
     [[nodiscard]] static Chain tapered(Index count, T length, double exponent, T weight = T(1));
     /// Returns this chain with `taper` set to the exponent from which `tapered` made its links, as
-    /// after reading them from a file. Throws InvalidArgument where a link is not one that
-    /// `tapered` makes, to 4 ulp. Cost: that of `tapered`.
+    /// after reading them from a file. Throws InvalidArgument if a link is not the one that
+    /// `tapered` makes, to 4 ulp (if `Wide<T>` is T, to 4 + 2N). Cost: that of `tapered`.
     [[nodiscard]] Chain as_tapered(double exponent) const;
 
     /// The exponent of a chain that `tapered` or `as_tapered` made; no value for other chains.
     std::optional<double> taper() const noexcept { return taper_; }
 
     Index size() const noexcept { return size_; }
-    Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
+    Link<T> link(Index m) const {
+        return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]};
+    }
     const Column<T>& weight() const noexcept { return weight_; }
     const Column<T>& length() const noexcept { return length_; }
     const Column<T>& centroid() const noexcept { return centroid_; }
@@ -101,7 +103,7 @@ class Chain {
         static const std::vector<Wide<T>> none;
         return partial_weights_ ? *partial_weights_ : none;
     }
-    /// Whether no centroid lies above its link's upper pin.
+    /// True if no centroid lies above its link's upper pin.
     bool centroids_below() const noexcept { return centroids_below_; }
     /// Whether the weights are close enough together for one unit (ratios up to 1e123 in double).
     bool has_one_weight_unit() const noexcept { return one_weight_unit_; }
@@ -115,7 +117,7 @@ class Chain {
         return units;
     }
 
-    /// Whether the links are the same, however they are stored or were made.
+    /// Whether the links are equal, however they are stored or were made.
     friend bool operator==(const Chain& x, const Chain& y) {
         if (x.size_ != y.size_) return false;
         for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)
@@ -142,7 +144,7 @@ class Chain {
     void check_each_link() const;
     void check_that_links_hang(const detail::Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
-    /// The number of links that a check reads: one if all links are the same.
+    /// The number of links that a check reads: one if all links are equal.
     Index distinct_links() const {
         const bool uniform = weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() &&
                              gyration_ratio_.is_scalar();
@@ -161,7 +163,7 @@ class Chain {
     T largest_length_{};  // a or |h|
     bool one_weight_unit_ = true;
     bool centroids_below_ = true;
-    std::optional<double> taper_;  // stays true, because the numbers cannot change
+    std::optional<double> taper_;  // stays valid, because the numbers cannot change
 };
 
 }  // namespace revchain

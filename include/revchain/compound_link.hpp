@@ -42,9 +42,11 @@ struct CompoundLink {
             static_cast<T>(Wide<T>(centroid) + detail::squares_over_centroid(*this).value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // overflow
     }
-    /// k^2/h, the distance from the centre of gravity to the centre of oscillation; it and h are
-    /// exchanged for a link hung by its centre of oscillation, §6.
-    T square_over_centroid() const { return static_cast<T>(detail::squares_over_centroid(*this).value()); }
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. If a link is
+    /// hung by its centre of oscillation, k^2/h and h are exchanged, §6.
+    T square_over_centroid() const {
+        return static_cast<T>(detail::squares_over_centroid(*this).value());
+    }
     /// h/l, the share of the weight at the centre of oscillation if two particles replace the link
     /// (Maxwell), the other at the pin. §6. Accuracy: 2 ulp.
     [[nodiscard]] T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
@@ -56,8 +58,10 @@ void check(std::string_view place, const CompoundLink<T>& link) {
     require_positive(place, "centroid", link.centroid);
     using std::isfinite;
     if (!(link.radius_of_gyration >= T(0)) || !isfinite(link.pendulum_length()))
-        throw_invalid(place, "radius of gyration must not be negative, nor its square too large for the centroid",
-                      link.radius_of_gyration);
+        throw_invalid(
+            place,
+            "radius of gyration must not be negative, nor its square too large for the centroid",
+            link.radius_of_gyration);
 }
 }  // namespace detail
 

@@ -169,18 +169,18 @@ struct HeldPlummet {
 };
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the
-/// upper one; equations of the polygon KN, NP, PC', C'K of §1. Let D be the depth with both threads
-/// straight. The lower thread is slack if height >= D, the upper one if height <= D - distance; the
-/// plummet is then a conical pendulum on the other. Of the points within reach of both threads it
-/// takes the one with the largest depth + radius^2/(2 height), which is unique. Accuracy: 3 ulp; a
-/// depth or tension that is a small difference of two terms has an error of 1e-29 of the larger
-/// one. Also throws InvalidArgument unless the three lengths form a triangle.
+/// upper one. Its equations are those of the polygon KN, NP, PC', C'K of §1. Let D be the depth
+/// with both threads straight. The lower thread is slack if height >= D, the upper one if height <=
+/// D - distance; the plummet is then a conical pendulum on the other. Its position is the point
+/// within reach of both threads with the largest depth + radius^2/(2 height), which is unique.
+/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of
+/// 1e-29 of the larger one. Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
 [[nodiscard]] HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread,
                                           const T& distance, const T& height);
 
-/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the
-/// plummet's thread hangs from an arm of length `arm` and is adjusted until the arm is
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine. There the
+/// plummet's thread hangs from an arm of length `arm`. It is adjusted until the arm is
 /// perpendicular to the vertical plane through the axis and the plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 [[nodiscard]] T air_resistance(const T& arm, const T& height) {
@@ -188,8 +188,8 @@ template <Real T>
     return arm / height;
 }
 
-/// Thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 +
-/// radius^2). Accuracy: 2 ulp.
+/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2
+/// + radius^2). Accuracy: 2 ulp.
 template <Real T>
 [[nodiscard]] T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -197,16 +197,16 @@ template <Real T>
     return hypot(hypot(arm, height), radius);
 }
 
-/// Offset of a plummet over that of its support, which is carried round a circle or to and fro with
-/// a nearly vertical thread: lambda / (lambda - l), negative for lambda < l, infinite at resonance.
-/// §1 (9). Accuracy: 1.1 ulp for lambda and l as given.
+/// Offset of a plummet over that of its support, if the support is carried round a circle or to and
+/// fro and the thread is nearly vertical: lambda / (lambda - l), negative for lambda < l, infinite
+/// at resonance. §1 (9). Accuracy: 1.1 ulp for lambda and l as given.
 template <Real T>
 [[nodiscard]] T carried_response(const T& length, const T& height) {
     detail::require_positive("carried_response", "length", length, "height", height);
     return height / (height - length);
 }
 
-/// Steady inclinations of the thread, ascending, positive outwards. `count` are used.
+/// Steady inclinations of the thread, ascending, positive outwards. The first `count` are used.
 template <Real T>
 struct CarriedInclinations {
     std::array<T, 3> inclination{};
@@ -217,7 +217,7 @@ struct CarriedInclinations {
 /// radius b: lambda tan d = b + l sin d, §1 (9). One is always outwards. Two more are inwards if
 /// lambda < l and b^(2/3) <= l^(2/3) - lambda^(2/3); one of these is unstable. Accuracy: 4 ulp,
 /// times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
-/// Cost: a microsecond. Also throws InvalidArgument where the tangent of an inclination overflows.
+/// Cost: a microsecond. Also throws InvalidArgument if the tangent of an inclination overflows.
 template <Real T>
 [[nodiscard]] CarriedInclinations<T> carried_inclinations(const T& length, const T& height,
                                                           const T& radius);

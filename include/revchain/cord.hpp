@@ -46,16 +46,17 @@ struct CordModes {
 
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, over that of the free end. For a cord held at
-    /// both ends, over the largest offset, which is at the lowest vertical point. Throws
-    /// InvalidArgument for s not in 0 ... length. Cost: 1 to 15 microseconds, 100 with a density
-    /// function; for a vector of s much less each.
+    /// Offset of the mode at index j at arc length s, divided by that of the free end. For a cord
+    /// held at both ends it is divided by the largest offset, which is at the lowest vertical
+    /// point. Throws InvalidArgument for s not in 0 ... length. Cost: 1 to 15 microseconds, 100
+    /// with a density function; for a vector of s much less each.
     [[nodiscard]] double offset(Index j, double s) const;
     [[nodiscard]] Vector<double> offset(Index j, const Vector<double>& s) const;
     /// d offset / ds, -1 / lambda at a free end. Throws and costs as `offset`.
     [[nodiscard]] double slope(Index j, double s) const;
     [[nodiscard]] Vector<double> slope(Index j, const Vector<double>& s) const;
-    /// Arc lengths at which the mode at index j crosses the axis, ascending, without held ends.
+    /// Arc lengths at which the mode at index j crosses the axis, ascending. Held ends are not
+    /// listed.
     [[nodiscard]] Vector<double> nodes(Index j) const;
     /// Arc lengths at which the mode is vertical, ascending, one above each node: the part below
     /// has its centre of gravity on the axis. Between held ends, one is below each node and one
@@ -67,7 +68,7 @@ struct CordModes {
     [[nodiscard]] Vector<double> period(double gravity = conical_pendulum::standard_gravity) const;
 };
 
-/// Which modes of a cord, hanging or held at both ends: as `ModesOptions`, with one method.
+/// Selects modes of a cord, as `ModesOptions` does. There is one method.
 struct CordModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -80,14 +81,14 @@ struct CordModesOptions {
 
 /// The modes chosen by `first` and `count` (absent: ten), or by a window that holds finitely many.
 ///
-/// Method and accuracy: closed forms for a uniform cord, lambda_k = 4 L / j_{0,k}^2, to 3 ulp; for
-/// a density s^p, 4 (p + 1) L / j_{p,k}^2, to 3 ulp; for a uniform cord with a tip weight, zeros of
-/// a cross product of Bessel functions, to 2 ulp. Power series for all others, to 4e-15
-/// (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from -0.99
-/// to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
+/// Method and accuracy: closed forms are lambda_k = 4 L / j_{0,k}^2 for a uniform cord, to 3 ulp,
+/// and 4 (p + 1) L / j_{p,k}^2 for a density s^p, to 3 ulp. For a uniform cord with a tip weight
+/// they are zeros of a cross product of Bessel functions, to 2 ulp. All others use power series, to
+/// 4e-15 (tests/cpp/cord.cpp). `error_bound` has these figures; it was measured, for exponents from
+/// -0.99 to 100. For a density function that jumps or is less accurate it is 2e-15 plus twice
 /// `LineDensity::error` plus `rounding_at_jumps`. Offsets and slopes are within 1e-15 times the
 /// mode number of the largest one, with series within 1e-14. Cost: a closed form takes 0.01 to 15
-/// microseconds a mode; power series 1 ms for each mode up to the last one wanted. Throws
+/// microseconds a mode; power series take 1 ms for each mode up to the last one requested. Throws
 /// InvalidArgument as `modes` of a chain, for `all_modes` (there are infinitely many), and with
 /// series for modes above number 1e5, a density too rough or a tip too heavy.
 REVCHAIN_DECLARE_ANALYTIC
@@ -142,13 +143,13 @@ REVCHAIN_DECLARE_ANALYTIC
 /// Accuracy: points within 1e-12; heights of folds within 1e-9, relative
 /// (tests/cpp/cord_branches.cpp). Cost: some 5 paths a point, three times that with a tip or a
 /// density; see `steady_shapes` for a path.
-/// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and
-/// speed is given, positive and finite, a height not below that of the mode, a length above 1e6
-/// heights.
+/// Throws InvalidArgument for a mode number below 1 or above 1e5, for a height not below that of
+/// the mode, for a length above 1e6 heights, and unless exactly one of height and speed is given,
+/// positive and finite.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranch branch(const Cord& cord, const BranchOptions& options);
 
-/// How far to follow all branches of a cord. Give either `min_conical_height` or
+/// Sets how far to follow all branches of a cord. Give either `min_conical_height` or
 /// `max_angular_speed`.
 struct CordDiagramOptions {
     std::optional<double> min_conical_height{};
@@ -161,16 +162,17 @@ struct CordDiagramOptions {
 
 /// All branches down to the conical height or speed given: of the modes, and isolated ones.
 ///
-/// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes
+/// Method: `branch` from every mode. If no theorem counts the shapes, lists of shapes
 /// (`steady_shapes`) at `lists` heights are compared with the branches. A shape that no branch
-/// passes lies on an isolated branch, which is followed both ways. `complete` is true where a
-/// theorem counts the shapes (finite/cord/continuous_chain.hpp): a uniform cord, a power s^p
-/// without a tip or with p below 0, and one mode.
+/// passes lies on an isolated branch, which is followed both ways. `complete` is true if a theorem
+/// counts the shapes (finite/cord/continuous_chain.hpp): a uniform cord, a power s^p without a tip
+/// or with p below 0, and one mode.
 /// Accuracy: as `branch`. Throws InvalidArgument as `branch`, and for `lists` below 1.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordBranches branches(const Cord& cord, const CordDiagramOptions& options);
 
-/// The first shape along the branch of a mode at which one number is as given, as for a chain.
+/// The first shape along the branch of a mode at which one number has its given value, as for a
+/// chain.
 ///
 /// Accuracy: the shape is within its `error_bound`, an estimate, of the exact one at its conical
 /// height. That height is the given one, or within 1e-14 of the one at which the number is reached
@@ -178,8 +180,8 @@ REVCHAIN_DECLARE_ANALYTIC
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShape steady_shape(const Cord& cord, const OnBranchOptions& options);
 
-/// All shapes on the branch at which the number is as given, at most `max_shapes`; none where the
-/// number is not reached. Otherwise as `steady_shape`.
+/// All shapes on the branch at which the number has its given value, at most `max_shapes`. The list
+/// is empty if the number is not reached. Otherwise as `steady_shape`.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordShapesOnBranch shapes_on_branch(const Cord& cord, const OnBranchOptions& options,
                                                   std::size_t max_shapes = all_shapes);
@@ -195,8 +197,8 @@ REVCHAIN_DECLARE_ANALYTIC
 /// NaN: friction in bending needs a stiffness, which a cord does not have. `external_damping` is
 /// for the drag of still air on a piece of cord over its length and velocity, as for a chain.
 /// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip
-/// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py);
-/// those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
+/// to 2e-9 against chains with Richardson's extrapolation: tests/python/test_cord_branches.py).
+/// Exponents of N links differ from them as 1/N^2 (tests/cpp/cord_branches.cpp).
 /// Cost: that of a chain with 10 links a panel; each half wave has two to four panels or more: 15
 /// ms without nodes, 0.3 s for three half waves. Throws InvalidArgument if the lengths differ.
 REVCHAIN_DECLARE
@@ -206,9 +208,9 @@ REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Cord& cord, const HeldCordShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
 
-/// The offsets or velocities of a cord at time 0: none (all 0); values at
-/// `CordSwingOptions::arc_length`, linear between them; or a continuous function of the arc length;
-/// 0 at the support.
+/// The offsets or velocities of a cord at time 0; 0 at the support. They are absent (all 0), values
+/// at `CordSwingOptions::arc_length` and linear between them, or a continuous function of the arc
+/// length.
 using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
 
 /// The start of a swing, and the times and arc lengths of its results.
@@ -239,12 +241,12 @@ struct CordSwing {
 /// `error_estimate` is the largest contribution of modes k + 1 ... 2 k, plus that of all higher
 /// modes, extrapolated from the decrease between modes k/2 ... k and k + 1 ... 2 k. After a kink in
 /// a cord without a tip, convergence at the free end is slow, as k^-1/2: waves meet there.
-/// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of
-/// swings; measured against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800
+/// Accuracy, measured against long chains (tests/cpp/cord_branches.cpp): coefficients to 1e-13 of
+/// the largest, angles to rounding, 1e-16 times the number of swings. Cost: 2 k modes at some 800
 /// arc lengths or more, 1 to 15 microseconds each.
-/// Throws InvalidArgument for starts that are not finite, continuous, of the length of
-/// `arc_length`, or 0 at the support, for arc lengths out of order, a count below 1 or above 1e4,
-/// gravity not positive and times not finite.
+/// Throws InvalidArgument unless starts are finite, continuous, of the length of `arc_length` and 0
+/// at the support, for arc lengths out of order, a count below 1 or above 1e4, gravity not positive
+/// and times not finite.
 REVCHAIN_DECLARE_ANALYTIC
 [[nodiscard]] CordSwing swing(const Cord& cord, const CordSwingOptions& options);
 

@@ -27,7 +27,7 @@ struct SpeedWindow {
     T high{};
 };
 
-/// As a count of modes: all.
+/// The value of a count of modes that means all.
 inline constexpr Index all_modes = std::numeric_limits<Index>::max();
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
@@ -50,10 +50,13 @@ void check_window(std::string_view name, const T& low, const T& high) {
     const std::string window = std::string(name) + " window: ";
     if (!is_bounded(low) || low < T(0))
         throw_invalid("modes", window + "its low end must be finite and not negative", low);
-    if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
+    if (!(high > low))
+        throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low),
+                      high);
 }
 
-/// The modes, of `all`, in a window of heights; `above(height)` counts those with larger ones.
+/// The modes, out of `all`, in a window of heights; `above(height)` counts modes with larger
+/// heights.
 template <Real T, class Above>
 ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& above) {
     check_window("conical height", window.low, window.high);
@@ -62,7 +65,7 @@ ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& ab
     return {before + 1, std::max(all - before, Index(0))};
 }
 
-/// The modes, of `all`, in a window of speeds; `below(speed)` counts slower modes.
+/// The modes, out of `all`, in a window of speeds; `below(speed)` counts slower modes.
 template <Real T, class Below>
 ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& below) {
     check_window("angular speed", window.low, window.high);
@@ -71,7 +74,7 @@ ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& bel
     return {before + 1, std::max(all - before, Index(0))};
 }
 
-/// The window of heights that is a window of speeds.
+/// Converts a window of speeds to a window of heights.
 template <Real T>
 HeightWindow<T> window_of_heights(const SpeedWindow<T>& window, const T& gravity) {
     check_window("angular speed", window.low, window.high);

@@ -33,17 +33,17 @@ struct Explanation {
     [[nodiscard]] std::string text() const;
 };
 
-/// The modes wanted, and how accurately: as in `ModesOptions`.
+/// Selects modes and sets their tolerance, as `ModesOptions` does.
 struct ExplainOptions {
     Index first = 1;               ///< from 1 for the slowest
     std::optional<Index> count{};  ///< or `all_modes`; absent: at most 10
     std::optional<double> rtol{};  ///< of the conical heights; absent: full accuracy
 };
 
-/// Returns the method that `modes` of a chain tries first. No mode is computed. Where that method
+/// Returns the method that `modes` of a chain tries first. No mode is computed. If that method
 /// cannot prove its bound for this chain, `modes` takes the next one; `Modes::method` names the
 /// method used. Accuracy: each method meets its error bound; predicted times were within a factor
-/// of 3 of measured times (bench/models.cpp). Cost: some microseconds. Throws as `modes`.
+/// of 3 of measured times (bench/models.cpp). Cost: a few microseconds. Throws as `modes`.
 REVCHAIN_DECLARE
 [[nodiscard]] Explanation explain(const Chain<double>& chain, const ExplainOptions& options = {});
 

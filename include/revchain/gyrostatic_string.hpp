@@ -18,7 +18,7 @@
 /// small. It is a model of light in a magnetised body. Units: any consistent set, angles in rad.
 ///
 /// In a circular wave every pin runs round the line with the speed n, an angle theta behind its
-/// neighbour; n is positive in the direction of rotation of a wheel with positive momentum:
+/// neighbour. n is positive in the direction of rotation of a wheel with positive momentum:
 ///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),
 ///     X = W (h (a - h) - rho^2)/a^2.
 /// All functions are O(1). They throw InvalidArgument unless weight, length, tension and gravity
@@ -114,7 +114,9 @@ template <Real T>
     using P = detail::Product<T>;
     const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
     // A n^2 - B n - C = 0, where B and C are over chord^2
-    const P A = P::of(string.weight).over(string.gravity).times(T(1) - chord * chord * detail::share_across(string));
+    const P A = P::of(string.weight)
+                    .over(string.gravity)
+                    .times(T(1) - chord * chord * detail::share_across(string));
     const P B = P::of(abs(string.momentum)).over(string.length).over(string.length).times(chord);
     const P C = P::of(string.tension).over(string.length);
     const P q = B.plus(B.times(B).plus(A.times(C).times(T(4))).root()).over(T(2));
@@ -124,10 +126,10 @@ template <Real T>
                                   : std::array<T, 2>{faster, -slower};
 }
 
-/// Angle by which the plane of a vibration to and fro turns from link to link, positive in the
-/// direction of rotation of a wheel with positive momentum: half the difference of the phases of
-/// the two circular parts. It is the same for waves in both directions, so a reflected wave is
-/// turned twice. NaN if one of the parts does not propagate. Accuracy: 8 ulp, also for a tiny
+/// Angle by which the plane of a vibration to and fro turns from link to link. It is half the
+/// difference of the phases of the two circular parts, positive in the direction of rotation of a
+/// wheel with positive momentum. It is the same for waves in both directions, so a reflected wave
+/// is turned twice. NaN if one of the parts does not propagate. Accuracy: 8 ulp, also for a tiny
 /// momentum, divided by the cosine of half the larger phase where that is small. Also throws
 /// InvalidArgument for a speed that is not positive.
 template <Real T>

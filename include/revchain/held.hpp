@@ -24,9 +24,9 @@
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
 ///     m.angular_speed()[0];                 // 31.8773 rad/s: the straight chain begins to whirl
 ///
-/// Links and arrays begin at the lower end. `modes` and `count_modes` treat a straight chain,
-/// `steady_shapes` and `branches` shapes at finite amplitude, `stability` (stability.hpp) their
-/// stability. `Held<Cord>` needs cord.hpp.
+/// Links and arrays begin at the lower end. `modes` and `count_modes` are for a straight chain,
+/// `steady_shapes` and `branches` for shapes at finite amplitude, and `stability` (stability.hpp)
+/// for the stability of shapes. `Held<Cord>` needs cord.hpp.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// How the two ends are held. Give either `span` or `tension`.
@@ -50,10 +50,11 @@ struct HeldBy {
 /// stiff in all directions across the axis, or carry it round the axis at a radius. All lie in one
 /// plane.
 ///
-/// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite; for
-/// a span not less than the length, firm ends as far apart as the length, a stiffness not positive,
-/// a carriage weight that is negative or has no spring, numbers not finite, a radius together with
-/// a tension, springs or radii for a cord, and a cord that is not uniform or has a tip weight.
+/// Throws InvalidArgument unless exactly one of span and tension is given, positive and finite, for
+/// a span not less than the length, and for firm ends as far apart as the length. Also throws for
+/// numbers not finite, a stiffness not positive, a carriage weight that is negative or has no
+/// spring, a radius together with a tension, springs or radii for a cord, and a cord that is not
+/// uniform or has a tip weight.
 template <class System>
 class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
@@ -90,8 +91,8 @@ struct HeldShapesOptions {
     long budget = 300'000;  ///< link evaluations of that, 1 to 2 microseconds each
 };
 
-/// At which speed shapes of a held cord are wanted, and how many half waves they may have. They are
-/// not proved.
+/// The speed of the shapes of a held cord, and their largest number of half waves. Shapes are not
+/// proved.
 struct HeldCordShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s
@@ -103,16 +104,17 @@ struct HeldCordShapesOptions {
 /// Half waves are counted about the line between the rest positions of the two ends; ends on
 /// springs count as pins. Every link is in tension.
 ///
-/// For each number of half waves the first shape is the one reached by continuation from the nearly
-/// straight chain without gravity: the ends approach, then move to their radii and springs, then
-/// gravity grows. At a given tension all other shapes on that branch with this tension at the upper
-/// end follow. For a chain all other shapes found follow.
+/// For each number of half waves the first shape is reached by continuation from the nearly
+/// straight chain without gravity. The ends approach, then move to their radii and springs, then
+/// gravity grows. At a given tension it is followed by all other shapes on that branch with this
+/// tension at the upper end. For a chain all other shapes found come last.
 ///
 /// `missing` lists the numbers of half waves without a shape. `complete` is true if it is proved
-/// that no other shape has one of these numbers; for a cord, only at a span without gravity.
-/// Otherwise `undecided` has the ranges of the lowest link's inclination (rad) in which other
-/// shapes may exist in the plane of the axis and the ends. If both radii differ from 0, the arms
-/// can twist the chain out of that plane; such shapes are not searched and `complete` is false.
+/// that there is no other shape with 1 to `max_half_waves` half waves. For a cord this is possible
+/// only at a span without gravity. Otherwise `undecided` has the ranges of the lowest link's
+/// inclination (rad) in which other shapes may exist in the plane of the axis and the ends. If both
+/// radii differ from 0, the arms can twist the chain out of that plane; such shapes are not
+/// searched and `complete` is false.
 ///
 /// Forces in `HeldShape` and `HeldCordShape` are multiplied by the conical height. Divide by
 /// `conical_height` for the unit of the weights; without gravity multiply by the square of the
@@ -126,12 +128,12 @@ struct HeldCordShapesOptions {
 /// bound. Completeness is proved by splitting all pulls along the lowest link and all its
 /// inclinations until each part has exactly one shape or none (finite/held/search.hpp). For cords:
 /// power series of degree 24; without gravity y = b sn(K x/a), §5.
-/// Lists proved complete (tests/cpp/held.cpp): 99 of 108 for 3, 6 and 9 links with l <= a and one
-/// half wave; none for chains with l > a or with massless links between others; few for two or more
-/// half waves. Where several links are slack at once, as beads can be without gravity, a range of
-/// about 1e-7 stays undecided. On arms and springs: all of 36 for 3 links and two half waves, 25 of
-/// 36 for 4 links and three; above the resonance of a carriage on its spring, 8 of 24 for 3 links
-/// and three (some are in tests/python/test_held_ends.py).
+/// Of lists in tests/cpp/held.cpp, 99 of 108 are proved complete for 3, 6 and 9 links with l <= a
+/// and one half wave. None are for chains with l > a or with massless links between others, and few
+/// for two or more half waves. If several links are slack at once, as beads can be without gravity,
+/// a range of about 1e-7 stays undecided. On arms and springs all of 36 are proved for 3 links and
+/// two half waves, and 25 of 36 for 4 links and three. Above the resonance of a carriage on its
+/// spring it is 8 of 24 for 3 links and three (some are in tests/python/test_held_ends.py).
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
 /// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
 /// with an estimated bound. A given tension is met to 1e-15, relative.
@@ -146,14 +148,16 @@ REVCHAIN_DECLARE
 [[nodiscard]] HeldCordShapes steady_shapes(const Held<Cord>& held,
                                            const HeldCordShapesOptions& options = {});
 
-/// Which modes of a chain held straight under a tension: as in `ModesOptions`. There is one method.
+/// Selects modes of a chain held straight under a tension, as `ModesOptions` does. There is one
+/// method.
 struct HeldModesOptions {
     Index first = 1;
     std::optional<Index> count{};
     std::optional<HeightWindow<double>> conical_height{};
     std::optional<SpeedWindow<double>> angular_speed{};
     std::optional<double> rtol{};  ///< bounds above it are `Status::tolerance_not_met`
-    double gravity = conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
+    double gravity =
+        conical_pendulum::standard_gravity;  ///< for windows of speed, and without weight
     bool certify = false;
     Index threads = 1;  ///< 0: all processors
     Progress* progress = nullptr;
@@ -172,9 +176,9 @@ struct HeldModesOptions {
 /// their neighbours (docs/accuracy.md). A tension or stiffness whose second word is not 0 is taken
 /// as a quotient that was rounded once; otherwise numbers are exact.
 /// Cost: 2 microseconds a link and mode, 0.5 more with shapes.
-/// Throws InvalidArgument for a span (use `stability`), a tension that does not exceed the weight
-/// (the chain would not be straight) or is out of range, and wrong numbers and windows as `modes`
-/// of a chain; also where rounding leaves the number of modes in a window in doubt.
+/// Throws InvalidArgument for a span (use `stability`) and for a tension that does not exceed the
+/// weight (the chain would not be straight) or is out of range. Also throws for wrong numbers and
+/// windows as `modes` of a chain, and if rounding leaves the number of modes in a window in doubt.
 REVCHAIN_DECLARE
 [[nodiscard]] Modes<double> modes(const Held<Chain<double>>& held,
                                   const HeldModesOptions& options = {});
@@ -185,7 +189,7 @@ REVCHAIN_DECLARE
 [[nodiscard]] Index count_modes(const Held<Chain<double>>& held,
                                 const CountOptions<double>& options);
 
-/// How far branches go. Give either `min_conical_height` or `max_angular_speed`.
+/// Sets how far to follow branches. Give either `min_conical_height` or `max_angular_speed`.
 struct HeldDiagramOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
@@ -194,20 +198,21 @@ struct HeldDiagramOptions {
 };
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 to the
-/// last with a shape at the greatest speed. A branch begins at that speed, at the first shape that
-/// `steady_shapes` lists, and is followed to slower speeds, through folds, until a link becomes
-/// slack or turns over (`slack`), the cord hangs folded along the axis (`folded`), the greatest
-/// speed is reached again (`speed`), the conical height is 10,000 lengths (`rest`: off the axis),
-/// or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the branches. Between ends off the
-/// axis each number k has two: mode 2 k - 1, whose lowest link first leads outwards, and 2 k,
-/// inwards. A branch that returns to the greatest speed where another would begin stands for both.
+/// last with a shape at the greatest speed, at most 1000. A branch begins at that speed, at the
+/// first shape that `steady_shapes` lists, and goes to slower speeds, through folds. It ends where a link
+/// becomes slack or turns over (`slack`), the cord hangs folded along the axis (`folded`), the
+/// greatest speed is reached again (`speed`), the conical height is 10,000 lengths (`rest`: off the
+/// axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the branches. Between ends
+/// off the axis each number k has two branches: mode 2 k - 1, whose lowest link first leads
+/// outwards, and mode 2 k, whose lowest link first leads inwards. A branch that returns to the
+/// greatest speed where another would begin stands for both.
 ///
 /// Method: arc continuation in (force across, force along, height) at constant span; shapes are
 /// refined in double-double, at folds in double. Branches that begin elsewhere or leave the plane
 /// of the ends are not searched; `steady_shapes` can prove that one speed has no other shapes.
-/// Accuracy: 1e-15 rad where `condition` is moderate, an estimate. A cord folds as it approaches
-/// the slowest speed, at which one of its two straight parts, hung from its end, begins to whirl;
-/// offsets vanish there faster than any power of the difference of speeds, so the last speed found
+/// Accuracy: an estimated 1e-15 rad if `condition` is moderate. A cord folds as it approaches the
+/// slowest speed, at which one of its two straight parts, hung from its end, begins to whirl.
+/// Offsets vanish there faster than any power of the difference of speeds, so the last speed found
 /// is a few percent higher. Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, no gravity, a step not positive, and unless exactly one of
 /// height and speed is given, positive and finite.
@@ -218,7 +223,7 @@ REVCHAIN_DECLARE
 [[nodiscard]] std::vector<HeldCordBranch> branches(const Held<Cord>& held,
                                                    const HeldDiagramOptions& options);
 
-/// Which shape of a branch. Give one of `conical_height`, `angular_speed` and `top_tension`.
+/// Selects a shape of a branch. Give one of `conical_height`, `angular_speed` and `top_tension`.
 struct HeldOnBranchOptions {
     int mode = 1;  ///< half waves at the start of the branch; off the axis see `branches`
     std::optional<double> conical_height{};
@@ -227,11 +232,11 @@ struct HeldOnBranchOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// A shape on the branch `mode` of a chain or cord held at a span: at a speed, the first one that
-/// `steady_shapes` lists; with a tension at the upper end, the fastest one (its speed:
-/// `angular_speed()`). Accuracy: inclinations as `steady_shapes`; the height for a tension to
-/// 1e-14. Throws InvalidArgument as `branches`, for a mode below 1, a tension between springs, and
-/// where the branch does not reach the number.
+/// A shape on the branch `mode` of a chain or cord held at a span. At a given speed it is the first
+/// shape that `steady_shapes` lists. With a given tension at the upper end it is the fastest one,
+/// with the speed `angular_speed()`. Accuracy: inclinations as `steady_shapes`; the height for a
+/// tension to 1e-14. Throws InvalidArgument as `branches`, for a mode below 1, for a tension
+/// between springs, and if the branch does not reach the number.
 REVCHAIN_DECLARE
 [[nodiscard]] HeldShape steady_shape(const Held<Chain<double>>& held,
                                      const HeldOnBranchOptions& options);

@@ -30,14 +30,14 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// How conical heights are found. The last three are in methods.hpp.
 enum class ModesMethod {
-    automatic,     ///< the cheapest of those there are that meets the tolerance
+    automatic,     ///< the cheapest available method that meets the tolerance
     bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
     condensed,     ///< for a few of the slowest modes of a long chain, condensed to blocks; 2 ulp
     aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
     interpolated,  ///< for many modes: interpolates the characteristic polynomial
 };
 
-/// Which modes, by number (`first`, `count`) or by one window, not both, and how accurately.
+/// Selects modes by number (`first`, `count`) or by one window, not both, and sets their tolerance.
 template <Real T>
 struct ModesOptions {
     Index first = 1;                                  ///< from 1 for the slowest
@@ -78,16 +78,18 @@ struct Modes {
     Index size() const noexcept { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
     /// (k, N+1) offsets of the pins, free end first, support last (0); in each mode the largest
-    /// magnitude is 1 and the free end positive. Computed when first called, as the next two;
-    /// thread-safe.
-    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    /// magnitude is 1 and the free end positive. Computed at the first call, as `residual` and
+    /// `nodes` are; thread-safe.
+    const Table<T>& shapes(Progress* progress = nullptr) const {
+        return lazy_shapes_.offsets(size(), progress);
+    }
     /// (k,) largest unbalanced force at a pin over the largest sum of forces at a pin
     const Vector<T>& residual() const { return details().residual; }
     /// k lists: distances from the free end at which the mode crosses the axis
     const std::vector<Vector<T>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     [[nodiscard]] Vector<T> shape(Index j) const { return lazy_shapes_.one(size(), j); }
-    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
+    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound`, plus 2.1 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
     }
@@ -102,9 +104,7 @@ struct Modes {
 
    private:
     friend detail::ShapesBehind;
-    const detail::ModeShapes<T>& details() const {
-        return lazy_shapes_.details(size(), nullptr);
-    }
+    const detail::ModeShapes<T>& details() const { return lazy_shapes_.details(size(), nullptr); }
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
         for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
@@ -119,21 +119,23 @@ struct Modes {
 /// Method: bisection. Modes are counted in T at eight trial heights in one pass. A twisted
 /// factorization gives a shape and its Rayleigh quotient in `Wide<T>`; the residual or two counts
 /// prove the bound. A chain of floats is solved in double. methods.hpp adds methods that are faster
-/// for long chains, many modes and loose tolerances, with the same bounds; where a program links
-/// `revchain::compiled` they are here, too. `Modes::method` names the method used. Windows are
-/// decided by proved counts (`ModeCounter::within`), not by rounded heights. Accuracy without
-/// `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
-/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2 ulp, proved by counts.
-/// With `rtol`: the bound is at most `rtol`, proved by counts. Shapes are within 5.6e-17 of the
-/// largest offset (3.5e-16 / gap if weights need several units; rtol / gap with a looser `rtol`),
-/// where gap, at most 1, is the relative distance to the next height. Where `Wide<T>` is T itself
-/// (DoubleDouble, a scalar of your own) errors and bounds grow with N. Results are bitwise the same
-/// for any number of threads. Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds
-/// eight at a time, shapes 0.006; one by one, as where weights need several units, 0.3. Memory O(N
-/// k) with shapes. Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a
-/// window with low >= high, numbers together with a window, a tolerance that is negative or NaN,
-/// and a method that needs methods.hpp. A tolerance out of reach gives `Status::tolerance_not_met`
-/// and the bounds reached.
+/// for long chains, many modes and loose tolerances, with the same bounds. In a program that links
+/// `revchain::compiled` they are included here. `Modes::method` names the method used. Windows are
+/// decided by proved counts (`ModeCounter::within`), not by rounded heights.
+/// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored
+/// numbers (measured, N up to 1e5, ten kinds of chain: tests/cpp/modes.cpp); the bound is at most 2
+/// ulp, proved by counts. With `rtol`: the bound is at most `rtol`, proved by counts. Shapes are
+/// within 5.6e-17 of the largest offset (3.5e-16 / gap if weights need several units; rtol / gap
+/// with a looser `rtol`), where gap, at most 1, is the relative distance to the next height. If
+/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own), errors and bounds grow with N.
+/// Results are bitwise the same for any number of threads.
+/// Cost in double per link and mode (AVX-512): 0.01 to 0.02 microseconds eight at a time, plus
+/// 0.006 for shapes; 0.3 one by one, as for weights that need several units. Memory O(N k) with
+/// shapes.
+/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window with low >=
+/// high, numbers together with a window, a tolerance that is negative or NaN, and a method that
+/// needs methods.hpp. A tolerance out of reach gives `Status::tolerance_not_met` and the bounds
+/// reached.
 template <Real T>
 [[nodiscard]] Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 

@@ -20,7 +20,8 @@
 ///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The motion of the support, and the pins wanted. Give either `conical_height` or `angular_speed`.
+/// The motion of the support, and the requested pins. Give either `conical_height` or
+/// `angular_speed`.
 struct ResponseOptions {
     std::vector<double> conical_height{};      ///< of the speeds
     std::vector<double> angular_speed{};       ///< rad/s; with a flywheel of either sign
@@ -45,8 +46,8 @@ struct Response {
 };
 
 /// Forced motion of a chain whose support is carried round a circle of radius b, after free motions
-/// have died away: K y = M y / lambda with y = b at the support. One plummet, Greenhill (1908) §1
-/// (9): b lambda / (lambda - l).
+/// have died away: K y = M y / lambda with y = b at the support. For one plummet the offset is b
+/// lambda / (lambda - l), Greenhill (1908) §1 (9).
 ///
 /// Method: the dynamic stiffness of the part below a pin is carried up in double-double, several
 /// speeds at once, with a bound of its error. Ratios of neighbouring offsets then give the offsets
@@ -57,15 +58,15 @@ struct Response {
 /// support; each resonance reverses it. Results are bitwise the same for any number of threads.
 /// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with
 /// two (bench/response.cpp). Memory: the result, which `pins` reduces.
-/// Throws InvalidArgument where both heights and speeds are given; for heights, radius or gravity
-/// not positive and finite; for speeds that are 0, not finite, or negative without a flywheel; for
-/// heights (given or g/n^2) not between 2^-250 and 2^250 times the longest link's length (rounded
-/// up to a power of 2); and for pins that do not exist.
+/// Throws InvalidArgument if both heights and speeds are given, unless heights, radius and gravity
+/// are positive and finite, and for pins that do not exist. Speeds must be finite and not 0, and
+/// positive without a flywheel. Heights (given or g/n^2) must be between 2^-250 and 2^250 times the
+/// longest link's length (rounded up to a power of 2).
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Chain<double>& chain, const ResponseOptions& options);
 
-/// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support; of
-/// a spring support, the rest position is carried round. Lowest links that weigh nothing in a fluid
+/// Returns the response of a rig. `support_radius` replaces the radius of the rig's own support. If
+/// that is a spring, its rest position is carried round. Lowest links that weigh nothing in a fluid
 /// that turns hang straight down from the next pin.
 REVCHAIN_DECLARE
 [[nodiscard]] Response response(const Rig& rig, const ResponseOptions& options);

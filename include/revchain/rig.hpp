@@ -30,7 +30,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 /// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
-    /// sideways, force over length; infinite where firm
+    /// sideways, force over length; infinite if firm
     Wide<double> stiffness = std::numeric_limits<double>::infinity();
     double carriage_weight = 0;  ///< weight that moves sideways with a pin that yields
     double radius = 0;           ///< distance of the support's rest position from the axis
@@ -56,9 +56,9 @@ struct Support {
     return {.radius = radius};
 }
 
-/// Angular momentum of a link along its own axis, positive from its lower pin to its upper one: for
-/// a hanging link the direction of rotation for n > 0. One part is constant, one turns with the
-/// link:
+/// Angular momentum of a link along its own axis, positive from its lower pin to its upper one. For
+/// a hanging link this is the direction of rotation for n > 0. One part is constant, and the other
+/// turns with the link:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
@@ -116,7 +116,9 @@ struct Rigging {
 /// and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
 class Rig {
    public:
-    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
+    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) {
+        check();
+    }
 
     const Chain<double>& chain() const noexcept { return chain_; }
     const Support& support() const noexcept { return with_.support; }

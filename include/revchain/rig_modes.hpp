@@ -21,8 +21,9 @@
 ///     m.forward.shape(0)[1];           // offset of the second pin, free end first
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// As `ModesOptions`. With momentum `first`, `count` and windows apply to each direction of
-/// rotation, a window of speeds to |n|. Mode numbers beyond those available give no modes.
+/// Selects modes of a rig, as `ModesOptions` does. With momentum, `first`, `count` and windows
+/// apply to each direction of rotation; a window of speeds applies to |n|. Mode numbers beyond
+/// those available give no modes.
 struct RigModesOptions {
     Index first = 1;
     std::optional<Index> count{};
@@ -48,7 +49,9 @@ struct WhirlModes {
     Certificate<double> certificate{};  ///< of the heights, counted in this direction; if asked for
 
     Index size() const noexcept { return conical_height.size(); }
-    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes_.offsets(size(), progress); }
+    const Table<double>& shapes(Progress* progress = nullptr) const {
+        return lazy_shapes_.offsets(size(), progress);
+    }
     const Vector<double>& residual() const { return details().residual; }
     const std::vector<Vector<double>>& nodes() const { return details().nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
@@ -95,9 +98,9 @@ struct RigModes {
     WhirlModes forward;         ///< n > 0; without momentum, all modes
     WhirlModes backward;        ///< n < 0; empty without momentum
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
-    std::vector<OtherMode> other;  ///< those, if `RigModesOptions::other` or `discs`
+    std::vector<OtherMode> other;  ///< filled if `RigModesOptions::other` or `discs`
     std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
-    bool complete = false;  ///< whether the three numbers available are proved
+    bool complete = false;         ///< whether both `available` and `other_available` are proved
     RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };
@@ -106,20 +109,20 @@ struct RigModes {
 /// links, floats and flywheels. The radius of a support carried round has no effect. A plain chain
 /// is solved as a chain, to `rtol`; all others to full accuracy, with proved bounds.
 ///
-/// Method without momentum: lambda K y = M y. All heights are real where K > 0 (every link hangs in
-/// net tension) or M >= 0 (no fluid that turns); counts number them (Sylvester), positive ones as
-/// modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each
+/// Method without momentum: lambda K y = M y. All heights are real if K > 0 (every link hangs in
+/// net tension) or M >= 0 (no fluid that turns). Counts number them (Sylvester): positive ones as
+/// modes, negative ones in `other`. With momentum: K + n G - (n^2/g) M. If K > 0 and M >= 0, each
 /// of its eigenvalues passes through 0 at most once on either side of n = 0, so counts number the
-/// speeds, 2N real ones where M > 0. Otherwise all heights or speeds are found at once (Ehrlich,
-/// Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
+/// speeds. There are 2N real ones if M > 0. Otherwise all heights or speeds are found at once
+/// (Ehrlich, Aberth) and proved in disjoint discs: at most 20,000 links and yielding supports.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within
-/// 0.501 ulp of the exact ones of the stored numbers; bounds 1 ulp by counts; shapes as for chains.
-/// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is
+/// 0.501 ulp of the exact ones of the stored numbers. Bounds are 1 ulp by counts; shapes are as for
+/// chains. Cost: 0.03 microseconds per link and mode with shapes (AVX-512) if every stiffness is
 /// positive and no mass negative, else 1 microsecond; O(N k) memory. Discs: 0.15 microseconds N^2,
 /// with momentum 0.3 (5000 links 7 s).
 /// Throws InvalidArgument for mode numbers below 1, gravity not positive, a window with low >=
 /// high, numbers together with a window, and too many links for discs. A bound that is not proved
-/// is infinite, and the status `tolerance_not_met`.
+/// is infinite, and the status is then `tolerance_not_met`.
 REVCHAIN_DECLARE
 [[nodiscard]] RigModes modes(const Rig& rig, const RigModesOptions& options = {});
 
@@ -136,13 +139,13 @@ class RigModeCounter {
     explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
 
     /// The number of conical heights above `height`, with momentum in both directions together.
-    /// Throws InvalidArgument unless that is positive and finite, and where rounding leaves a
-    /// doubt.
+    /// Throws InvalidArgument unless that is positive and finite, and if rounding leaves the count
+    /// in doubt.
     [[nodiscard]] Index above_height(double height) const;
 
     /// The number of whirl speeds between 0 and `angular_speed`, rad/s; with momentum its sign is
-    /// the direction. Throws InvalidArgument unless it is finite, not 0, and where rounding leaves
-    /// a doubt.
+    /// the direction. Throws InvalidArgument unless it is finite and not 0, and if rounding leaves
+    /// the count in doubt.
     [[nodiscard]] Index below_speed(double angular_speed) const;
 
    private:

@@ -51,7 +51,7 @@ class SkippingRope {
 
     Index half_waves() const noexcept { return half_waves_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
-    // These return the given numbers unchanged where they were given.
+    // These functions return a given number unchanged.
     double span() const noexcept { return span_; }
     double slack() const noexcept { return slack_; }
     double length() const noexcept { return length_; }
@@ -105,7 +105,7 @@ struct TortuousGiven {
 
 /// A point of a tortuous rope.
 struct TortuousPoint {
-    double x, arc;         ///< along the axis and along the rope, from a place nearest to the axis
+    double x, arc;         ///< along the axis and along the rope, from a point nearest to the axis
     double radius;         ///< distance from the axis
     double angle;          ///< round the axis; of a plane rope -pi/2 for x < 0 and pi/2 for x > 0
     double radius_slope;   ///< d radius / dx
@@ -131,7 +131,7 @@ class TortuousRope {
     double height_times_tension() const noexcept { return strength2_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
 
-    // A half wave runs from one place nearest to the axis to the next. Its length along the axis,
+    // A half wave runs from one point nearest to the axis to the next. Its length along the axis,
     // slack (length of rope minus length along the axis), length of rope, and angle round the axis
     // (pi for a plane rope, which crosses it).
     double half_wave() const { return 2 * functions_.complete().K * scale_; }

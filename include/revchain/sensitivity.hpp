@@ -41,7 +41,9 @@ struct Sensitivity {
     Index first = 1;
     std::array<Derivatives<T>, datum_names.size()> by_datum;
 
-    const Derivatives<T>& of(Datum datum) const { return by_datum[static_cast<std::size_t>(datum)]; }
+    const Derivatives<T>& of(Datum datum) const {
+        return by_datum[static_cast<std::size_t>(datum)];
+    }
     const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< length over weight
     const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below
     const Derivatives<T>& centroid() const { return of(Datum::centroid); }
@@ -55,14 +57,14 @@ struct Sensitivity {
 /// to every datum of every link. They are the derivatives of lambda = y^T M y / y^T K y at the
 /// exact shape, where a change of the shape has no effect of first order:
 ///     (y^T dM y - lambda y^T dK y) / y^T K y.
-/// Each is formed from offset and slope of its link; that of a weight also has the sum of a s^2
-/// over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho
-/// d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is its share of y^T
-/// K y, so a longer link, in proportion, never lowers a height.
+/// Each is formed from offset and slope of its link; the derivative for a weight also has the sum
+/// of a s^2 over the links above, which carry it. Laws: sum of W d/dW = 0; sum of a d/da + h d/dh +
+/// rho d/drho = lambda. A link's part of this sum, a times `length_in_proportion`, is its share of
+/// y^T K y, so a longer link, in proportion, never lowers a height.
 /// Accuracy: every entry is within its error bound, which is proved; measured 0.51 ulp of the
 /// entry, or 1e-28 of the largest entry if that is more (tests/cpp/sensitivity.cpp). The heights in
 /// `modes` need not be accurate. Cost: 1.5 microseconds a link and mode; O(N k) memory. Throws
-/// InvalidArgument where the chain's weights are more than 1e123 apart.
+/// InvalidArgument if the chain's weights are more than 1e123 apart.
 template <Real T>
 [[nodiscard]] Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes);
 
@@ -75,7 +77,7 @@ struct Deviation {
     Matrix<T> covariance{};
 };
 
-/// One for each `Datum`; absent: exactly known.
+/// One deviation for each `Datum`; absent: the datum is exactly known.
 template <Real T>
 using Deviations = std::array<std::optional<Deviation<T>>, datum_names.size()>;
 
@@ -91,8 +93,8 @@ struct Uncertainty {
 
 /// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2
 /// var x, or d^T C d for a datum with a covariance C. The error is of second order: the relative
-/// error of the variance is some (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large where
-/// a derivative is nearly 0. Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for
+/// error of the variance is some (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, which is large if a
+/// derivative is nearly 0. Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for
 /// lists that are neither of one number nor of N, deviations negative or not finite, a covariance
 /// not N by N, not symmetric or with a negative variance, and for another number of heights.
 template <Real T>
@@ -119,10 +121,11 @@ struct RigSensitivity {
 /// Derivatives of the whirl speed n of a mode with these offsets (N + 1, free end first, the
 /// support's pin last). They follow from y^T (K + n G - n^2 M/g) y = 0, stationary in y:
 ///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
-/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. Formed
-/// in double-double: offsets with errors e of the largest give an error of some 4 e (|K| + |n G| +
-/// n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0 or not
-/// finite, gravity not positive, offsets not N + 1.
+/// With s the slope of a link, dG/dH is s^2 for a link that hangs, -s^2 for one that stands. dn/dx
+/// is formed in double-double. Offsets with errors e of the largest give an error of about 4 e (|K|
+/// +
+/// |n G| + n^2 |M|/g) over the denominator. Cost O(N). Throws InvalidArgument for a speed that is 0
+/// or not finite, gravity not positive, offsets not N + 1.
 REVCHAIN_DECLARE
 [[nodiscard]] RigSensitivity sensitivity(const Rig& rig, double angular_speed,
                                          const Vector<double>& offset,

@@ -41,7 +41,8 @@ enum class Verdict {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-/// Stability of one shape. Times the turning speed n, exponents, growth rate and margin are in 1/s.
+/// Stability of one shape. Exponents, growth rate and margin are in 1/s after multiplication by the
+/// turning speed n.
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
@@ -49,12 +50,12 @@ struct Stability {
     std::vector<std::complex<double>> exponents;
     std::vector<double> exponent_error;  ///< of each, estimated with errors of shape and pulls
     double growth_rate = 0;  ///< largest real part of an exponent, at least 0; NaN if unknown
-    double margin = 0;       ///< the largest of these errors
+    double margin = 0;       ///< the largest `exponent_error`
     /// negative eigenvalues of the energy's Hessian; if free, amended, without the rotation
     Index negative_directions = 0;
     /// The effect of a small damping c on each exponent, to first order: this number times g c is
-    /// added to the real part of s n. NaN where two exponents coincide. Internal: c is the moment
-    /// at a pin over the relative angular velocity of its links in the turning frame; 1/(weight
+    /// added to the real part of s n. NaN if two exponents coincide. Internal: c is the moment at a
+    /// pin over the relative angular velocity of its links in the turning frame; 1/(weight
     /// length^2). External: c is drag of still air on a link over its length and velocity;
     /// length/weight.
     std::vector<double> internal_damping, external_damping;
@@ -63,12 +64,12 @@ struct Stability {
 /// Returns the stability of a steady shape of `chain`.
 ///
 /// A rotation of the shape about the axis does not change the energy. In the free frame the
-/// constant angular momentum removes it, so that no double zero spoils the exponents: 4 b b' /
-/// (y0'M y0) is added to the stiffness in the plane, where b = B y0, y0 are the shape's offsets, M
-/// is the mass matrix and B the gyroscopic coupling. Links are rods without inertia about their own
-/// axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer with massless links, because
-/// two links that meet in a pin without mass stay in line. N = 1: n sqrt(1 + 3 cos^2 d) free, n sin
-/// d driven, §7 (6).
+/// constant angular momentum removes it, so that no double zero makes the exponents inaccurate. 4 b
+/// b' / (y0'M y0) is added to the stiffness in the plane, where b = B y0, y0 are the shape's
+/// offsets, M is the mass matrix and B the gyroscopic coupling. Links are rods without inertia
+/// about their own axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer with massless
+/// links, because two links that meet in a pin without mass stay in line. N = 1: n sqrt(1 + 3 cos^2
+/// d) free, n sin d driven, §7 (6).
 /// Exponents and verdict contain no damping. A minimum stays stable with friction at the pins. A
 /// shape that is only spectrally stable is held by gyroscopic forces: friction makes the motions of
 /// negative energy grow (Kelvin, Tait, Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and
@@ -76,15 +77,15 @@ struct Stability {
 /// drag has an effect of second order only. Drag in proportion to mass instead of length adds -1/2
 /// of drag over mass to each growth rate, for any shape.
 /// Accuracy: simple exponents to about 1e-13 of the largest; `exponent_error` estimates each error,
-/// and a verdict within it is `undecided`. Where double loses digits, as with masses far apart, up
-/// to 100 motions are computed with twice the digits if `thorough` is given, or in programs that
-/// link revchain::compiled: masses 1e16 apart mostly to 2e-13 of the largest (3e-11 at worst of 900
-/// shapes), on arms and springs 5e-9, as the shape is given in double
+/// and a verdict within it is `undecided`. If double loses digits, as with masses far apart, up to
+/// 100 motions are computed with twice the digits if `thorough` is given, or in programs that link
+/// revchain::compiled. With masses 1e16 apart the error is then mostly 2e-13 of the largest (3e-11
+/// at worst of 900 shapes). On arms and springs it is 5e-9, because the shape is given in double
 /// (tests/python/test_light_links.py).
-/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less where every motion out of the plane has
+/// Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms for 40; less if every motion out of the plane has
 /// positive energy, 100 times as much with twice the digits.
 /// Throws InvalidArgument if numbers or lengths of links differ (weights are not compared); without
-/// `thorough` also where rounding leaves in doubt whether every motion moves mass.
+/// `thorough` also if rounding leaves in doubt whether every motion moves mass.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                                   StabilityFrame frame = StabilityFrame::free);
@@ -105,7 +106,7 @@ REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Chain<double>& chain, const HeldShape& shape,
                                   StabilityFrame frame, Thorough);
 
-/// The same in the free frame.
+/// Returns the stability in the free frame, computed with `thorough`.
 template <class Shape>
 [[nodiscard]] Stability stability(const Chain<double>& chain, const Shape& shape, Thorough) {
     return stability(chain, shape, StabilityFrame::free, thorough);
@@ -122,19 +123,19 @@ struct RigStabilityOptions {
 ///
 /// In the free frame a support on the axis, firm or not, passes no torque about it: angular
 /// momentum is constant, as for a chain. A support that is carried round has a constant speed, and
-/// no rotation is removed: N links have 4 N exponents, and the energy is that in the frame that
+/// no rotation is removed. N links have 4 N exponents, and the energy is that in the frame that
 /// turns at this speed. A support that yields moves in all directions across the axis (driven: in
-/// the plane), which adds 4 exponents (2); without mass there, only motion in the plane adds any.
-/// In the free frame the angular momentum of each link and its wheel about the link's axis is
-/// constant, on free bearings or driven: ball joints pass no torque along a link. In the driven
-/// frame links turn with the plane, and wheels on free bearings have constant momentum.
-/// Still fluid adds buoyancy and added mass, in every direction of motion. For a fluid that turns,
-/// its motion around a disturbed link (inertial waves, which depend on the walls) is not modelled,
-/// so there are no exponents. The energy tells whether a shape is a minimum, at constant speed and
-/// apart from a rotation. A minimum is stable in any fluid, viscous or not; otherwise the verdict
-/// is undecided and the growth rate NaN.
-/// Throws InvalidArgument as above; for a pin or a motion without mass, unless the fluid turns; and
-/// for a flywheel that acts on a massless upper end.
+/// the plane), which adds 4 exponents (2); if no mass moves there, only motion in the plane adds
+/// exponents. In the free frame the angular momentum of each link and its wheel about the link's
+/// axis is constant, whether on free bearings or driven, because ball joints pass no torque along a
+/// link. In the driven frame links turn with the plane, and wheels on free bearings have constant
+/// momentum. Still fluid adds buoyancy and added mass, in every direction of motion. For a fluid
+/// that turns, its motion around a disturbed link (inertial waves, which depend on the walls) is
+/// not modelled, so there are no exponents. The energy tells whether a shape is a minimum, at
+/// constant speed and apart from a rotation. A minimum is stable in any fluid, viscous or not;
+/// otherwise the verdict is undecided and the growth rate NaN.
+/// Throws InvalidArgument as above, for a pin or a motion without mass (unless the fluid turns),
+/// and for a flywheel that acts on a massless upper end.
 REVCHAIN_DECLARE
 [[nodiscard]] Stability stability(const Rig& rig, const SteadyShape& shape,
                                   const RigStabilityOptions& options = {});

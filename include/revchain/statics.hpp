@@ -41,26 +41,26 @@ struct ForceDiagram {
     double conical_height = 0;
 };
 
-/// The diagram of a steady shape of this chain. Rays are sums of loads, not computed from
-/// inclinations, so comparing them with the links checks the shape: they are parallel to 5 ulp of
+/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from
+/// inclinations, so comparing them with the links checks the shape. They are parallel to 5 ulp of
 /// the sum of all loads' magnitudes (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument
 /// unless the shape has as many links as the chain.
 [[nodiscard]] ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
-/// The straight chain with the weights of the shape moved to the axis at their levels: each link is
+/// The straight chain with the weights of the shape moved to the axis at their levels. Each link is
 /// as long as its link in the shape is high. Its mode at the shape's conical height has the offsets
-/// of the shape, at any inclination and for links of any kind, and its stiffness is that of the
-/// shape perpendicular to the turning plane. Accuracy: lengths to 2 ulp of the shape's heights.
-/// Throws InvalidArgument as `force_diagram`.
+/// of the shape, at any inclination and for links of any kind. Its stiffness is that of the shape
+/// perpendicular to the turning plane. Accuracy: lengths to 2 ulp of the shape's heights. Throws
+/// InvalidArgument as `force_diagram`.
 [[nodiscard]] Chain<double> transferred_to_axis(const Chain<double>& chain,
                                                 const SteadyShape& shape);
 
 /// Weights on a thread between two supports, at rest in a vertical plane.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;   ///< (n + 2) x of supports and weights
-    Vector<T> height;  ///< (n + 2) z
-    Vector<T> rise;    ///< (n + 1) vertical component of each side's tension
+    Vector<T> place;         ///< (n + 2) x of supports and weights
+    Vector<T> height;        ///< (n + 2) z
+    Vector<T> rise;          ///< (n + 1) vertical component of each side's tension
     Vector<T> tension;       ///< (n + 1) of each side, the length of its ray
     T horizontal_tension{};  ///< of every side
 };
@@ -92,7 +92,7 @@ struct TransverseModes {
 };
 
 /// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also
-/// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane: a
+/// the modes of a funicular polygon with this horizontal tension, perpendicular to its plane. A
 /// side of length a and tension T resists with T/a, the horizontal component over the horizontal
 /// length. `weight` (n); `place` (n + 2) with both supports. Method: an equivalent hanging chain
 /// (`modes`). Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the

@@ -30,11 +30,11 @@ struct SteadyShape {
     double conical_height = 0;            ///< g/n^2 of the speed n
     double residual = 0;     ///< largest unbalanced moment over (weight times length of the chain)
     double error_bound = 0;  ///< of every inclination, rad: proved (not at a fold)
-    /// Condition number, rad: if each force changes by a fraction e of itself, of either sign, no
-    /// inclination changes by more than e times this. (If links stand or have several inclinations,
-    /// this bounds the changes of moments about the upper pins.) On a branch where another number
-    /// than the height is given, it is an estimate: the largest change for a few patterns of signs
-    /// and for a change of that number by a fraction e.
+    /// Condition number, rad. If each force changes by a fraction e of itself, of either sign, no
+    /// inclination changes by more than e times this number. (If links stand or have several
+    /// inclinations, this bounds the changes of moments about the upper pins.) If another number
+    /// than the height is given on a branch, it is an estimate: the largest change for a few
+    /// patterns of signs and for a change of that number by a fraction e.
     double condition = 0;
     /// about the axis, weight times length squared (over g: a moment of inertia)
     double moment_of_inertia = 0;
@@ -54,19 +54,19 @@ struct InclinationRange {
     double low, high;
 };
 
-/// Shapes wanted of a chain or a rig. Give either `conical_height` or `angular_speed`.
+/// Selects steady shapes of a chain or a rig. Give either `conical_height` or `angular_speed`.
 struct SteadyShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};  ///< rad/s; of a rig, negative: backward
-    /// Limit of link evaluations, 0.5 microseconds each; 2 for links whose pendulum length is below
-    /// their length; more in double-double.
+    /// Limit of link evaluations. Each takes 0.5 microseconds, 2 for links whose pendulum length is
+    /// below their length, and more in double-double.
     long budget = 3'000'000;
     bool hanging_only = true;  ///< only shapes with every link hanging, or in the rig's posture
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, for flywheels
     Index threads = 1;                                    ///< 0: all processors
 };
 
-/// Which shapes of a rig are wanted: as `SteadyShapesOptions`. `direction` goes with `conical_height`
+/// Selects shapes of a rig, as `SteadyShapesOptions` does. `direction` goes with `conical_height`
 /// and is not read with `angular_speed`, whose sign is the direction.
 struct RigShapesOptions {
     std::optional<double> conical_height{};
@@ -74,11 +74,12 @@ struct RigShapesOptions {
     long budget = 3'000'000;
     bool hanging_only = true;  ///< only shapes with each link in the rig's posture
     Rotation direction = Rotation::forward;
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
+    double gravity =
+        conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for flywheels
     Index threads = 1;
 };
 
-/// The shapes found, and whether there are more.
+/// The shapes found, and whether others may exist.
 struct SteadyShapes {
     std::vector<SteadyShape> shapes;          ///< by half waves, then lowest inclination
     std::vector<InclinationRange> undecided;  ///< where there may be others; empty if complete
@@ -86,41 +87,42 @@ struct SteadyShapes {
     long cells = 0;                           ///< number of parts of the range that were examined
 };
 
-/// All steady shapes (relative equilibria) of a chain that whirls at a given speed. `hanging_only`
-/// lists shapes with every link within a right angle of the downward vertical, otherwise any
-/// posture. Other postures, and links that hang at several inclinations under one load, take
-/// `thorough` as the last argument, or revchain::compiled. Straight shapes are omitted. Of two
-/// mirror images the one with the free end at a positive offset is listed (if that is 0, the one
-/// whose lowest inclined link has a positive inclination).
+/// All steady shapes (relative equilibria) of a chain that whirls at a given speed. With
+/// `hanging_only` every link of a shape is within a right angle of the downward vertical; without
+/// it any posture is listed. Other postures, and links that hang at several inclinations under one
+/// load, need `thorough` as the last argument, or revchain::compiled. Straight shapes are omitted.
+/// Of two mirror images the one with the free end at a positive offset is listed (if that is 0, the
+/// one whose lowest inclined link has a positive inclination).
 ///
 /// Method: the offset of the support is a function of the tangent t of the lowest link's
 /// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with
 /// first and second derivatives, until each part has exactly one zero or none. Newton's method and
 /// Krawczyk's test then treat all pins in double-double. Links that stand, or hang at several
 /// inclinations under one load (lambda <= W h (l - a)/(W h + a S): pendulum length l > a, or a
-/// centroid above the upper pin), are followed along each inclination; Krawczyk's test then decides
+/// centroid above the upper pin), are followed along each inclination. Krawczyk's test then decides
 /// boxes of all tangents.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links
-/// stand); measured errors are at most 2 ulp of the inclination. Without `thorough` bounds are wider
-/// where links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's
+/// stand); measured errors are at most 2 ulp of the inclination. Without `thorough` bounds are
+/// wider if links lie within 1e-5 of the horizontal: 1e-14 for three plummets at 1e-5 of a link's
 /// length, 6e-7 at 1e-7. `complete` is proved too. If it is false, `undecided` has the ranges where
-/// shapes may be missing: at exactly a critical speed or a fold, or where the budget is used up, as
+/// shapes may be missing: at exactly a critical speed or a fold, or if the budget is used up, as
 /// for chains of 20 plummets or more at heights near 1/1000 of their length. If each link has one
-/// inclination for its load, a scan adds the shapes it finds there.
-/// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is
-/// listed and `complete` is false: double-double resolves offsets to 2^-104 of that length, and a
-/// sideways pull is an offset over the height, so tensions would lose their digits.
-/// Cost: 10 to 500 cells a shape: 84 shapes of eight plummets 12 ms, 6466 of twelve 1 s, the first
-/// of 1000 plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. Any posture,
-/// heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of equal
-/// plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s. Threads share the
-/// refinement of shapes, about half of the cost; results are bitwise the same for any number.
+/// inclination for its load, a scan adds the shapes it finds there. At heights below 2^-50 (9e-16)
+/// of the longest length (rounded up to a power of 2) nothing is listed and `complete` is false.
+/// There tensions would lose their digits: double-double resolves offsets to 2^-104 of that length,
+/// and a sideways pull is an offset over the height.
+/// Cost: 10 to 500 cells a shape. 84 shapes of eight plummets take 12 ms, 6466 of twelve 1 s, the
+/// first of 1000 plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. In any
+/// posture, at heights down to 1e-3 of the length, all shapes of three links take 1 to 5 ms, of
+/// four (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s. Threads
+/// share the refinement of shapes, about half of the cost; results are bitwise the same for any
+/// number of threads.
 /// Above the first critical height there is no shape in any posture. Proof: let s be the sines of
 /// the inclinations d, G their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G,
 /// and E = diag(+-1) the postures. Then E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G
-/// D^-1/2 w| < |w|: only w = 0 is possible.
-/// An angular speed n gives the height g/n^2, formed in double-double.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite; and
+/// D^-1/2 w| < |w|: only w = 0 is possible. An angular speed n gives the height g/n^2, formed in
+/// double-double.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
 /// for links that stand or may hang at several inclinations, unless `thorough` is given.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Chain<double>& chain,
@@ -137,14 +139,14 @@ REVCHAIN_DECLARE
 /// Method: that of chains. The sweep must end in y - b - (H + W y)/(lambda E) = 0: y is the offset
 /// of the topmost pin, H/lambda its sideways pull, W the carriage weight, E the spring's stiffness.
 /// With b > 0 tangents of both signs are searched. The pull of a link is tension + n
-/// momentum/length. Where it is negative (a wheel against the rotation, a float), the link leans
+/// momentum/length. If it is negative (a wheel against the rotation, a float), the link leans
 /// against its load and is followed along each inclination.
 /// `complete` is also false if a link leans against its load in a rig of more than some 160 links,
-/// or if lambda E equals the total moving weight, to rounding: pins may then be at any distance,
+/// or if lambda E equals the total moving weight, to rounding. Pins may then be at any distance,
 /// and the search covers about a million times the chain's reach.
-/// Throws InvalidArgument as for chains, but a negative speed is the backward direction; also for
-/// gravity not positive and finite, an effective tension that vanishes, and a lowest link whose
-/// moving weights balance about its pin.
+/// Throws InvalidArgument as for chains, but a negative speed is the backward direction. Also
+/// throws for gravity not positive and finite, an effective tension that vanishes, and a lowest
+/// link whose moving weights balance about its pin.
 REVCHAIN_DECLARE
 [[nodiscard]] SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options);
 REVCHAIN_DECLARE

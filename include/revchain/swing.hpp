@@ -48,16 +48,16 @@ struct Swing {
 
 /// Small oscillations of a hanging chain in a plane, superposed from its modes.
 ///
-/// The start of a pin without inertia (between massless threads) is not free: its neighbours pull
-/// it at once into place. `Swing::start` has the offsets of least potential energy with the same
-/// momenta; `projected` is true if they differ from the given ones.
+/// A pin without inertia (between massless threads) has no start of its own, because its neighbours
+/// pull it into place at once. `Swing::start` has the offsets of least potential energy with the
+/// same momenta; `projected` is true if they differ from the given ones.
 ///
 /// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with
 /// compensation. Two bounds hold for every offset at every time, both proved
-/// (docs/theory/motion.md): `truncation_error`, from the energy outside the modes used and y_m^2 <=
-/// 2 E sum of a/(W h/a + S) above the pin, and `error_bound`, from residuals, angles and rounding.
-/// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.
-/// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
+/// (docs/theory/motion.md). `truncation_error` follows from the energy outside the modes used and
+/// y_m^2 <= 2 E sum of a/(W h/a + S) above the pin, `error_bound` from residuals, angles and
+/// rounding. Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as
+/// after one. Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
 /// Throws InvalidArgument for starts that are not finite or of another length, a support that
 /// moves, a count above the number of modes, gravity <= 0, times not finite, weights more than
 /// 1e123 apart.
@@ -68,9 +68,10 @@ REVCHAIN_DECLARE
 /// fluid with buoyancy and added mass, standing links. If the support yields, its offset and
 /// velocity may be given, last in each start; a carriage without weight goes where the chain pulls
 /// it. Links do not turn about their own axes, so axial moments of wheels have no effect. Also
-/// throws InvalidArgument where a flywheel has momentum (use `whirl_swing`); for a support that is
-/// carried round (`response`); for a fluid that turns; where the straight rig is unstable or in
-/// neutral balance (the message says how fast it falls); for lowest links without inertia.
+/// throws InvalidArgument if a flywheel has momentum (use `whirl_swing`), for a support that is
+/// carried round (use `response`), and for a fluid that turns. It also throws if the straight rig
+/// is unstable or in neutral balance (the message says how fast it falls), and for lowest links
+/// without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] Swing swing(const Rig& rig, const SwingOptions& options);
 
@@ -84,7 +85,7 @@ struct WhirlSwingOptions {
     Progress* progress = nullptr;
 };
 
-/// A rig whose flywheels turn the plane of its swing: the sum of its whirls, rigid shapes.
+/// A swing of a rig whose flywheels turn its plane: the sum of whirls, which are rigid shapes.
 struct WhirlSwing {
     Table<std::complex<double>> offset;      ///< (times, N+1) free end first, support last
     Table<std::complex<double>> velocity;    ///< (times, N+1)
@@ -104,12 +105,12 @@ struct WhirlSwing {
 /// + n_k) M/g) y_k = 0, so the coefficient of whirl j in a start (u, u') is
 ///     c_j = y_j^T [(n_j M/g - G) u - i M/g u'] / y_j^T (2 n_j M/g - G) y_j.
 ///
-/// Bounds as of `swing`, proved where every link hangs in tension at rest. Where only the momenta
+/// Bounds are those of `swing`, proved if every link hangs in tension at rest. If only the momenta
 /// keep standing links from falling, the bounds are infinite.
 /// Accuracy measured (tests/cpp/whirl_swing.cpp): 1e-15 of the sum of the amplitudes.
 /// Cost: 4 microseconds for each link and whirl, then 4 ns for each link, whirl and time.
-/// Throws InvalidArgument as `swing` of a rig; where the straight rig is unstable (the message says
-/// how fast it falls); for pins without inertia.
+/// Throws InvalidArgument as `swing` of a rig does, if the straight rig is unstable (the message
+/// says how fast it falls), and for pins without inertia.
 REVCHAIN_DECLARE
 [[nodiscard]] WhirlSwing whirl_swing(const Rig& rig, const WhirlSwingOptions& options);
 

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-/// The last argument `thorough` asks a question with all that the library can do. Without it
+/// The last argument `thorough` makes a function use all methods of the library. Without it
 /// programs compile in less than half the time.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
@@ -14,20 +14,20 @@
 ///     found.shapes.size();                     // 3, one of them with both links hanging
 ///
 /// `steady_shapes` and `branches` then also take links that stand or may hang at several
-/// inclinations, `branches` proves that no branch is missing, and `stability` computes with twice
-/// the digits where a double does not decide. In programs that link `revchain::compiled` all
-/// questions are thorough. The headers of these questions include this one.
+/// inclinations. `branches` proves that no branch is missing, and `stability` computes with twice
+/// the digits if double is not enough. In programs that link `revchain::compiled` all functions are
+/// thorough. The headers of these functions include this one.
 namespace revchain::inline REVCHAIN_BUILD {
 
 /// The type of `thorough`.
 struct Thorough {
     explicit constexpr Thorough() = default;
 };
-/// Given as the last argument, it asks for all means.
+/// Passed as the last argument, it selects all methods.
 inline constexpr Thorough thorough{};
 
 namespace detail {
-/// The means of a question that was not given `thorough`.
+/// The methods of a function that is called without `thorough`.
 #if defined(REVCHAIN_COMPILED)
 using UsualMeans = Thorough;
 #else

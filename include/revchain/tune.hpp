@@ -36,7 +36,7 @@ struct TuneOptions {
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     /// The range searched. Absent: for a weight or length, from 1/1000 to 1000 times the present
-    /// value (for a massless link, of the whole chain's weight); for a centroid or radius of
+    /// value (for a massless link, of the whole chain's weight). For a centroid or radius of
     /// gyration, from 0 to the link's length or the present value, if that is outside.
     std::optional<double> low{}, high{};
 };
@@ -77,12 +77,12 @@ struct Tuned {
 /// equation of degree 1 or 2. Proved counts on each side of a root assign it to a mode and bound
 /// its error. A weight loads all links above; its nearest value on each side is found in steps that
 /// provably skip none.
-/// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not
-/// small, measured (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
-/// values. Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
-/// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is
-/// given, for a range in which the link always stands (a part in which it stands is cut off), and
-/// for weights more than 1e123 apart.
+/// Accuracy: `error_bound`, proved. Measured: 1 to 4 ulp of the value if its logarithmic derivative
+/// is not small (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
+/// values and, for a weight, of those searched. Cost: about 10 to 60 counts of O(N); for a weight about 10 to 100 heights.
+/// Throws InvalidArgument for numbers out of range, for weights more than 1e123 apart, and unless
+/// exactly one of height and speed is given. Also throws for a range in which the link always
+/// stands; a part of a range in which it stands is cut off.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 

@@ -70,8 +70,10 @@ template <Real T>
         square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
     }
     if (square < T(0))
-        detail::throw_invalid(
-            place, "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
+        detail::throw_invalid(place,
+                              "x must be at least half length sqrt(-ratio) on either side, else "
+                              "both heights are complex",
+                              x);
     const T larger = T(1) + sqrt(square);
     return {half_length * larger,
             (half_length - x) / whole / larger * ((half_length + x) / half_length)};
@@ -172,9 +174,9 @@ struct PairShape {
 /// least the first of `two_plummets`. The list is complete: the proof is in
 /// paper/two_links_shapes.hpp. Cost: 10 microseconds a shape.
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical.
-/// Rounding of the data changes tangents by up to height_k / (height_k - height) times as much
-/// where a shape leaves the vertical at height_k, and by the square root of the rounding where two
-/// shapes meet. Also throws InvalidArgument for a length/height beyond a third of the range.
+/// Rounding of the data changes tangents by up to height_k / (height_k - height) times as much if a
+/// shape leaves the vertical at height_k, and by the square root of the rounding where two shapes
+/// meet. Also throws InvalidArgument for a length/height beyond a third of the range.
 template <Real T>
 [[nodiscard]] std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight,
                                                             const T& lower_thread,
@@ -241,11 +243,11 @@ struct JointedLinks {
 };
 
 /// Both heights of two jointed links: the roots of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2
-/// - a2, §8 (14), with m = W2 h2/(W1 a2). Where l2 = a2 this is (lambda - l1)(lambda - l2) = l2
-/// h1/(m + 1), (15). The second height is 0 where both radii of gyration are 0 and the upper
-/// centroid is at the support. Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws
-/// InvalidArgument for lengths or weights more than 1e77 apart (in double), and unless W2 h2 + W1
-/// a2 > 0 (the upper link hangs).
+/// - a2, §8 (14), with m = W2 h2/(W1 a2). For l2 = a2 this is (lambda - l1)(lambda - l2) = l2
+/// h1/(m + 1), (15). The second height is 0 if both radii of gyration are 0 and the upper centroid
+/// is at the support. Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws InvalidArgument for
+/// lengths or weights more than 1e77 apart (in double), and unless W2 h2 + W1 a2 > 0 (the upper
+/// link hangs).
 template <Real T>
 [[nodiscard]] HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);
@@ -258,7 +260,7 @@ template <Real T>
 /// All shapes in which two jointed links hang: (lambda sec d1 - l1)(lambda sec d2 - p) = a2 h1/(m +
 /// 1) with p = (m l2 + a2)/(m + 1), and (lambda sec d1 - l1) sin d1 = a2 sin d2, §8 (14). Order,
 /// number and method as `two_plummets_shapes`. offset[0] is that of the lower link's centre of
-/// oscillation; tensions are the magnitudes of the forces at each link's upper pin over the whole
+/// oscillation. Tensions are the magnitudes of the forces at each link's upper pin over the whole
 /// weight. Accuracy: inclinations 8 ulp unless shapes are about to meet (tests/cpp/two_links.cpp).
 /// Throws InvalidArgument as `jointed_links` and `two_plummets_shapes`.
 template <Real T>
@@ -286,11 +288,12 @@ template <Real T>
 }
 
 /// Distance of the clapper's pin below the support of its bell with which both swing, or whirl at
-/// any inclination, as one piece, so that the bell is silent: a2 = w (l2 - l1)/(w + l1 - h1) with w
-/// = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given, also where l1
-/// and l2 nearly agree; rounding of the data changes the distance by up to 3 (l1 + l2)/(l2 - l1) +
-/// 6 times as much. Also throws InvalidArgument unless the clapper has the shorter pendulum length:
-/// otherwise the bell rings with any pin.
+/// any inclination, as one piece. The bell is then silent. The distance is a2 = w (l2 - l1)/(w + l1
+/// - h1) with w = W2 h2/W1, §8 (16), at the height l1 + a2. Accuracy: 4 ulp for the data as given,
+/// also where l1 and l2 nearly agree; rounding of the data changes the distance by up to 3 (l1 +
+/// l2)/(l2
+/// - l1) + 6 times as much. Also throws InvalidArgument unless the clapper has the shorter pendulum
+/// length: otherwise the bell rings with any pin.
 template <Real T>
 [[nodiscard]] T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell,
                                       const T& clapper_weight, const CompoundLink<T>& clapper) {
@@ -310,9 +313,9 @@ template <Real T>
 }
 
 /// Distance CD from the pin C of a uniform rod, at the distance `pin` = CG from its middle G, to
-/// the point D where the rod does not bend, so that a joint there leaves it straight: CG.CD = CA^2,
-/// A the end above C, §8 (17). Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws
-/// InvalidArgument unless length/6 < pin < length/2: for C in the middle third D is off the rod.
+/// the point D where the rod does not bend. A joint there leaves it straight: CG.CD = CA^2, A the
+/// end above C, §8 (17). Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws InvalidArgument
+/// unless length/6 < pin < length/2: for C in the middle third D is off the rod.
 template <Real T>
 [[nodiscard]] T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";

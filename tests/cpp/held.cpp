@@ -506,12 +506,12 @@ std::vector<std::array<double, 2>> by_trials(const Chain<double>& chain, double 
             for (int round = 0; round < 60; ++round) {
                 std::vector<Direction<double>> way(links.size());
                 changes = 0, last = 1;
-                const auto settle = [&](std::size_t m, double R, double V, Direction<double>& to) {
+                const auto solve = [&](std::size_t m, double R, double V, Direction<double>& to) {
                     to = {R / std::hypot(R, V), V / std::hypot(R, V)};
-                    return revchain::finite::settle(links[m], R, V, to);
+                    return revchain::finite::find_direction(links[m], R, V, to);
                 };
                 const auto end = revchain::finite::held_sweep<2>(
-                    links, {}, forces, settle, [&](std::size_t m, double y, double, double, double, const auto&) {
+                    links, {}, forces, solve, [&](std::size_t m, double y, double, double, double, const auto&) {
                         if (m > 0 && y * last < 0) ++changes, last = -last;
                     });
                 if (!end.known) break;

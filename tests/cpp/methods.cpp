@@ -37,7 +37,7 @@ struct OnePlummet {
     double cost(const Kind&, const Question&) const { return 1e-9; }
     revchain::models::Answer solve(const Chain<double>& chain, const Kind&, const Question& question) const {
         return revchain::models::answer_of_each(question, [&](Index) {
-            return revchain::models::Enclosed{chain.total_length(), 1e-15};
+            return revchain::models::BoundedHeight{chain.total_length(), 1e-15};
         });
     }
 };

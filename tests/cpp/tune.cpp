@@ -3,6 +3,7 @@
 
 #include "revchain/questions/tune_candidates.hpp"
 
+#include "revchain/compound_link.hpp"
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -218,6 +219,45 @@ TEST_CASE("questions that are none are refused", "[linear]") {
 }
 
 template <class System>
-concept Tunable = requires(const System& system, const revchain::TuneOptions& options) { tune(system, options); };
+concept Tunable = requires(const System& system, const revchain::TuneOptions& options) {
+    tune(system, options);
+};
 static_assert(Tunable<Chain<double>> && !Tunable<revchain::Rig> && !Tunable<revchain::Cord> &&
               !Tunable<revchain::Held<Chain<double>>>);
+
+TEST_CASE("a weight is not reduced so far that a link above would stand", "[linear]") {
+    // The upper link's centroid is 2 above its pin: it hangs if the lower weight exceeds 2.
+    const Chain<double> chain({revchain::plummet(10.0, 0.5),
+                               revchain::compound_pendulum<double>(
+                                   {.weight = 1.0, .length = 1.0, .centroid = -2.0, .radius_of_gyration = 0.1})});
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const double height : {0.3, 0.9, 2.0, 2.12, 2.5, 5.0, 50.0}) {
+        const auto tuned = revchain::tune(chain, {.link = 0, .conical_height = height});
+        CAPTURE(height, tuned.low, tuned.value);
+        CHECK(tuned.low > 2);
+        CHECK(tuned.low < 2 + 1e-5);
+        REQUIRE(tuned.status != TuneStatus::undecided);
+        lowest = std::min(lowest, tuned.lowest_height);
+        if (tuned.status == TuneStatus::found) {
+            require_height(tuned, 1, height);
+        } else {
+            // no weight of the range reaches it: all heights lie on one side, and do at both ends
+            const auto end = [&](double weight) {
+                auto links = revchain::detail::links_of(chain);
+                links[0].weight = weight;
+                return revchain::modes(Chain<double>(links), {.count = 1}).conical_height[0];
+            };
+            CHECK((end(tuned.low) > height) == (end(tuned.high) > height));
+        }
+    }
+    CHECK(lowest < 2.2);
+    // Two such links: the upper one, with more above it, limits the weight.
+    const auto leaning = revchain::compound_pendulum<double>(
+        {.weight = 1.0, .length = 1.0, .centroid = -2.0, .radius_of_gyration = 0.1});
+    const Chain<double> three({revchain::plummet(10.0, 0.5), leaning, revchain::plummet(0.5, 1.0),
+                               revchain::compound_pendulum<double>(
+                                   {.weight = 2.0, .length = 1.0, .centroid = -3.0, .radius_of_gyration = 0.1})});
+    const auto tuned = revchain::tune(three, {.link = 0, .conical_height = 1.0});
+    CHECK(tuned.low == Approx(6 - 1.5).epsilon(1e-5));
+    CHECK(revchain::tune(three, {.link = 2, .conical_height = 1.0, .low = 0.01, .high = 5.0}).low == 0.01);
+}

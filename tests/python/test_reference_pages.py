@@ -39,3 +39,19 @@ def test_a_new_header_is_missed(repository, reference, tmp_path):
     (tmp_path / "include/revchain/novel.hpp").write_text("// SPDX-License-Identifier: MPL-2.0\n#pragma once\n", "utf-8")
     with pytest.raises(ValueError, match="GROUPS must name each public header once: novel"):
         reference["kept_page"]()
+
+
+def test_walks_through_the_code_lead_on(repository):
+    """Each table of docs/design.md has at most eight files; each file has the functions named and is called above."""
+    text = (repository / "docs/design.md").read_text("utf-8").split("### Two walks through the code")[1].split("\n## ")[0]
+    tables = text.strip().split("\n\n")[1:]
+    assert len(tables) == 2
+    for table in tables:
+        rows = [re.findall(r"`([\w./]+)`", row) for row in table.splitlines()[2:]]
+        assert 1 < len(rows) <= 8, table
+        before = ""
+        for file, *functions in rows:
+            code = (repository / "include/revchain" / file).read_text("utf-8")
+            assert functions and all(re.search(rf"\b{name}(<[^()]*>)?\(", code) for name in functions), file
+            assert not before or any(re.search(rf"\b{name}\b", before) for name in functions), file
+            before = code

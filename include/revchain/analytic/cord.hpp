@@ -28,7 +28,8 @@ struct HeavyChainMode {
     }
 };
 
-/// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as much.
+/// A mode of a string without weight. `taut`: its tension as the length of cord that weighs as
+/// much.
 struct StringMode {
     Index mode;
     double length;
@@ -65,7 +66,7 @@ struct StraightCord {
     StraightCord(const Cord& of) : cord(of) {}
     StraightCord(std::string_view place, const Held<Cord>& of, double gravity)
         : cord(of.system()), held(of.by()), taut(lower_length(place, of, gravity)) {}
-    /// For shapes. A string has the same ones under any gravity.
+    /// Makes a straight cord for shapes. A string has the same shapes under any gravity.
     explicit StraightCord(const CordModes& modes) : cord(modes.cord), held(modes.held) {
         if (held) taut = lower_length("CordModes", {cord, *held}, 1.0);
     }
@@ -91,7 +92,7 @@ CordMethod method_for(const StraightCord& straight) {
     return {"power series", 4e-15, false};
 }
 
-/// The result of `f` for one mode in closed form.
+/// Returns the result of `f` for one mode in closed form.
 template <class F>
 auto in_closed_form(const StraightCord& straight, Index mode, const F& f) {
     const Cord& cord = straight.cord;
@@ -111,7 +112,7 @@ double closed_height(const StraightCord& straight, Index mode) {
     return in_closed_form(straight, mode, [](const auto& form) { return form.conical_height(); });
 }
 
-/// The result of `f` for the mode at index j.
+/// Returns the result of `f` for the mode at index j.
 template <class F>
 auto with_mode(std::string_view place, const CordModes& modes, Index j, const F& f) {
     if (j < 0 || j >= modes.size())
@@ -139,7 +140,7 @@ Index modes_above(const StraightCord& straight, double height) {
     return halved(above, not_above, side).first;
 }
 
-/// The modes of a straight cord that the options choose.
+/// Returns the modes of a straight cord that the options select.
 REVCHAIN_LAZY
 CordModes modes_of(const StraightCord& straight, const CordModesOptions& options) {
     if (options.count == all_modes)
@@ -167,8 +168,8 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
         const finite::ContinuousChain chain(straight.cord);
         result.conical_height =
             finite::critical_heights(chain, range.first - 1 + range.count).tail(range.count);
-        // The first half wave of a mode is longer than its conical height: from there up the weight
-        // must be right. Heights of smooth densities without error are within 2e-15.
+        // The first half wave of a mode is longer than its conical height, so the weight must be
+        // accurate from that height up. If the density has no error, heights are within 2e-15.
         for (Index j = 0; chain.density != nullptr && j < range.count; ++j) {
             const double from = std::min(result.conical_height[j], chain.length);
             const double density =
@@ -314,8 +315,9 @@ CordShape steady_shape(const Cord& cord, const OnBranchOptions& options) {
     return std::move(found.shapes.front());
 }
 
-/// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
-/// lambda integral of V y_k' f' / N, N = lambda integral of V y_k'^2. The density may jump.
+/// Small oscillations. With V the weight below, integration by parts gives the part of mode k in a
+/// start f: lambda integral of V y_k' f' / N, N = lambda integral of V y_k'^2. The density may
+/// jump.
 REVCHAIN_DEFINE_ANALYTIC
 CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     using namespace detail;
@@ -376,8 +378,8 @@ CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
     result.energy_left_out = std::max(0.0, height - motion - kept);
     whole += before;
     result.error_estimate = tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();
-    // Sums in double: the errors of the modes exceed theirs. `superpose` (questions/superposed.hpp)
-    // takes seven times as many instructions for 40 modes at 101 places.
+    // The sums are in double, because the errors of the modes exceed theirs. `superpose`
+    // (questions/superposed.hpp) takes seven times as many instructions for 40 modes at 101 places.
     const auto times = static_cast<Index>(options.time.size());
     result.offset.resize(times, arc.size()), result.velocity.resize(times, arc.size());
     for (Index i = 0; i < times; ++i) {

@@ -9,11 +9,11 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// d lambda / d(tension) of a cord held at both ends, from the slopes of a mode: -lambda times the
-/// integral of y'^2 over that of T y'^2, T the tension, from a to b in lengths of cord. Moving end b
-/// moves lambda by lambda b y_b'^2 over the second integral (Hadamard), and lambda is homogeneous in
-/// a and b, so that the integral is b^2 y_b'^2 - a^2 y_a'^2. With a great pull that is a small
-/// difference, and Gauss's rule is used.
+/// Returns d lambda / d(tension) of a cord held at both ends, from the slopes of a mode. It is
+/// -lambda times the integral of y'^2 over that of T y'^2, T the tension, from a to b in lengths of
+/// cord. Moving end b moves lambda by lambda b y_b'^2 over the second integral (Hadamard). lambda
+/// is homogeneous in a and b, so that integral is b^2 y_b'^2 - a^2 y_a'^2. Under a great pull this
+/// is a small difference, and Gauss's rule is used.
 REVCHAIN_LAZY
 double by_tension(const CordModes& modes, Index j, double lower) {
     const double length = modes.cord.length(), upper = lower + length,

@@ -11,9 +11,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A start of a cord as polynomials of x = sqrt(s / length) by values at the nodes of Gauss's rule.
-/// Panels are halved until a polynomial of degree 15 gives the function to 1e-13 of its largest
-/// value, also at the ends and in the middle.
+/// The start of a cord as polynomials of x = sqrt(s / length), given by values at the nodes of
+/// Gauss's rule. Panels are halved until a polynomial of degree 15 gives the function to 1e-13 of
+/// its largest value, also at the ends and in the middle.
 class CordStartOnPanels {
    public:
     static constexpr std::size_t nodes = 16;
@@ -29,7 +29,8 @@ class CordStartOnPanels {
     }
     const std::vector<std::pair<double, double>>& rule() const { return rule_; }
 
-    /// Whether the polynomial through the values at the nodes of a panel gives the function.
+    /// Returns true if the polynomial through the values at the nodes of a panel gives the
+    /// function.
     template <class F>
     bool is_resolved(const F& f, double low, double high, double tolerance) const {
         Values values{};
@@ -76,8 +77,8 @@ struct CordStartNodes {
 
 using CordFunction = std::function<double(double)>;
 
-/// The function of a start, empty where there is none. Between values given at points it is
-/// straight.
+/// Returns the function of a start, empty if there is none. Between values given at points it is
+/// linear.
 template <class Start>
 CordFunction function_of(const std::string& name, const Start& start, const Vector<double>& places,
                          double length) {
@@ -118,7 +119,8 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
     return given;
 }
 
-/// Panels fine enough for modes up to number `modes`, and for a start.
+/// Returns the nodes of panels that are fine enough for modes up to number `modes`, and for a
+/// start.
 REVCHAIN_LAZY
 CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& start,
                         const Vector<double>* places, Index modes) {
@@ -186,8 +188,9 @@ CordStartNodes nodes_of(const Cord& cord, const std::array<CordFunction, 2>& sta
     return result;
 }
 
-/// Twice the sum of the modes left out, from the sums of amplitude times shape over modes K/2 ... K
-/// and K ... 2K at each point, whose ratio says how fast they fall.
+/// Returns twice the estimated sum of the modes left out. It is found from the sums of amplitude
+/// times shape over modes K/2 ... K and K ... 2K at each point; their ratio shows how fast they
+/// fall.
 REVCHAIN_LAZY
 Vector<double> tail_estimate(const Vector<double>& before, const Vector<double>& after) {
     Vector<double> result(before.size());

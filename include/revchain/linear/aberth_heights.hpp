@@ -16,12 +16,13 @@ struct SpringOnTop {
     double stiffness, carriage;
 };
 
-/// A chain as lumped pins and springs in double, in `chain.units()`. False unless all links are
-/// plummets, or all have 0 <= h <= a and 0 < (rho/a)^2 < p q (p = h/a, q = 1 - p). Lumped masses
-/// are W p and W q, and X = W (p q - r). Roundings: S one (compensated), p one, q two, k and 1/k
-/// two with plummets, else four; the others: docs/theory/spectrum.md, "Small chains", 1. A support
-/// on a spring is one more link, with the mass of the carriage at its lower pin. With plummets and
-/// no carriage it joins the top thread: 1/k has three roundings, k four.
+/// Computes a chain as lumped pins and springs in double, in `chain.units()`. Returns false unless
+/// all links are plummets, or all have 0 <= h <= a and 0 < (rho/a)^2 < p q (p = h/a, q = 1 - p).
+/// With r = (rho/a)^2, lumped masses are W p and W q, and X = W (p q - r). Roundings: S one
+/// (compensated), p one, q two, k and 1/k two with plummets, else four; the others:
+/// docs/theory/spectrum.md, "Small chains", 1. A support on a spring is one more link, with the
+/// mass of the carriage at its lower pin. With plummets and no carriage it joins the top thread:
+/// 1/k has three roundings, k four.
 REVCHAIN_LAZY
 bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
           const std::optional<SpringOnTop>& top = std::nullopt) {
@@ -32,10 +33,11 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     links.size = n;
     links.rigid = false;
     for (Index m = 0; m < chain.size() && !links.rigid; ++m)
-        links.rigid = chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
+        links.rigid =
+            chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
 
     CompensatedSum<double> hung;
-    double mass_above = 0;  // of the upper pin of the link below
+    double mass_above = 0;  // mass of the link below at its upper pin
     double trace = 0, greatest = 0;
     double worst_cross = 1, worst_centroid = 0;
     double stiffness_below = 0;
@@ -68,7 +70,8 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
         links.stiffness[m] = k;
         links.flexibility[m] = flexibility;
         trace += carried * flexibility;
-        greatest = std::max(greatest, links.rigid ? k / links.turn[m] : 2 * (stiffness_below + k) / mass);
+        greatest =
+            std::max(greatest, links.rigid ? k / links.turn[m] : 2 * (stiffness_below + k) / mass);
         stiffness_below = k;
     }
     links.roundings = {2, 0, 6, 0};
@@ -82,8 +85,10 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
             greatest = std::max(greatest, (stiffness_below + spring) / turn);
         }
         if (mass > 0) {
-            if (!links.rigid) greatest = std::max(greatest, 2 * (stiffness_below + top->stiffness) / mass);
-            links.mass[n] = mass, links.stiffness[n] = top->stiffness, links.flexibility[n] = flexibility;
+            if (!links.rigid)
+                greatest = std::max(greatest, 2 * (stiffness_below + top->stiffness) / mass);
+            links.mass[n] = mass, links.stiffness[n] = top->stiffness,
+            links.flexibility[n] = flexibility;
             links.cross_ratio[n] = links.turn[n] = links.upper_share[n] = 0;
             links.weight[n] = top->carriage, links.lower_share[n] = 1;
             links.size = n + 1;
@@ -98,10 +103,11 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
     return fit && worst_cross < 0x1p20;
 }
 
-/// A range of the roots in `all`, each to the relative error `worst`; nothing if one is not proved.
+/// Returns a range of the roots in `all`, to the relative error `worst`; nothing if a proof fails.
 REVCHAIN_LAZY
-pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil, const ModeRange& range,
-                                    Index modes, const pencil::AberthSpectrum& all, double worst) {
+pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
+                                    const ModeRange& range, Index modes,
+                                    const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
         return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
@@ -110,24 +116,28 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
     const double below = last == modes ? 0.0 : end(last, 1);
     const double above = first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1);
-    auto roots = pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above, worst,
-                                      [](double) { return pencil::CertifiedCount{}; });
+    auto roots =
+        pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above, worst,
+                             [](double) { return pencil::CertifiedCount{}; });
     if (roots)
         for (const auto& root : *roots)
             if (!std::isfinite(root.off)) return std::nullopt;
     return roots;
 }
 
-/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not
-/// serve. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
+/// Does stage 1 of `modes` for small chains, or returns nothing if `pencil::aberth_spectrum`
+/// cannot. Bounds are about 20 ulp, or below 2 ulp with a tolerance below 1e-14. Cost: that of
 /// `aberth_spectrum`, 10 ns a link, and 8 ns a link and mode for bounds below 2 ulp.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
+std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain,
+                                                 LazyCounter<double>& assembled,
+                                                 const ModeRange& range,
                                                  const HeightsOptions<double>& options) {
     constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
     const auto most = static_cast<Index>(pencil::aberth::most_links);
-    if (chain.size() > most || chain.mode_count() != chain.size() || !chain.has_one_weight_unit()) return std::nullopt;
+    if (chain.size() > most || chain.mode_count() != chain.size() || !chain.has_one_weight_unit())
+        return std::nullopt;
     const FloatingPointStateGuard quiet;
     pencil::aberth::LumpedLinks links;
     if (!lump(links, chain)) return std::nullopt;
@@ -136,7 +146,8 @@ std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, con
     Heights<double> result;
     result.reserve(static_cast<std::size_t>(range.count));
     if (goal < loose) {
-        const auto roots = refined(assemble(chain).pencil, range, chain.mode_count(), all, worst_unrounded);
+        const auto roots =
+            refined(assembled.pencils().wide(), range, chain.mode_count(), all, worst_unrounded);
         if (!roots) return std::nullopt;
         for (const auto& root : *roots) result.push_back({root.root.high, root.bound(), root.root});
         return result;

@@ -11,8 +11,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The small-amplitude pencil of a chain in `Wide<T>`: weights in units of 2^units.weight_exponent
-/// (and of the pencil's own units), heights in units of 2^units.length_exponent.
+/// The small-amplitude pencil of a chain in `Wide<T>`. Weights are in units of
+/// 2^units.weight_exponent (and of the pencil's own units), heights in units of
+/// 2^units.length_exponent.
 template <Real T>
 struct AssembledChain {
     pencil::ElementPencil<Wide<T>> pencil;
@@ -23,8 +24,9 @@ namespace detail {
 
 /// Sets the bounds of a chain's pencil; |W h| + a S is at most `cancelled` times W h + a S.
 template <Real S, class E>
-void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled, const E& shortest) {
-    // S_m is a partial weight and up to a segment; other entries take at most six operations.
+void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled,
+                      const E& shortest) {
+    // S_m is a partial weight plus up to a segment of weights. Others take at most six operations.
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
     pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
@@ -32,33 +34,39 @@ void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& can
     pencil.stiffness_underflow = Limits::min() * Limits::epsilon() * E(4) / shortest;
 }
 
-/// The numbers of a link, or of several side by side; `below` is the weight hung below it.
+/// The numbers of a link, or of several in lanes; `below` is the weight hung below it.
 template <class S>
 struct LinkEntries {
-    S moment, carried;  ///< W h/a, and with what hangs below
+    S moment, carried;  ///< W h/a, without and with the weight below
     S stiffness, lower, upper, cross, turning;
 };
 template <class S, class W>
-[[gnu::always_inline]] inline LinkEntries<S> link_entries(const W& weight, const S& a, const S& h, const S& r,
-                                                          const S& below) {
+[[gnu::always_inline]] inline LinkEntries<S> link_entries(const W& weight, const S& a, const S& h,
+                                                          const S& r, const S& below) {
     const S p = h / a, q = (a - h) / a, moment = p * weight, carried = moment + below;
-    return {moment, carried, carried / a, (p * p + r) * weight, (q * q + r) * weight,
-            (p * q - r) * weight, r * weight};
+    return {moment,
+            carried,
+            carried / a,
+            (p * p + r) * weight,
+            (q * q + r) * weight,
+            (p * q - r) * weight,
+            r * weight};
 }
 
-/// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a
-/// time: 15 ns a link, 7 ns for plummets, where one by one takes 150 ns.
+/// Does `assemble` for a chain in one unit whose centroids are not above their pins, several links
+/// at a time. Cost: 15 ns a link, 7 ns for plummets; one link at a time takes 150 ns.
 template <class Where>
 [[gnu::always_inline]] inline void assemble_in_packs(Where, const Chain<double>& chain,
                                                      AssembledChain<double>& result) {
     using V = Pack<double, Where::doubles, lanes_at_once / Where::doubles>;
     using Words = DoubleWord<V>;
     using Numbers = std::array<double, V::size>;
-    // In two steps: a power of two that scales the largest numbers to 1 may itself be subnormal.
+    // Two steps are used: a power of two that scales the largest numbers to 1 may be subnormal.
     struct Scale {
         double first, second;
         explicit Scale(int exponent)
-            : first(std::ldexp(1.0, -exponent / 2)), second(std::ldexp(1.0, -exponent + exponent / 2)) {}
+            : first(std::ldexp(1.0, -exponent / 2)),
+              second(std::ldexp(1.0, -exponent + exponent / 2)) {}
         double operator()(double x) const { return x * first * second; }
     };
     const Scale weighed(result.units.weight_exponent), measured(result.units.length_exponent);
@@ -99,8 +107,8 @@ template <class Where>
         } else {
             const Words r(all(ratio), all(ratio_low));
             const auto e = link_entries(W, a, Words(all(centroid)), r, S);
-            entries[0] = e.stiffness, entries[1] = e.lower, entries[2] = e.upper, entries[3] = e.cross,
-            entries[4] = e.turning;
+            entries[0] = e.stiffness, entries[1] = e.lower, entries[2] = e.upper,
+            entries[3] = e.cross, entries[4] = e.turning;
         }
         Numbers high[5], low[5];
         for (std::size_t e = 0; e < 5; ++e) {
@@ -109,7 +117,8 @@ template <class Where>
         }
         for (std::size_t i = 0; i < there; ++i) {
             const auto at = [&](std::size_t e) { return Wide<double>(high[e][i], low[e][i]); };
-            elements[static_cast<std::size_t>(first) + i] = {at(0), at(1), at(2), at(3), at(4), weight[i]};
+            elements[static_cast<std::size_t>(first) + i] = {at(0), at(1), at(2),
+                                                             at(3), at(4), weight[i]};
         }
     }
     set_entry_errors(result.pencil, size, 1.0, shortest);
@@ -117,12 +126,12 @@ template <class Where>
 
 }  // namespace detail
 
-/// Elements of a chain, Greenhill (1908) §8 with sec delta = 1. With p = h/a, q = (a - h)/a and r =
-/// rho^2/a^2: stiffness k = (W p + S)/a, and the mass of a rigid body about its two pins, A = W
-/// (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the relative
-/// `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256 links,
-/// more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice, units
-/// are upper pins' weights within 2^(max_exponent/8). Cost O(N).
+/// Returns the elements of a chain, Greenhill (1908) §8 with sec delta = 1. Let p = h/a, q = (a -
+/// h)/a and r = rho^2/a^2. The stiffness is k = (W p + S)/a. The mass of a rigid body about its two
+/// pins is A = W (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r. Entries are within the
+/// relative `entry_error` of exact functions of the stored numbers: 3e-29 in double, less below 256
+/// links, more where a centroid above the pin makes W h + a S cancel. If one unit does not suffice,
+/// units are upper pins' weights within 2^(max_exponent/8). Cost O(N).
 template <Real T>
 AssembledChain<T> assemble(const Chain<T>& chain) {
     using std::abs, std::frexp, std::ldexp;
@@ -134,7 +143,8 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     result.units = chain.units();
     if constexpr (std::same_as<T, double>)
         if (one_unit && chain.centroids_below()) {
-            simd([&](auto where) REVCHAIN_INLINED { detail::assemble_in_packs(where, chain, result); });
+            simd([&](auto where)
+                     REVCHAIN_INLINED { detail::assemble_in_packs(where, chain, result); });
             return result;
         }
     result.pencil.elements.reserve(static_cast<std::size_t>(chain.size()));
@@ -158,7 +168,8 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         const S hung = ldexp(below, -unit);
         const S a(ldexp(link.length, to_length)), h(ldexp(link.centroid, to_length));
         const auto e = detail::link_entries(S(weight), a, h, link.gyration_ratio, hung);
-        result.pencil.elements.push_back({e.stiffness, e.lower, e.upper, e.cross, e.turning, weight});
+        result.pencil.elements.push_back(
+            {e.stiffness, e.lower, e.upper, e.cross, e.turning, weight});
         shortest = std::min(shortest, static_cast<E>(a));
         const E sizes = abs(static_cast<E>(e.moment)) + static_cast<E>(hung);
         cancelled = std::max(cancelled, sizes / static_cast<E>(e.carried));

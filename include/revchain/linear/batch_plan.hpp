@@ -13,7 +13,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-// revchain/batch.hpp
+// These types are declared in revchain/batch.hpp.
 template <Real T>
 struct BatchColumn;
 template <Real T>
@@ -47,7 +47,7 @@ Link<T> link_of(const ChainBatch<T>& batch, Index c, Index m) {
     return link;
 }
 
-/// Chain number c, checked like every Chain; an error message names the chain.
+/// Returns chain number c, checked like every Chain. An error message names the chain.
 template <Real T>
 Chain<T> chain_of(const ChainBatch<T>& batch, Index c) {
     try {
@@ -63,7 +63,7 @@ Chain<T> chain_of(const ChainBatch<T>& batch, Index c) {
     }
 }
 
-/// Whether good(x) for every stored number; without a branch, so that compilers vectorise it.
+/// Returns true if good(x) for every stored number. It is vectorised because it has no branch.
 template <Real T, class Good>
 bool all(const BatchColumn<T>& column, Index chains, Index size, Good good) {
     if (column.chain_stride == 0) chains = std::min<Index>(chains, 1);
@@ -83,8 +83,8 @@ bool all(const BatchColumn<T>& column, Index chains, Index size, Good good) {
     return fine;
 }
 
-/// Whether the lanes serve chains `first` ... `last` - 1: weights, lengths and centroids positive
-/// and not extreme, radii of gyration real. They have as many modes as links.
+/// Returns true if the lanes support chains `first` ... `last` - 1: weights, lengths and centroids
+/// are positive and not extreme, radii of gyration real. Such chains have as many modes as links.
 template <Real T>
 bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
     const auto part = [&](BatchColumn<T> column) {
@@ -92,7 +92,8 @@ bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
         return column;
     };
     using std::ldexp;
-    const T largest = ldexp(T(1), std::numeric_limits<T>::max_exponent * 2 / 5), smallest = T(1) / largest;
+    const T largest = ldexp(T(1), std::numeric_limits<T>::max_exponent * 2 / 5),
+            smallest = T(1) / largest;
     const auto positive = [=](const T& x) { return (x >= smallest) & (x <= largest); };
     const Index chains = last - first;
     if (!all(part(batch.weight), chains, batch.size, positive)) return false;
@@ -114,10 +115,11 @@ bool ordinary(const ChainBatch<T>& batch, Index first, Index last) {
 
 struct BatchPlan {
     Index count = 0;           ///< modes of each chain
-    std::vector<Index> alone;  ///< chains not for the lanes, ascending
+    std::vector<Index> alone;  ///< chains that lanes do not support, ascending
 };
 
-/// Throws InvalidArgument for the first chain that is not valid.
+/// Returns the plan of a batch. Throws InvalidArgument for the first chain that is not valid, and
+/// for a `count` above the fewest modes of a chain.
 template <Real T>
 BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count) {
     BatchPlan plan{count.value_or(batch.size), {}};
@@ -136,15 +138,17 @@ BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count
             }
         }
     }
-    // If chains differ in their number of modes, the caller has to say how many to compute.
+    // If chains differ in their number of modes, the caller must say how many to compute.
     const bool alike = static_cast<Index>(plan.alone.size()) == batch.chains &&
-                       std::all_of(plan.alone.begin(), plan.alone.end(),
-                                   [&](Index c) { return chain_of(batch, c).mode_count() == fewest; });
+                       std::all_of(plan.alone.begin(), plan.alone.end(), [&](Index c) {
+                           return chain_of(batch, c).mode_count() == fewest;
+                       });
     if (!count && alike) plan.count = fewest;
     if (plan.count > fewest)
         throw_invalid("conical_heights",
                       name_of_chain(batch, which) + " has only " + std::to_string(fewest) +
-                          " modes; count must not exceed them", plan.count);
+                          " modes; count must not exceed them",
+                      plan.count);
     return plan;
 }
 

@@ -9,17 +9,22 @@
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
-inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
+inline constexpr std::size_t leaf_degree = 4;     ///< degree of their polynomials
 
-/// Links that are summed plainly; longer runs are merged from such leaves. With a sixteenth of the
-/// run, rounding moves less than 1/4 unit from pin to pin; with 32 the merges are cheap.
-constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
+/// Returns the number of links summed plainly; longer runs are merged from such leaves. With a
+/// sixteenth of the run, rounding moves less than 1/4 unit from pin to pin; with 32 merges are
+/// cheap.
+constexpr Index leaf_links(Index length) {
+    return std::min(length, std::clamp<Index>(length / 16, 4, 64));
+}
 
-/// Terms of a leaf. Leaves of up to 4 links have all 4; in longer runs leaves are so short that 3
-/// nearly always suffice (`condensed_chain` checks what they leave out).
-constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
+/// Returns the number of terms of a leaf. Leaves of up to 4 links have all 4. In longer runs leaves
+/// are so short that 3 nearly always suffice (`condensed_chain` checks the omitted terms).
+constexpr std::size_t leaf_terms(Index length) {
+    return length < 64 ? leaf_degree : leaf_degree - 1;
+}
 
-/// Roundings (half units) in a1 and the other coefficients of a leaf: docs/theory/blocks.md.
+/// These are roundings (half units) in a1 and the others of a leaf: docs/theory/blocks.md.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 
@@ -30,18 +35,20 @@ struct LaneRuns {
     CompensatedSum<V> weight, flexibility, moment;  ///< c0, b1, a1
     V leaf_phase{};                                 ///< largest c0 b1 of a leaf
     V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
-    /// Positive if not valid: centroid beyond the pins, inertia beyond l = a, weight above all
-    /// below it, leaf too light beside what it carries, lowest link too long for its spring.
+    /// Positive if the run is not valid: centroid beyond the pins, inertia beyond l = a, weight
+    /// above all below it, leaf too light for the weight that it carries, or lowest link too long
+    /// for its spring.
     V worst{};
 
     /// Joins a leaf to the top of each run.
     template <std::size_t Degree>
-    [[gnu::always_inline]] void add_leaf(const pencil::Transfer<V, Degree>& leaf, const CompensatedSum<V>& mass,
+    [[gnu::always_inline]] void add_leaf(const pencil::Transfer<V, Degree>& leaf,
+                                         const CompensatedSum<V>& mass,
                                          const CompensatedSum<V>& its_flexibility, bool is_first) {
         const V phase = mass.high * its_flexibility.high;
         leaf_phase = max(leaf_phase, phase);
         const V square = leaf.a[0] * leaf.a[0];
-        leaf_moment = max(leaf_moment, if_less(V{}, phase, square / phase, V{}));  // no 0/0
+        leaf_moment = max(leaf_moment, if_less(V{}, phase, square / phase, V{}));  // avoids 0/0
         moment.add(leaf.a[0] + its_flexibility.high * weight.high);
         moment.low += its_flexibility.high * weight.low + its_flexibility.low * weight.high;
         transfer = is_first ? pencil::extended<leaf_degree>(leaf) : pencil::merged(transfer, leaf);
@@ -51,20 +58,23 @@ struct LaneRuns {
     }
 };
 
-/// Reads a column link by link; a column of one number serves all links.
+/// Reads a column link by link. A column of one number serves all links.
 template <class From>
 struct ColumnReader {
     const From* data;
     Index stride;
 
-    explicit ColumnReader(const Column<From>& column) : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
+    explicit ColumnReader(const Column<From>& column)
+        : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
     bool is_scalar() const { return stride == 0; }
-    /// One number for each lane, from links that are `apart` links from each other.
+    /// Returns one number for each lane, from links that are `apart` links from each other.
     template <class V>
     [[gnu::always_inline]] V lanes(Index link, Index apart) const {
         using T = Lane<V>;
         const From* first = data + link * stride;
-        const auto at = [&](Index lane) REVCHAIN_INLINED { return static_cast<T>(first[lane * apart * stride]); };
+        const auto at = [&](Index lane) REVCHAIN_INLINED {
+            return static_cast<T>(first[lane * apart * stride]);
+        };
         return V(at(0), at(1), at(2), at(3));
     }
 };
@@ -73,8 +83,8 @@ template <class T>
 struct LinkColumns {
     ColumnReader<T> weight, length, centroid;
     ColumnReader<Wide<T>> gyration_ratio;
-    bool equal = false;  ///< links are equal but for their weights
-    T unit_length;       ///< that of a link if it serves all, else a power of two
+    bool equal = false;  ///< true if links differ only in weight
+    T unit_length;       ///< length of a link if it serves all, else a power of two
 
     explicit LinkColumns(const Chain<T>& chain)
         : weight(chain.weight()),
@@ -90,12 +100,13 @@ struct LinkColumns {
 /// Condenses four neighbouring runs of `length` links, from link `first` on; `below` is the weight
 /// hung below each. A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu
 /// X and a mass (1 - p) W at its upper pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and
-/// flexibility of a run that of a division, all else less than 0.1; moment of a leaf three times
-/// its links, other coefficients four times. `Equal`: links differ only in weight; reading them one
-/// by one would cost 1.4 times as much, always degree 4 1.3 times (ten modes of 1,000,000 rods).
-/// Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
+/// flexibility of a run have those of one division, others less than 0.1. The moment of a leaf has
+/// three times its links, other coefficients four times. `Equal`: links differ only in weight.
+/// Reading these one by one would cost 1.4 times as much, always degree 4 1.3 times (ten modes of
+/// 1,000,000 rods). Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
 template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
-LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
+                     const CompensatedSum<V>& below) {
     return simd([&](auto) REVCHAIN_INLINED {
         LaneRuns<V> runs;
         CompensatedSum<V> hung = below;
@@ -105,11 +116,13 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             a = links.length.template lanes<V>(m, length) * per_unit;
             per_length = T(1) / a;
             if constexpr (Equal)
-                p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
+                p = links.centroid.template lanes<V>(m, length) /
+                    links.length.template lanes<V>(m, length);
             else
                 p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
             coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
-            runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
+            runs.worst =
+                max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
             coefficient = max(coefficient, V{});
         };
         if constexpr (Equal) {
@@ -160,15 +173,16 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
     });
 }
 
-/// The weights below four neighbouring runs of `length` links; `below`: that below the first.
+/// Returns weights below four neighbouring runs of `length` links; `below`: weight below the first.
 template <class T, class V = Pack<T>>
-CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first, Index length,
-                                Wide<T>& below) {
+CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first,
+                                Index length, Wide<T>& below) {
     using S = Wide<T>;
     CompensatedSum<V> sum, result;
     const bool in_segments = first % segment_size == 0 && length % segment_size == 0;
     if (!in_segments)
-        for (Index m = first; m < first + length; ++m) sum.add(links.weight.template lanes<V>(m, length));
+        for (Index m = first; m < first + length; ++m)
+            sum.add(links.weight.template lanes<V>(m, length));
     for (Index lane = 0; lane < runs_at_once; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         result.high.set(i, static_cast<T>(below));

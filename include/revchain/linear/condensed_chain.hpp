@@ -9,7 +9,7 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-/// Link number `index` as a run in `Wide<T>`; alone where the polynomials do not hold.
+/// Returns link number `index` as a run in `Wide<T>`; alone if the polynomials do not hold for it.
 template <Real T>
 pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& builder,
                                     const Link<T>& link, Index index, const T& unit_length,
@@ -36,14 +36,15 @@ pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& bui
         pencil::append_mass(run.transfer, at_lower);
         pencil::append_spring(run.transfer, f, x * f);
         pencil::append_mass(run.transfer, at_upper);
-        const bool exact = builder.is_short(run) && builder.template is_complete<pencil::Block<T>::degree>(run);
+        const bool exact =
+            builder.is_short(run) && builder.template is_complete<pencil::Block<T>::degree>(run);
         run.alone = x > T(0) && !exact;
     } else {
         run.alone = true;
     }
     if (run.alone) {
         run.cross = cross;
-        // Roundings in `Wide<T>` where W p + S cancels or lumped masses outweigh the link.
+        // These are roundings in `Wide<T>` if W p + S cancels or lumped masses outweigh the link.
         const T unit = T(4) * operation_error<S>(), reach = T(1) + abs(static_cast<T>(p));
         const T amplified = (abs(at_lower) + static_cast<T>(below)) / static_cast<T>(lower + below);
         const T stretch = T(5) * reach * reach * reach;  // of (y_l - y_u)^2: within either energy
@@ -51,7 +52,7 @@ pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& bui
         const T turned = std::min(builder.phase(run), T(1) / static_cast<T>(link.gyration_ratio));
         run.mass_error += unit * (T(4) * reach + stretch * turned);
     } else {
-        // Longer ones are exact, because X = 0. They are not merged.
+        // Longer links are exact, because X = 0. They are not merged.
         if (builder.is_short(run)) builder.note_roundings(run, T(9), builder.second_terms(run));
         builder.template note_truncation<pencil::Block<T>::degree>(run);
     }
@@ -79,9 +80,10 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     return run;
 }
 
-/// Condenses four runs: links may be equal, and short runs need leaves of full degree.
+/// Condenses four runs. Links may be equal, and short runs need leaves of full degree.
 template <class T, class V>
-LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length,
+                      const CompensatedSum<V>& below) {
     const auto of = [&]<bool equal>() {
         return leaf_terms(length) == 4 ? condense<equal, 4, T, V>(links, first, length, below)
                                        : condense<equal, 3, T, V>(links, first, length, below);
@@ -98,8 +100,8 @@ struct CondensedChain {
     T unit_length{};
 };
 
-/// Condenses links into blocks. Runs are doubled while they are small beside the wavelength, else
-/// halved; links that fit none stay alone. Cost O(N), see `condense`.
+/// Returns the chain condensed into blocks. Runs are doubled while they are small beside the
+/// wavelength, otherwise halved. Links that fit no run stay alone. Cost O(N), see `condense`.
 template <std::floating_point T>
 CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) {
     using namespace detail;
@@ -107,8 +109,8 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
     const LinkColumns<T> links(chain);
     const T unit_length = links.unit_length;
     pencil::CondensedPencilBuilder<T> builder(least_height);
-    // The phase up to which degree 4 is complete for a uniform run; less for the shortest runs,
-    // whose roundings move more mass (bounds then stay below 2 ulp).
+    // This is the phase up to which degree 4 is complete for a uniform run. It is less for the
+    // shortest runs, whose roundings move more mass (bounds then stay below 2 ulp).
     const auto reach = [](Index length) { return length < 16 ? T(4e-4) : T(1.6e-3); };
     Wide<T> below(Narrow<Wide<T>>(0));
     const auto add_singles = [&](Index first, Index last) {
@@ -119,7 +121,7 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
     };
     Index length = 1;
     for (Index m = 0; m < chain.size();) {
-        look();
+        check_interrupt();
         const Index left = chain.size() - m;
         if (left < runs_at_once) {
             add_singles(m, chain.size());
@@ -137,7 +139,7 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
             one = lane_of<T>(runs, lane, length);
             const T phase = builder.phase(one);
             largest = std::max(largest, phase);
-            if (length == 1) continue;  // these lanes are not used
+            if (length == 1) continue;  // lanes of length 1 are not used
             fits = !(runs.worst[lane] > T(0)) && phase < reach(length) &&
                    builder.template is_complete<leaf_degree>(one);
             if (!fits) break;
@@ -175,7 +177,8 @@ CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) 
             below = above;
         }
         m += runs_at_once * length;
-        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0) length *= 2;
+        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0)
+            length *= 2;
     }
     return {builder.finish(), unit_length};
 }

@@ -7,22 +7,23 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Whether condensing pays: long chains of which few modes are wanted. Otherwise one mode by
-/// bisection costs less than the blocks of all (flat: within 20 % from 150 to 400 links).
+/// Returns true if condensing pays: for few modes of long chains. Otherwise one mode by bisection
+/// costs less than the blocks of all (flat: within 20 % from 150 to 400 links).
 template <Real T>
 bool condensation_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
-/// The height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few per
-/// cent: from uniform rods with the weights of pieces of the chain or, for more modes than those
-/// have, from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
+/// Returns the height of mode `number` for like lengths, in the unit of `LinkColumns`, within a few
+/// per cent. It is that of uniform rods with the weights of pieces of the chain. For more modes
+/// than those rods have it is from the phase integral sqrt(dW df) (WKB). Cost: 5 microseconds.
 template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
     const Index rods_at_most = std::min<Index>(64, chain.size() / 8);
     const bool slow = 4 * number <= rods_at_most;
-    const Index pieces = slow ? rods_at_most : std::clamp<Index>(chain.size() / segment_size, 32, 512);
+    const Index pieces =
+        slow ? rods_at_most : std::clamp<Index>(chain.size() / segment_size, 32, 512);
     const T unit_length = LinkColumns<T>(chain).unit_length;
     const T length = chain.total_length() / unit_length / static_cast<T>(pieces);
     pencil::ElementPencil<T> rods;
@@ -40,24 +41,25 @@ T estimated_height(const Chain<T>& chain, Index number) {
         below = above;
     }
     if (slow) {
-        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
+        const auto bracket =
+            pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
         return pencil::between(bracket.lower, bracket.upper);
     }
     const T per_phase = phase / (T(number) - T(0.25));
     return per_phase * per_phase / T(9.8696);
 }
 
-/// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), each proved by two
-/// counts to lie within `margin` of what is returned; nothing where a proof fails.
+/// Returns eigenvalues of up to four neighbouring brackets, number `first` on (from 0), or nothing.
+/// Two counts prove each to lie within `margin` of the returned value.
 template <class T>
 std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pencil, Index first,
-                                           const std::vector<pencil::Bracket<T>>& brackets, std::size_t from,
-                                           const T& margin) {
+                                           const std::vector<pencil::Bracket<T>>& brackets,
+                                           std::size_t from, const T& margin) {
     using V = Pack<T>;
     using P = DoubleWord<V>;
     V start, number;
     for (std::size_t lane = 0; lane < pack_size; ++lane) {
-        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last fills up
+        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // repeats the last
         start.set(lane, pencil::between(brackets[j].lower, brackets[j].upper));
         number.set(lane, static_cast<T>(first + 1 + static_cast<Index>(j)));
     }
@@ -83,19 +85,22 @@ struct CondensedHeights {
     CondensedChain<T> condensed;
 };
 
-/// Stage 1 of `modes` for a few slow modes of a long chain; nothing where the bound misses the
-/// tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts in T, two
-/// Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound includes what
-/// condensing has changed, 1.8 ulp: docs/theory/blocks.md. Cost: condensing and 20 us a mode.
+/// Does stage 1 of `modes` for a few slow modes of a long chain. The result is empty if the bound
+/// exceeds the tolerance or a mode is not proved. Method: blocks, their modes bracketed by counts
+/// in T, two Newton steps (the last in `Wide<T>`), two proved counts on the blocks. The bound
+/// includes the error of condensing, 1.8 ulp: docs/theory/blocks.md. Cost: that of condensing, and
+/// 20 us a mode.
 template <std::floating_point T>
-std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
+std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain,
+                                                           const ModeRange& range,
                                                            const HeightsOptions<T>& options) {
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
     const ChainUnits units = chain.units();
     // Products of double words must stay in range.
-    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2 || !chain.has_one_weight_unit())
+    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2 ||
+        !chain.has_one_weight_unit())
         return std::nullopt;
 
     const Index first = range.first - 1, last = first + range.count;
@@ -122,9 +127,10 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
         for (std::size_t done = begin; done < end && proved; done += pack_size) {
             const std::size_t count = std::min(pack_size, end - done);
             auto found = refined(pencil, first, rough, done, margin);
-            if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
+            if (!found) {  // neighbours may be too close for steps from 1e-3
                 const Index number = first + static_cast<Index>(done);
-                found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)), 0, margin);
+                found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)),
+                                0, margin);
             }
             if (!found) proved = false;
             for (std::size_t lane = 0; found && lane < count; ++lane) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <limits>
-#include <optional>
+#include <memory>
 
 #include "revchain/count.hpp"
 
@@ -24,20 +24,27 @@ Index ModeCounter<T>::above(const Wide<T>& height, const T& rough) const {
 
 namespace detail {
 
-/// The counter of a chain and its pencils, assembled when first needed. The chain must outlive it.
+/// The counter of a chain and its pencils, assembled at first use. The chain must outlive it.
 template <Real T>
 class LazyCounter {
    public:
     explicit LazyCounter(const Chain<T>& chain) : chain_(chain) {}
     const ModeCounter<T>& counter() {
-        if (!counter_) counter_.emplace(chain_);
+        if (!counter_) counter_ = std::make_shared<const ModeCounter<T>>(chain_);
         return *counter_;
     }
     const Pencils<T>& pencils() { return counter().pencils_; }
+    bool is_of(const Chain<T>& chain) const { return &chain == &chain_; }
+    /// The pencils, if they are assembled and small enough to be kept with a result (0.6 MB); else null.
+    std::shared_ptr<const Pencils<T>> kept_pencils() const {
+        constexpr Index most_links = 4096;
+        if (!counter_ || chain_.size() > most_links) return nullptr;
+        return {counter_, &counter_->pencils_};
+    }
 
    private:
     const Chain<T>& chain_;
-    std::optional<ModeCounter<T>> counter_;
+    std::shared_ptr<const ModeCounter<T>> counter_;
 };
 
 }  // namespace detail

@@ -10,21 +10,20 @@
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// Roots of a `RigPencil` that are all real and that one count numbers, one by one.
+/// This header has roots of a `RigPencil` that are all real and that one count numbers, one by one.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 
-/// A root x > 0 and the relative half width of the proved interval about its rounded value.
-struct FoundRoot {
-    RigWord x{};
-    double margin = std::numeric_limits<double>::infinity();
-};
+/// A root x > 0; the error bound is relative to its rounded value.
+using FoundRoot = pencil::Certified<double>;
 
-/// Roots x > 0 of Q(side x), 0 the largest: base + sign (negative eigenvalues of Q) exceed x.
+/// Roots x > 0 of Q(side x), 0 the largest: base + sign (number of negative eigenvalues of Q)
+/// exceed x.
 class CountedRoots {
    public:
-    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
+    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign,
+                 int side)
         : pencil_(std::move(pencil)), pace_(pace), base_(base), sign_(sign), side_(side) {}
 
     /// Counts in double, for `bisect`.
@@ -34,7 +33,8 @@ class CountedRoots {
         double side;
 
         template <std::size_t N>
-        friend std::array<Index, N> count_above(const Counter& counter, std::array<double, N> shifts) {
+        friend std::array<Index, N> count_above(const Counter& counter,
+                                                std::array<double, N> shifts) {
             for (double& shift : shifts) shift *= counter.side;
             auto above = pencil::count_above(counter.rounded, shifts);
             for (Index& count : above) count = counter.base + counter.sign * count;
@@ -48,8 +48,9 @@ class CountedRoots {
         Index count = 0;
         bool proved = false;
     };
-    /// The number of roots: counted at 0 where M is not singular; else at the least x from 1e-120
-    /// of the length on where rounding leaves no doubt, and proved only there.
+    /// Returns the number of roots. It is counted at 0 if M is not singular. Otherwise it is
+    /// counted at the least x from 1e-120 of the length on without doubt from rounding, and proved
+    /// only at that start.
     Available available() const {
         if (const auto count = certified(RigWord(0.0)); count.proved) return {count.above, true};
         const int start = pencil_.quadratic ? -200 : -400;
@@ -59,18 +60,22 @@ class CountedRoots {
         return {std::max<Index>(0, certified(std::ldexp(1.0, start)).above), false};
     }
 
-    /// Brackets of the roots from number `first` on, by counts in double; see `bisect`.
-    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
-                                                  const std::function<void(Index)>& finished) const {
-        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_, static_cast<double>(side_)};
+    /// Returns brackets of the roots from number `first` on, by counts in double; see `bisect`.
+    std::vector<pencil::Bracket<double>> brackets(
+        Index first, Index count, double start, const std::function<void(Index)>& finished) const {
+        const Counter counter{pencil::rounded<double>(pencil_), base_, sign_,
+                              static_cast<double>(side_)};
         return pencil::bisect(counter, first, count, 2 * epsilon<double>(), start, finished);
     }
 
-    /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
+    /// Returns root number j from its bracket: by a vector in two words, its quotient and two
+    /// counts.
     FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
-        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) { return counted(shifts); };
+        const auto in_pairs = [this](const std::array<RigWord, 2>& shifts) {
+            return counted(shifts);
+        };
         const RigWord guess(pencil::between(bracket.lower, bracket.upper));
         RigWord x = guess;
         for (int round = 0; round < 3; ++round) {
@@ -78,17 +83,19 @@ class CountedRoots {
             const RigWord root = side * pencil::rayleigh_quotient(pencil_, vector, side * x);
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
-            if (pencil::root_within(in_pairs, j, given_out(x), margin)) return {x, margin};
+            if (pencil::root_within(in_pairs, j, given_out(x), margin))
+                return {static_cast<double>(x), margin, x};
         }
-        // by proved counts alone, as far as they go
+        // The last resort is proved counts alone.
         const auto found = pencil::proved_interval(in_pairs, j, guess, epsilon<double>() / 4);
-        if (!found) return {guess};
-        return {found->middle(), found->reach(given_out(found->middle()))};
+        constexpr double unproved = std::numeric_limits<double>::infinity();
+        x = found ? found->middle() : guess;
+        return {static_cast<double>(x), found ? found->reach(given_out(x)) : unproved, x};
     }
 
     pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
 
-    /// The y with Q y = 0 at a root.
+    /// Returns the vector y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
         return pencil::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
     }
@@ -102,9 +109,10 @@ class CountedRoots {
         return result;
     }
 
-    /// The x of the rounded result: of a speed where there is momentum, else of a height.
+    /// Returns x after rounding of the result: of a speed if there is momentum, else of a height.
     RigWord given_out(const RigWord& x) const {
-        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
+        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x))
+                                 : RigWord(static_cast<double>(x));
     }
 
     pencil::SignedPencil<RigWord> pencil_;
@@ -113,25 +121,27 @@ class CountedRoots {
     int side_;
 };
 
-/// The least root that is searched for; the largest is its reciprocal.
+/// Returns the least root that is searched for; the largest is its reciprocal.
 REVCHAIN_LAZY
 RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// The number of roots above x, by the proved counts `count(x)`. A root within 2^20 roundings of x
-/// counts as equal to it; x is limited to `least_root` and its reciprocal. Throws InvalidArgument
-/// where the number is not proved; `place` and `value` are for the message.
+/// Returns the number of roots above x, by the proved counts `count(x)`. A root within 2^20
+/// roundings of x counts as equal to it; x is limited to `least_root` and its reciprocal. Throws
+/// InvalidArgument if the number is not proved; `place` and `value` are for the message.
 template <class Count>
-Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value, const Count& count) {
+Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value,
+                   const Count& count) {
     const RigWord least = least_root(quadratic);
     RigWord at = std::min(std::max(x, least), RigWord(1.0) / least);
     for (const double tie : {0.0, operation_error<RigWord>() * 0x1p20}) {
         at = at + at * RigWord(tie);
         if (const auto found = count(at); found.proved) return found.above;
     }
-    throw_invalid(place,
-                  "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
-                  "a little beside it",
-                  value);
+    throw_invalid(
+        place,
+        "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
+        "a little beside it",
+        value);
 }
 
 /// The roots of one sense of rotation, counted without finding them.
@@ -139,9 +149,10 @@ struct CountedSense {
     CountedRoots roots;
     CountedRoots::Available available;
 
-    /// `count`: the proved number of roots, or nothing where it has to be counted.
+    /// `count` is the proved number of roots, or nothing if it must be counted.
     CountedSense(CountedRoots counted, std::optional<Index> count)
-        : roots(std::move(counted)), available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
+        : roots(std::move(counted)),
+          available(count ? CountedRoots::Available{*count, true} : roots.available()) {}
 
     Index above(const RigWord& x, std::string_view place, double value) const {
         const bool quadratic = roots.pencil().quadratic;
@@ -151,9 +162,10 @@ struct CountedSense {
     }
 };
 
-/// Heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above h are
-/// negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are these and those
-/// of K. Just above h = 0 hK - M is negative where there is inertia, else it has the signs of K.
+/// Returns the heights above 0 of a rig without momentum; K > 0 or M >= 0. If K > 0, heights above
+/// h are negative eigenvalues of hK - M. If M >= 0, negative eigenvalues of K - M/h are those
+/// heights and the negative eigenvalues of K. Just above h = 0, hK - M is negative on motions with
+/// inertia, and has the signs of K on the others.
 REVCHAIN_LAZY
 CountedSense counted_heights(const RigPencil& rig) {
     const Index before = rig.stiffness_positive ? 0 : rig.not_positive;
@@ -164,18 +176,19 @@ CountedSense counted_heights(const RigPencil& rig) {
     return {CountedRoots(rig.pencil, rig.pace, -before, 1, 1), count};
 }
 
-/// The roots from number `first` on; `bracketed` and `finished` receive the number done.
+/// Returns roots from number `first` on. `bracketed` and `finished` receive the number done.
 REVCHAIN_LAZY
-std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
-                                     const std::function<void(Index)>& bracketed,
+std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count,
+                                     double guess, const std::function<void(Index)>& bracketed,
                                      const std::function<void(Index)>& finished) {
     const auto brackets = roots.brackets(first, count, guess, bracketed);
     std::vector<FoundRoot> found(brackets.size());
     std::atomic<Index> done = 0;
     parallel_for(count, 1, [&](Index begin, Index end) {
         for (Index j = begin; j < end; ++j) {
-            look();
-            found[static_cast<std::size_t>(j)] = roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
+            check_interrupt();
+            found[static_cast<std::size_t>(j)] =
+                roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
             if (finished) finished(++done);
         }
     });

@@ -12,13 +12,13 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using pencil::Driving;
 
-/// A chain, or a rig, as the elements from its free end to the moved end.
+/// A chain or rig as the elements from its free end to the moved end.
 struct DrivenChain {
-    pencil::SignedPencil<Wide<double>> pencil;  ///< L is height k + spin s, of the drives
+    pencil::SignedPencil<Wide<double>> pencil;  ///< the stiffness L is height k + spin s of a drive
     ChainUnits units;
-    bool turning = false;  ///< whether a stiffness depends on the speed
-    Index standing = 0;    ///< elements that stand: their negative pivots are no modes
-    Index idle = 0;        ///< lowest links left out: without weight, spin and inertia
+    bool turning = false;  ///< true if a stiffness depends on the speed
+    Index standing = 0;    ///< number of standing elements: their negative pivots are no modes
+    Index idle = 0;        ///< number of omitted lowest links: without weight, spin and inertia
     double end = 1;        ///< 1 if the moved end is a pin, 0 if it is the far end of a spring
 };
 
@@ -36,7 +36,8 @@ DrivenChain driven_chain(const Chain<double>& chain) {
     DrivenChain result{{}, assembled.units};
     result.pencil.units = pencil.units;
     for (const auto& e : pencil.elements)
-        result.pencil.elements.push_back(with_errors(e, pencil.entry_error, pencil.stiffness_underflow));
+        result.pencil.elements.push_back(
+            with_errors(e, pencil.entry_error, pencil.stiffness_underflow));
     return result;
 }
 
@@ -62,12 +63,13 @@ DrivenChain driven_chain(const Rig& rig) {
     return result;
 }
 
-/// `driven_lanes` for any number of drives, with sharper bounds where its own is not negligible.
+/// Does `driven_lanes` for any number of drives, with sharper bounds if its own are not negligible.
 /// Calls `put(row, which, offset)` and then `take(row, found)` for each drive, on several threads.
-/// `can_turn`: whether links may have spin, as in rigs; without, half as much is compiled.
+/// `can_turn` says if links may have spin, as in rigs; without spin half as much is compiled.
 template <bool can_turn, class Put, class Take>
-void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
-                     const Put& put, const Take& take, Progress* progress) {
+void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at,
+                     const pencil::DrivenPins& pins, const Put& put, const Take& take,
+                     Progress* progress) {
     parallel_for(at.size(), pencil::most_driven_together, [&](std::size_t begin, std::size_t end) {
         simd([&](auto registers) REVCHAIN_INLINED {
             // AVX2 has 16 registers. Four lanes need more, and take twice the time of two lanes.
@@ -82,15 +84,21 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, c
             for (std::size_t i = begin; i < end; i += together) {
                 const std::size_t taken = std::min(together, end - i);
                 for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-                const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
-                    if (lane < taken) put(static_cast<Index>(i + lane), which, y);
-                };
+                const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y)
+                                        REVCHAIN_INLINED {
+                                            if (lane < taken)
+                                                put(static_cast<Index>(i + lane), which, y);
+                                        };
                 const auto solve = [&]<bool turning>(std::bool_constant<turning>) REVCHAIN_INLINED {
-                    pencil::driven_lanes<turning, fused, V>(elements, padded, wanted, found, offset);
-                    const bool sharp = std::all_of(found, found + taken, [](const pencil::Driven& each) {
-                        return !each.decided || each.error_bound <= 0x1p-56;
-                    });
-                    if (!sharp) pencil::sharpen<turning, fused, V>(elements, padded, found, scratch, chain.end);
+                    pencil::driven_lanes<turning, fused, V>(elements, padded, wanted, found,
+                                                            offset);
+                    const bool sharp =
+                        std::all_of(found, found + taken, [](const pencil::Driven& each) {
+                            return !each.decided || each.error_bound <= 0x1p-56;
+                        });
+                    if (!sharp)
+                        pencil::sharpen<turning, fused, V>(elements, padded, found, scratch,
+                                                           chain.end);
                 };
                 if (!can_turn || !chain.turning)
                     solve(std::false_type{});

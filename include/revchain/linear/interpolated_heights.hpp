@@ -10,10 +10,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Heights of many modes; nothing where this cannot be done. Cost: as `pencil::all_eigenvalues`.
+/// Returns heights of many modes, or nothing on failure. Cost: as `pencil::all_eigenvalues`.
 REVCHAIN_LAZY
-std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
-                                                        Index mode_count, const HeightsOptions<double>& options) {
+std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled,
+                                                        const ModeRange& range, Index mode_count,
+                                                        const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
@@ -24,7 +25,8 @@ std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& ass
     constexpr Index together = 2048;  // modes between two reports
     for (Index done = 0; done < range.count;) {
         const Index first = range.first - 1 + done, count = std::min(range.count - done, together);
-        const auto found = pencil::all_eigenvalues(wide, lumped, first, first + count, mode_count, goal);
+        const auto found =
+            pencil::all_eigenvalues(wide, lumped, first, first + count, mode_count, goal);
         result.insert(result.end(), found.begin(), found.end());
         done += count;
         advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));

@@ -20,15 +20,18 @@ struct ModeShapes {
     std::vector<Vector<T>> nodes;  ///< k lists, or none
 };
 
-/// Shapes, residuals and nodes, computed when first asked for; copies and threads share them.
+/// Shapes, residuals and nodes, computed at first use. Copies and threads share them.
 template <Real T>
 class LazyModeShapes {
    public:
     LazyModeShapes() = default;
     /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has
-    /// index `first` in the result. Without `details` it may leave residuals and nodes out.
-    using Find = std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
-    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) { state_->find = std::move(find); }
+    /// index `first` in the result. Without `details` it may omit residuals and nodes.
+    using Find =
+        std::function<ModeShapes<T>(Index first, Index count, bool details, Progress* progress)>;
+    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) {
+        state_->find = std::move(find);
+    }
     explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
         state_->find = [](Index, Index, bool, Progress*) { return ModeShapes<T>(); };
         state_->known = std::move(known);
@@ -38,10 +41,13 @@ class LazyModeShapes {
     const Table<T>& offsets(Index count, Progress* progress) const {
         return known(count, false, progress).offset;
     }
-    const ModeShapes<T>& details(Index count, Progress* progress) const { return known(count, true, progress); }
+    const ModeShapes<T>& details(Index count, Progress* progress) const {
+        return known(count, true, progress);
+    }
     Vector<T> one(Index count, Index j) const {
         if (j < 0 || j >= count)
-            throw_invalid("Modes::shape", "the index must be from 0 to " + std::to_string(count - 1), j);
+            throw_invalid("Modes::shape",
+                          "the index must be from 0 to " + std::to_string(count - 1), j);
         const std::scoped_lock lock(state().mutex);
         if (state_->has_offsets) return state_->known.offset.row(j).transpose();
         return state_->find(j, 1, false, nullptr).offset.row(0).transpose();
@@ -50,7 +56,7 @@ class LazyModeShapes {
     ModeShapes<T> some(Index first, Index count, bool details, Progress* progress) const {
         return state().find(first, count, details, progress);
     }
-    /// An owner of what was returned by reference.
+    /// Returns an owner of everything that was returned by reference.
     std::shared_ptr<const void> owner() const { return state_; }
 
    private:
@@ -70,10 +76,10 @@ class LazyModeShapes {
         if (!(details ? state.has_details : state.has_offsets)) {
             ModeShapes<T> found = state.find(0, count, details, progress);
             state.has_details = details || found.residual.size() == count;
-            // Offsets that are known may be in use.
-            // Offsets that are there already may be read by another thread.
+            // Known offsets are not replaced, because another thread may read them.
             if (!state.has_offsets) state.known.offset = std::move(found.offset);
-            state.known.residual = std::move(found.residual), state.known.nodes = std::move(found.nodes);
+            state.known.residual = std::move(found.residual),
+            state.known.nodes = std::move(found.nodes);
             state.has_offsets = true;
         }
         return state.known;
@@ -85,7 +91,7 @@ class LazyModeShapes {
     std::shared_ptr<State> state_;
 };
 
-/// Reaches the shapes behind the accessors of a result.
+/// Gives access to the shapes behind the accessors of a result.
 struct ShapesBehind {
     template <class Result>
     static auto& of(Result& result) {

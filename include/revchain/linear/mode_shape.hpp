@@ -13,14 +13,14 @@ template <Real T>
 struct WideMode {
     using S = Wide<T>;
     S height;               ///< conical height
-    std::vector<S> offset;  ///< of pins 0 ... N, the largest 1
+    std::vector<S> offset;  ///< offsets of pins 0 ... N, the largest 1
     S stiffness;            ///< y^T K y
     Narrow<S> tangent;      ///< bound of the angle to the exact shape in the norm of K, or infinity
     Narrow<S> off;          ///< bound of the relative error of `height`
 };
 
-/// Half the relative distance from `height` within which proved counts find conical height `number`
-/// and no other; 0 if they do not. `guess` is where to begin, below 1.
+/// Returns half the relative distance from `height` within which proved counts find conical height
+/// `number` and no other; 0 if they do not. The search begins at `guess`, below 1.
 template <Real T>
 Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T>& height,
                            Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {
@@ -30,20 +30,22 @@ Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T
         const S away = height * S(guess);
         const auto count = pencils.template certified_count<2>({height - away, height + away});
         const bool proved = count[0].proved && count[1].proved;
-        if (proved && count[0].above == number && count[1].above == number - 1) return guess * M(0.999);
+        if (proved && count[0].above == number && count[1].above == number - 1)
+            return guess * M(0.999);
     }
     return M(0);
 }
 
-/// The residual (lambda K - M) y in the norm of K^-1, relative to lambda y in the norm of K, with
-/// rounding and the data's errors: sum f^2/k, f the forces left over, from the free end. Cost O(N).
+/// Returns the residual (lambda K - M) y in the norm of K^-1, relative to lambda y in the norm of
+/// K, with errors of rounding and data. It is sum f^2/k; f sums residual forces from the free end.
+/// Cost O(N).
 template <Real S>
 Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
                         const std::vector<S>& offset, S* stiffness) {
     using std::abs, std::sqrt;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return M(abs(static_cast<M>(x))); };
-    S hung(M(0)), energy(M(0));  // mass times offset of all below, y^T K y
+    S hung(M(0)), energy(M(0));  // mass times offset of all below, and y^T K y
     M hung_size(0), sum(0), link(0);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const pencil::Element<S>& e = pencil.elements[m];
@@ -65,16 +67,18 @@ Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
     return sqrt(sum / static_cast<M>(energy)) / static_cast<M>(height) * M(1.001);
 }
 
-/// Mode `number` from a height near its own: alternates the shape's Rayleigh quotient in `Wide<T>`,
-/// whose error is the square of the shape's, and the shape there, until the shape is within 2^-70
-/// or three times. The angle is proved: residual over the gap to the next height (Davis and Kahan).
+/// Returns mode `number` from a height near it. It alternates between the shape's Rayleigh quotient
+/// in `Wide<T>`, whose error is the square of the shape's, and the shape at that quotient. It stops
+/// when the shape is within 2^-70, or after three rounds. The angle is proved: residual over the
+/// gap to the next height (Davis and Kahan).
 template <Real T>
 WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
                       Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {
     using std::sqrt;
     using S = Wide<T>;
     using M = Narrow<S>;
-    WideMode<T> mode{S(static_cast<M>(near)), {}, S(M(0)), std::numeric_limits<M>::infinity(), M(1)};
+    WideMode<T> mode{
+        S(static_cast<M>(near)), {}, S(M(0)), std::numeric_limits<M>::infinity(), M(1)};
     const auto rough = pencil::eigenvector(pencils.rounded(), near).offset;
     mode.height = pencil::rayleigh_quotient<S>(pencils.wide(), rough);
     M apart(0);
@@ -93,7 +97,8 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
         if (!(mode.tangent > M(0x1p-70)) || round == 2) return mode;
         S inertia(M(0));
         for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m)
-            inertia = inertia + pencil::mass_form(pencils.wide().elements[m], mode.offset[m], mode.offset[m + 1]);
+            inertia = inertia + pencil::mass_form(pencils.wide().elements[m], mode.offset[m],
+                                                  mode.offset[m + 1]);
         mode.height = inertia / mode.stiffness;
     }
     return mode;

@@ -16,8 +16,12 @@ class ModesOfOneSense {
           forward_(direction == Rotation::forward || !roots_.has_momentum()) {
         if (!roots_.spectrum()) return;
         for (const pencil::EnclosedRoot& root : roots_.spectrum()->roots)
-            if (root.is_real && (root.value.real() > 0) == forward_ && std::abs(root.value) > 0x1p-200)
-                isolated_.push_back({forward_ ? root.x.real : -root.x.real, root.radius / std::abs(root.value)});
+            if (root.is_real && (root.value.real() > 0) == forward_ &&
+                std::abs(root.value) > 0x1p-200) {
+                const RigWord x = forward_ ? root.x.real : -root.x.real;
+                isolated_.push_back(
+                    {static_cast<double>(x), root.radius / std::abs(root.value), x});
+            }
     }
 
     Index count() const {
@@ -35,7 +39,7 @@ class ModesOfOneSense {
         double error_bound;     ///< relative
         RigWord root;
     };
-    /// `many` modes from number `first` on, from 1 for the slowest.
+    /// Returns `many` modes from number `first` on, from 1 for the slowest.
     std::vector<Mode> found(Index first, Index many) const {
         const RigPencil& rig = roots_.rig();
         const bool quadratic = rig.pencil.quadratic;
@@ -43,19 +47,21 @@ class ModesOfOneSense {
         if (roots_.spectrum()) {
             roots.assign(isolated_.begin() + (first - 1), isolated_.begin() + (first - 1 + many));
         } else if (many > 0) {
-            const double length = std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
+            const double length =
+                std::ldexp(rig_.chain().total_length(), -rig.units.length_exponent);
             const double guess = quadratic ? std::sqrt(length) : length;
             roots = refined_roots(sense().roots, first - 1, many, guess, {}, {});
         }
         std::vector<Mode> modes;
         for (const FoundRoot& root : roots) {
-            const RigWord height = quadratic ? root.x * root.x : root.x;
+            const RigWord height = quadratic ? root.unrounded * root.unrounded : root.unrounded;
             modes.push_back({std::ldexp(static_cast<double>(height), rig.units.length_exponent),
-                             (quadratic ? 2.01 : 1) * root.margin + epsilon<double>(), root.x});
+                             (quadratic ? 2.01 : 1) * root.error_bound + epsilon<double>(),
+                             root.unrounded});
         }
         return modes;
     }
-    /// Offsets of the pins of a mode, free end first.
+    /// Returns offsets of the pins of a mode, free end first.
     Vector<double> shape(const Mode& mode) const {
         const RigPencil& rig = roots_.rig();
         auto pencil = forward_ ? rig.pencil : rig.pencil.reversed();

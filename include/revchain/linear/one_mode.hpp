@@ -3,13 +3,14 @@
 
 #include "revchain/linear/heights.hpp"
 
-/// One mode of a chain by counts alone. It compiles in a third of the time of `modes`, which has
-/// every method, and costs the same for a chain of a few hundred links.
+/// This header computes one mode of a chain by counts alone. It compiles in a third of the time of
+/// `modes`, which has every method, and costs the same for a chain of a few hundred links.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
+/// Returns the eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
 template <Real T>
-pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide, const Wide<T>& height) {
+pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide,
+                                  const Wide<T>& height) {
     const auto vector = pencil::eigenvector(wide, height);
     pencil::Eigenvector<T> rounded{vector.offset.template cast<T>(), {}};
     for (const auto& crossing : vector.crossings)
@@ -17,21 +18,23 @@ pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide, co
     return rounded;
 }
 
-/// Conical height and offsets of the pins, as `modes` gives them.
+/// Conical height and offsets of the pins, as `modes` returns them.
 template <Real T>
 struct OneMode {
     T conical_height;
-    Vector<T> shape;  ///< (N + 1), free end first; empty unless asked for
+    Vector<T> shape;  ///< (N + 1), free end first; empty unless requested
 };
 
-/// Mode number `mode` of the chain. Precondition: 1 <= mode <= chain.mode_count().
+/// Returns mode number `mode` of the chain. Precondition: 1 <= mode <= chain.mode_count().
 template <Real T>
 OneMode<T> one_mode(const Chain<T>& chain, Index mode, bool with_shape = true) {
     using std::ldexp;
     LazyCounter<T> assembled(chain);
-    const auto height = heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
+    const auto height =
+        heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
     OneMode<T> result{ldexp(height.eigenvalue, chain.units().length_exponent), {}};
-    if (with_shape) result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
+    if (with_shape)
+        result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
     return result;
 }
 

@@ -17,16 +17,18 @@ class Pencils {
     const pencil::ElementPencil<T>& rounded() const { return rounded_; }
     int length_exponent() const { return assembled_.units.length_exponent; }
 
-    /// A length, converted from the chain's unit to that of the pencils.
+    /// Converts a length from the chain's unit to that of the pencils.
     template <class Number>
     Number scaled(const Number& height) const {
         using std::ldexp;
         return ldexp(height, -length_exponent());
     }
 
-    /// Proved counts above heights: in T if that suffices, else in `Wide<T>` (8 times the cost).
+    /// Returns proved counts above heights: in T if that suffices, else in `Wide<T>` (8 times
+    /// slower).
     template <std::size_t L>
-    std::array<pencil::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
+    std::array<pencil::CertifiedCount, L> certified_count(
+        const std::array<Wide<T>, L>& heights) const {
         std::array<T, L> narrow;
         bool exact = true;
         for (std::size_t i = 0; i < L; ++i) {

@@ -8,14 +8,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// `assemble` in double alone, for loose tolerances, at a twentieth of its cost: 5 ns a link. Every
-/// entry is within `entry_error`, 3e-14 (less for fewer than 256 links), of exact functions of the
-/// data. Nothing if weights need several units, a centroid is above its pin, or units are extreme.
+/// Does `assemble` in double alone, for loose tolerances, at a twentieth of its cost: 5 ns a link.
+/// Every entry is within `entry_error`, 3e-14 (less for fewer than 256 links), of exact functions
+/// of the data. The result is empty if weights need several units, a centroid is above its pin, or
+/// units are extreme.
 template <std::same_as<double> T>
 std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     const ChainUnits units = chain.units();
     if (!chain.has_one_weight_unit() || !chain.centroids_below()) return std::nullopt;
-    if (std::abs(units.weight_exponent) > 1000 || std::abs(units.length_exponent) > 1000) return std::nullopt;
+    if (std::abs(units.weight_exponent) > 1000 || std::abs(units.length_exponent) > 1000)
+        return std::nullopt;
     const T per_weight = std::ldexp(T(1), -units.weight_exponent);
     const T per_length = std::ldexp(T(1), -units.length_exponent);
     pencil::ElementPencil<T> pencil;
@@ -23,9 +25,11 @@ std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     T shortest(1);
     T below(0);
     for (Index m = 0; m < chain.size(); ++m) {
-        if (m % detail::segment_size == 0) below = static_cast<T>(chain.weight_below(m)) * per_weight;
+        if (m % detail::segment_size == 0)
+            below = static_cast<T>(chain.weight_below(m)) * per_weight;
         const T weight = chain.weight()[m] * per_weight, length = chain.length()[m] * per_length;
-        const T centroid = chain.centroid()[m] * per_length, turning = static_cast<T>(chain.gyration_ratio()[m]);
+        const T centroid = chain.centroid()[m] * per_length,
+                turning = static_cast<T>(chain.gyration_ratio()[m]);
         const T per = T(1) / length, p = centroid * per, q = (length - centroid) * per;
         pencil.elements[static_cast<std::size_t>(m)] = {
             (weight * p + below) * per, weight * (p * p + turning), weight * (q * q + turning),
@@ -33,7 +37,7 @@ std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
         below += weight;
         shortest = std::min(shortest, length);
     }
-    // Sums of up to a segment of weights, and at most eight operations: quotients, products, sums.
+    // Entries have sums of up to a segment of weights, and at most eight other operations.
     const Index sums = std::min(chain.size(), detail::segment_size);
     pencil.entry_error = epsilon<T>() / T(2) * T(1.01) * T(sums + 10);
     pencil.stiffness_underflow = std::numeric_limits<T>::min() * epsilon<T>() * T(4) / shortest;

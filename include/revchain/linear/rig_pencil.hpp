@@ -13,18 +13,18 @@ struct MasslessForm {
     Index size = 0;       ///< independent motions: M has at least this many zero eigenvalues
     Index negative = 0;   ///< negative eigenvalues of the form
     Index zero = 0;       ///< zero eigenvalues of the form
-    bool certain = true;  ///< whether rounding leaves no doubt of any sign
+    bool certain = true;  ///< true if every sign is certain
 };
 
-/// The small-amplitude theory of a rig as elements: for each link stiffness sign (tension + n
-/// spin)/length, sign -1 where it stands, and mass [lower cross; cross upper]; on top a support
-/// that yields: a massless spring, the carriage at its lower pin. Weights in units of
-/// 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight, inertia or
-/// momentum are left out. If the lower end is held too, the ground of the pencil is its spring or,
-/// if it is firm, the lowest link.
+/// The small-amplitude theory of a rig as elements. Each link has the stiffness sign
+/// (tension + n spin)/length, with sign -1 if it stands, and the mass [lower cross; cross upper].
+/// On top is a support that yields: a massless spring, with the carriage at its lower pin. Weights
+/// are in units of 2^weight_exponent, lengths of 2^length_exponent. Lowest links without weight,
+/// inertia or momentum are omitted. If the lower end is held, too, the ground of the pencil is its
+/// spring or, if it is firm, the lowest link.
 ///
-/// Steady motion is Q y = 0: without momentum Q = lambda K - M and x = lambda; with momentum Q =
-/// x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+/// Steady motion is Q y = 0. Without momentum Q = lambda K - M and x = lambda. With momentum
+/// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
     pencil::SignedPencil<S> pencil;
@@ -36,7 +36,7 @@ struct RigPencil {
     Index neutral = 0;        ///< of these, elements whose stiffness is certainly 0
     bool mass_not_negative;   ///< every mass is certainly positive or 0: M >= 0
     MasslessForm massless;    ///< K, or with momentum G, on the motions without inertia
-    Index idle = 0;           ///< lowest pins left out: of links left out, or a firm end
+    Index idle = 0;           ///< omitted lowest pins: of omitted links, or a firm end
 };
 
 namespace detail {
@@ -54,23 +54,29 @@ HeldPins held_by(const Rig& rig, Index m) {
     if (rig.flywheel(m).axial_moment.high > 0) return HeldPins::both;
     if (turning && rig.fills_its_link(m) && link.weight == moved) return HeldPins::nothing;
     if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return HeldPins::both;
-    if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
+    if ((link.weight > 0 && link.gyration_ratio > none) ||
+        (moved > 0 && fluid.gyration_ratio > none))
         return HeldPins::both;
     if (!(link.weight > 0) && !(moved > 0)) return HeldPins::nothing;
     const double h = link.weight > 0 ? link.centroid : fluid.centroid;
     return h == 0 ? HeldPins::upper : h == link.length ? HeldPins::lower : HeldPins::one;
 }
 
-/// The form sum of c (y_m - y_{m+1})^2 on the motions without inertia, c an element's stiffness or,
-/// in a quadratic family, its spin. Eliminated by intervals. `free`: the lowest pin moves.
+/// Returns signs of the sum of c (y_m - y_{m+1})^2 on the motions without inertia, eliminated by
+/// intervals. c is an element's stiffness or, in a quadratic family, its spin. `free`: the lowest
+/// pin moves.
 REVCHAIN_LAZY
-MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held,
-                           bool free) {
+MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil,
+                           const std::vector<HeldPins>& held, bool free) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
-    const auto sum = [&](const I& x, const I& y) { return is_zero(x) ? y : is_zero(y) ? x : x + y; };
-    const auto product = [&](const I& x, const I& y) { return is_zero(x) || is_zero(y) ? I() : x * y; };
+    const auto sum = [&](const I& x, const I& y) {
+        return is_zero(x) ? y : is_zero(y) ? x : x + y;
+    };
+    const auto product = [&](const I& x, const I& y) {
+        return is_zero(x) || is_zero(y) ? I() : x * y;
+    };
     MasslessForm form;
     const auto eliminate = [&](const I& pivot) {
         ++form.size;
@@ -81,8 +87,8 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, con
         else
             form.certain = form.certain && pivot.positive();
     };
-    I below;  // the form of all pins passed, carried to this one
-    // Nearly always every pin has inertia, and there is no such motion.
+    I below;  // the form of all lower pins, carried to this one
+    // In most cases every pin has inertia, and there is no such motion.
     bool at_liberty = free, plain = true;
     for (const HeldPins each : held) {
         const bool unheld = each == HeldPins::nothing || each == HeldPins::upper;
@@ -93,13 +99,14 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, con
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
         const auto& off = e.error;
-        const I c = pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
+        const I c =
+            pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
         if (held[m] == HeldPins::one) {  // lower pin = -cross/lower times the upper pin
             const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
             below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
             continue;
         }
-        I carried = c;  // to the upper pin, where the lower one does not move
+        I carried = c;  // to the upper pin, if the lower one does not move
         if (free && (held[m] == HeldPins::nothing || held[m] == HeldPins::upper)) {
             const I pivot = sum(below, c);
             eliminate(pivot);
@@ -112,14 +119,16 @@ MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, con
     return form;
 }
 
-/// Whether a mass with these errors is certainly positive or 0.
+/// Returns true if a mass with these errors is certainly positive or 0.
 REVCHAIN_LAZY
 bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
     using pencil::vanishes;
-    if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper)) return high(e.lower) >= off.lower;
-    if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower)) return high(e.upper) >= off.upper;
+    if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper))
+        return high(e.lower) >= off.lower;
+    if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower))
+        return high(e.upper) >= off.upper;
     const double A = high(e.lower), B = high(e.upper), X = std::abs(high(e.cross));
     const double off_squares = A * off.upper + B * off.lower + 2 * X * off.cross;
     const double error = off_squares * 1.001 + 1e-29 * (A * B + X * X);
@@ -128,22 +137,23 @@ bool is_not_negative(const RigElement& e) {
 
 }  // namespace detail
 
-/// The elements of a rig's links, lowest first, with the signs of those that stand.
+/// Returns the elements of a rig's links, lowest first, with the signs of those that stand.
 REVCHAIN_LAZY
 std::vector<RigElement> rig_elements(const Rig& rig) {
     std::vector<RigElement> elements;
     elements.reserve(static_cast<std::size_t>(rig.size()));
     const Rigging& with = rig.rigging();
-    const bool plain = with.posture.empty() && with.displaced.empty() &&
-                       std::all_of(with.flywheels.begin(), with.flywheels.end(),
-                                   [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
+    const bool plain =
+        with.posture.empty() && with.displaced.empty() &&
+        std::all_of(with.flywheels.begin(), with.flywheels.end(),
+                    [](const Flywheel& wheel) { return wheel.axial_moment.high == 0; });
     if (!plain || !rig.chain().has_one_weight_unit()) {
         const std::vector<detail::RigLink> links = detail::rig_links(rig);
         for (Index m = 0; m < rig.size(); ++m)
             elements.push_back(rig_element(links[static_cast<std::size_t>(m)], rig.stands(m)));
         return elements;
     }
-    // Links are as in a chain, but for momentum.
+    // Links are as in a chain, except for momentum.
     using S = Wide<double>;
     const AssembledChain<double> assembled = assemble(rig.chain());
     for (const auto& e : assembled.pencil.elements)
@@ -159,8 +169,8 @@ std::vector<RigElement> rig_elements(const Rig& rig) {
     return elements;
 }
 
-/// The pencil of a rig, or with `lower_end` of one whose lower end is held too: then no link
-/// stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
+/// Returns the pencil of a rig, or with `lower_end` of one whose lower end is held, too: then no
+/// link stands, spins or is in a fluid. Every number has an error bound. Cost O(N). Throws
 /// InvalidArgument as rig_links does, unless gravity > 0, and for stiffness or tension out of
 /// range.
 REVCHAIN_LAZY
@@ -190,7 +200,8 @@ RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard
     if (lower_end)
         if (auto spring = support_element(lower_end->support, result.units)) {
             std::swap(spring->lower, spring->upper);
-            add(*spring, lower_end->support.carriage_weight > 0 ? HeldPins::upper : HeldPins::nothing, true);
+            add(*spring,
+                lower_end->support.carriage_weight > 0 ? HeldPins::upper : HeldPins::nothing, true);
         }
     for (Index m = 0; m < rig.size(); ++m) {
         RigElement e = links[static_cast<std::size_t>(m)];

@@ -6,12 +6,60 @@
 #include <string>
 #include <vector>
 
-#include "revchain/linear/rig_counts.hpp"
+#include "revchain/linear/aberth_heights.hpp"
+#include "revchain/linear/counted_roots.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/spectrum.hpp"
 
-/// The roots of a rig's pencil in each sense of rotation, by number.
+/// This header has the roots of a rig's pencil in each sense of rotation, by number.
 namespace revchain::inline REVCHAIN_BUILD::detail {
+
+/// The relative error before rounding up to which a root counts as proved.
+inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double>::epsilon();
+
+/// The heights of a chain under a support that yields, all found together; nothing for other rigs,
+/// for a few of many modes, and where one is not proved. `elements` is the rig's pencil.
+REVCHAIN_LAZY
+std::optional<std::vector<FoundRoot>> roots_under_a_spring(
+    const Rig& rig, const pencil::ElementPencil<RigWord>& elements, const ModeRange& range,
+    Index available) {
+    const Chain<double>& chain = rig.chain();
+    const Rigging& with = rig.rigging();
+    if (with.support.is_firm() || !with.posture.empty() || !with.flywheels.empty() ||
+        !with.displaced.empty() || chain.mode_count() != chain.size() ||
+        !chain.has_one_weight_unit() ||
+        chain.size() >= static_cast<Index>(pencil::aberth::most_links) ||
+        4 * range.count < available)
+        return std::nullopt;
+    const FloatingPointStateGuard quiet;
+    const auto& spring = elements.elements.back();
+    pencil::aberth::LumpedLinks links;
+    if (!lump(links, chain, SpringOnTop{spring.stiffness.high, spring.lower.high}))
+        return std::nullopt;
+    pencil::AberthSpectrum all;
+    if (static_cast<Index>(links.size) != available ||
+        !pencil::aberth_spectrum(links, 0x1p-40, all))
+        return std::nullopt;
+    const auto roots = refined(elements, range, available, all, worst_unrounded_root);
+    if (!roots) return std::nullopt;
+    std::vector<FoundRoot> found;
+    for (const auto& root : *roots) found.push_back({root.root.high, root.bound(), root.root});
+    return found;
+}
+
+/// The roots of a range of numbers, from 1, eight at a time, to an ulp of the rounded result;
+/// nothing where not proved. K > 0, no mass is negative. `elements` is the pencil of `roots`.
+template <bool Spins>
+std::optional<std::vector<FoundRoot>> roots_in_lanes(
+    const pencil::ElementPencil<RigWord, Spins>& elements, const CountedRoots& roots,
+    const ModeRange& range, Index available, double guess,
+    const std::function<void(Index)>& finished) {
+    return roots_in_lanes(
+        elements, pencil::rounded<double>(elements),
+        [&](double x) { return roots.certified(RigWord(x)); }, range, available, guess,
+        worst_unrounded_root, finished,
+        [&](Index j, const pencil::Bracket<double>& bracket) { return roots.refined(j, bracket); });
+}
 
 /// Heights below 0, under the conditions of `counted_heights`; nothing where there are none.
 REVCHAIN_LAZY
@@ -28,8 +76,9 @@ std::optional<CountedSense> counted_negative_heights(const RigPencil& rig) {
     return CountedSense(CountedRoots(rig.pencil, rig.pace, falling - size, 1, -1), count);
 }
 
-/// Speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form Q is
-/// negative where there is inertia; elsewhere it has the signs of G and, where G is 0, is positive.
+/// Returns speeds of one sense of a rig with momentum; K > 0 and M >= 0. Just above x = 0 the form
+/// Q is negative where there is inertia; elsewhere it has the signs of G, and is positive where G
+/// is 0.
 REVCHAIN_LAZY
 CountedSense counted_speeds(const RigPencil& rig, bool forward) {
     const MasslessForm& form = rig.massless;
@@ -45,8 +94,9 @@ inline constexpr Index most_isolated = 20'000;
 class RigRoots {
    public:
     /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements
-    /// whose roots have to be isolated. `advance(share)` as in `complex_spectrum`.
-    RigRoots(std::string_view place, const Rig& rig, double gravity, const std::function<void(double)>& advance)
+    /// whose roots must be isolated. `advance(share)` is as in `complex_spectrum`.
+    RigRoots(std::string_view place, const Rig& rig, double gravity,
+             const std::function<void(double)>& advance)
         : rig_(rig_pencil(rig, gravity)), gravity_(gravity) {
         const bool quadratic = rig_.pencil.quadratic;
         if (rig_.pencil.size() == 0) return;
@@ -58,22 +108,24 @@ class RigRoots {
         }
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
-                          "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a "
+                          "a rig whose speeds may be complex (standing links with momentum, driven "
+                          "wheels, floats in a "
                           "fluid that turns with them) is solved for at most " +
                               std::to_string(most_isolated) + " links and supports that yield",
                           rig_.pencil.size());
-        // A massless coordinate has a root x = 0, and two where no momentum acts on it.
+        // A massless coordinate has one root x = 0, and two if no momentum acts on it.
         const Index zeros = rig_.massless.size + (quadratic ? rig_.massless.zero : 0);
         spectrum_ = pencil::complex_spectrum(rig_.pencil, zeros, advance);
     }
 
     const RigPencil& rig() const { return rig_; }
     bool has_momentum() const { return rig_.pencil.quadratic; }
-    /// Counted senses, with momentum backward second; empty where roots are isolated or none exist.
+    /// Returns counted senses, backward second (with momentum); none if roots are isolated or
+    /// absent.
     const std::vector<CountedSense>& senses() const { return senses_; }
     const std::optional<pencil::ComplexSpectrum>& spectrum() const { return spectrum_; }
 
-    /// x of a conical height, or of a speed; the sign of a speed tells the sense.
+    /// These return x of a conical height, or of a speed. The sign of a speed only gives the sense.
     RigWord at_height(double height) const {
         const RigWord scaled(std::ldexp(height, -rig_.units.length_exponent));
         return has_momentum() ? sqrt(scaled) : scaled;
@@ -84,12 +136,12 @@ class RigRoots {
         return RigWord(std::ldexp(gravity_, -rig_.units.length_exponent)) / n / n;
     }
 
-    /// The number of modes of a sense with a larger x, where `proved`.
+    /// Returns the number of modes of a sense with a larger x, if `proved`.
     pencil::CertifiedCount count(const RigWord& x, bool forward) const {
         return spectrum_ ? isolated(x, forward) : senses_[forward ? 0 : 1].roots.certified(x);
     }
 
-    /// The number of modes of a sense with a larger x, see `number_above`.
+    /// Returns the number of modes of a sense with a larger x, see `number_above`.
     Index above(const RigWord& x, bool forward, std::string_view place, double value) const {
         if (rig_.pencil.size() == 0) return 0;
         if (!spectrum_) return senses_[forward ? 0 : 1].above(x, place, value);
@@ -98,7 +150,7 @@ class RigRoots {
     }
 
    private:
-    /// Counts discs beyond x, and that of x if det Q changes sign between x and its end.
+    /// Counts discs beyond x, and the disc around x if det Q changes sign between x and its end.
     pencil::CertifiedCount isolated(const RigWord& x, bool forward) const {
         pencil::CertifiedCount result{0, spectrum_->proved};
         if (!result.proved) return result;

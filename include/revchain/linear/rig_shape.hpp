@@ -13,7 +13,7 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 /// Finds the shape of a mode from its root.
 class RigShape {
    public:
-    /// `idle`: the number of lowest pins that the pencil leaves out.
+    /// `idle` is the number of lowest pins that the pencil omits.
     RigShape(const Chain<double>& chain, Index idle, pencil::SignedPencil<RigWord> sense)
         : chain_(chain), places_(pin_places(chain)), idle_(idle), sense_(std::move(sense)) {}
 
@@ -26,7 +26,8 @@ class RigShape {
         Vector<double> rounded(sense_.size() + 1);
         for (Index i = 0; i <= sense_.size(); ++i)
             rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
-        if (shapes.residual.size() > 0) shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
+        if (shapes.residual.size() > 0)
+            shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
         const Index pins = shapes.offset.cols() - idle_;
         shapes.offset.row(j).tail(pins) = rounded.head(pins).transpose();
         complete(shapes, j);
@@ -60,11 +61,11 @@ class RigShape {
     pencil::SignedPencil<RigWord> sense_;
 };
 
-/// Finds shapes of rigged chains from the roots of their modes; `Spins`: those of the elements.
+/// Finds shapes of rigged chains from the roots of their modes. `Spins` is that of the elements.
 template <bool Spins = false>
 class RigShapeFinder {
    public:
-    /// `elements`: the pencil once more, if shapes can be found eight at a time; else null.
+    /// `elements` is the same pencil if shapes can be found eight at a time, else null.
     RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense,
                    std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements,
                    std::vector<RigWord> roots, Index threads)
@@ -73,8 +74,9 @@ class RigShapeFinder {
           elements_(std::move(elements)),
           roots_(std::move(roots)) {}
 
-    /// The shapes of `count` modes from index `first` on; residuals and nodes if asked.
-    ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
+    /// Returns shapes of `count` modes from index `first` on; residuals and nodes if `details`.
+    ModeShapes<double> operator()(Index first, Index count, bool details,
+                                  Progress* progress) const {
         const Threads used("modes", threads_);
         ModeShapes<double> shapes = room_for_shapes(shape_.chain(), count, details);
         if (elements_)
@@ -82,7 +84,7 @@ class RigShapeFinder {
         else
             for (Index j = 0; j < count; ++j) {
                 shape_.find(shapes, j, root(first + j));
-                advance(progress, 1.0);  // may be cancelled
+                advance(progress, 1.0);  // may throw Cancelled
             }
         return shapes;
     }
@@ -91,7 +93,8 @@ class RigShapeFinder {
     const RigWord& root(Index j) const { return roots_[static_cast<std::size_t>(j)]; }
 
     void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
-        shapes_by_lanes(shapes, *elements_, shape_.idle(),
+        shapes_by_lanes(
+            shapes, *elements_, shape_.idle(),
             [&](Index j, RigWord& exact, RigWord& rounded) { exact = rounded = root(from + j); },
             [&](Index j) { shape_.find(shapes, j, root(from + j)); },
             [&](Index j, const auto&, std::size_t) { shape_.complete(shapes, j); }, progress);

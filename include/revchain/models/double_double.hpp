@@ -8,8 +8,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
-/// Bisection in double-double, for tolerances below the precision of double. `Answer::conical_height_low` is the low
-/// word of each height. Bounds are proved. The smallest is 1e-28; they grow with N.
+/// Bisection in double-double, for tolerances below the precision of double.
+/// `Answer::conical_height_low` is the low word of each height. Bounds are proved. The smallest is
+/// 3e-27; they grow with N.
 struct DoubleDoubleBisection {
     static constexpr std::string_view name = "double-double";
 
@@ -19,7 +20,8 @@ struct DoubleDoubleBisection {
             return Fit::no("double holds that tolerance");
         return {};
     }
-    /// Predicted from measurements (N = 1 to 3000, ten kinds of chain); the bound of the answer is proved.
+    /// Predicted from measurements (N = 1 to 3000, ten kinds of chain); the bound of the answer is
+    /// proved.
     double error_bound(const ChainKind& kind, const Question&) const {
         const double n = detail::real(kind.size);
         return 1e-29 * (30 + n) * (10 + n);
@@ -30,8 +32,8 @@ struct DoubleDoubleBisection {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto wide = revchain::detail::converted<DoubleDouble>(chain);
         revchain::detail::LazyCounter<DoubleDouble> assembled(wide);
-        const auto found = revchain::detail::heights_by_bisection(wide, assembled, {question.first, question.count},
-                                                                  {.progress = question.progress});
+        const auto found = revchain::detail::heights_by_bisection(
+            wide, assembled, {question.first, question.count}, {.progress = question.progress});
         const int exponent = chain.units().length_exponent;
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         answer.conical_height_low.resize(question.count);

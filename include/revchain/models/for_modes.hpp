@@ -10,13 +10,18 @@
 #include "revchain/models/select.hpp"
 #include "revchain/models/tapered_chain.hpp"
 
-/// The models that `modes` may choose from, and those of them that the library has compiled.
+/// The models from which `modes` may choose, and those that the library has compiled.
 #if defined(REVCHAIN_COMPILED)
 namespace revchain::inline REVCHAIN_BUILD::models::detail {
-extern template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&, const Question&);
-extern template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&, const Question&);
-extern template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&, const Question&);
-extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&, const Question&);
-extern template Answer answer_by(const Bisection&, const Chain<double>&, const ChainKind&, const Question&);
+extern template Answer answer_by(const CoarseChain&, const Chain<double>&, const ChainKind&,
+                                 const Question&);
+extern template Answer answer_by(const Aberth&, const Chain<double>&, const ChainKind&,
+                                 const Question&);
+extern template Answer answer_by(const Interpolated&, const Chain<double>&, const ChainKind&,
+                                 const Question&);
+extern template Answer answer_by(const Condensed&, const Chain<double>&, const ChainKind&,
+                                 const Question&);
+extern template Answer answer_by(const Bisection&, const Chain<double>&, const ChainKind&,
+                                 const Question&);
 }  // namespace revchain::models::detail
 #endif

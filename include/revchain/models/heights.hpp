@@ -8,19 +8,23 @@
 
 namespace revchain::inline REVCHAIN_BUILD::models {
 
-/// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
-/// that are not small and for tolerances below what a double holds. The last always answers.
-inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain,
-                            Aberth, Interpolated, Condensed, DoubleDoubleBisection, FiniteAmplitude, Bisection>
+/// All models for conical heights, in the order in which they are listed. They are the models of
+/// `modes`, and those for large inclinations and for tolerances below the precision of double. The
+/// last always answers.
+inline constexpr std::tuple<ClosedForms, ConicalPendulum, EqualPlummets, ContinuousChain,
+                            TaperedChain, CoarseChain, Aberth, Interpolated, Condensed,
+                            DoubleDoubleBisection, FiniteAmplitude, Bisection>
     height_models{};
 
-/// `select` and `solve` among all of them.
+/// Call `select` and `solve` with all these models.
 REVCHAIN_LAZY
-auto select(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
+auto select(const Chain<double>& chain, const Question& question,
+            std::optional<double> time_budget = std::nullopt) {
     return select(height_models, chain, question, time_budget);
 }
 REVCHAIN_LAZY
-Solution solve(const Chain<double>& chain, const Question& question, std::optional<double> time_budget = std::nullopt) {
+Solution solve(const Chain<double>& chain, const Question& question,
+               std::optional<double> time_budget = std::nullopt) {
     return solve(height_models, chain, question, time_budget);
 }
 

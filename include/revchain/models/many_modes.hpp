@@ -8,9 +8,10 @@
 /// The methods for many modes at once, as models. Their bounds are proved.
 namespace revchain::inline REVCHAIN_BUILD::models {
 
-/// All modes of a small chain at once in SIMD lanes, for plummets and for links whose pendulum length is less than
-/// their length. Other chains, and those for which 1e-14 or the tolerance cannot be proved, are refused at once. The
-/// predicted bound holds for most chains; with looser tolerances, up to 3e-11 was proved for links far apart.
+/// All modes of a small chain at once in SIMD lanes, for plummets and for links whose pendulum
+/// length is less than their length. Other chains, and those for which 1e-14 or the tolerance
+/// cannot be proved, are refused at once. The predicted bound holds for most chains; with looser
+/// tolerances, up to 3e-11 was proved for links far apart.
 struct Aberth {
     static constexpr std::string_view name = "aberth";
     static constexpr bool is_proved = true;
@@ -18,14 +19,16 @@ struct Aberth {
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 100) return Fit::no("more than 100 links");
-        if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
+        if (!kind.short_pendulums)
+            return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        // Limits measured with one heavy tip and with weights graded from the tip up, where numbers leave the range of
-        // double. For chains of few links, trying costs less time than predicting that.
+        // Limits measured with one heavy tip and with weights graded from the tip up, where numbers
+        // leave the range of double. For chains of few links, trying costs less time than
+        // predicting that.
         if (kind.equal || kind.size < ChainKind::least_sampled) return {};
         const double n = detail::real(kind.size);
-        const bool far_apart =
-            kind.point_masses ? kind.range > 19.5 || n * kind.range > 790 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
+        const bool far_apart = kind.point_masses ? kind.range > 19.5 || n * kind.range > 790
+                                                 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
         if (far_apart) return Fit::no("links that weigh too little beside what hangs below them");
         return {};
     }
@@ -33,18 +36,22 @@ struct Aberth {
         return question.rtol >= loose ? loose : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        const double n = detail::real(kind.size), lanes = 8 * std::ceil(detail::real(question.count) / 8);
-        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n + (question.rtol >= loose ? 0 : 5e-7 + 2e-8 * n + 4.8e-9 * n * lanes);
+        const double n = detail::real(kind.size),
+                     lanes = 8 * std::ceil(detail::real(question.count) / 8);
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n +
+               (question.rtol >= loose ? 0 : 5e-7 + 2e-8 * n + 4.8e-9 * n * lanes);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
-        return detail::answered(chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question),
-                                                                           detail::options_for(question)));
+        detail::Assembled assembled(chain, question);
+        return detail::answered(chain, revchain::detail::heights_by_aberth(
+                                           chain, assembled.counter(), detail::range_of(question),
+                                           detail::options_for(question)));
     }
 };
 
-/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. As for `Aberth`, the predicted
-/// bound holds for most chains.
+/// Interpolates the characteristic polynomial, for many modes, to the last digit or 1e-14. As for
+/// `Aberth`, the predicted bound holds for most chains.
 struct Interpolated {
     static constexpr std::string_view name = "interpolated";
     static constexpr bool is_proved = true;
@@ -66,10 +73,10 @@ struct Interpolated {
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
-        revchain::detail::LazyCounter<double> assembled(chain);
-        return detail::answered(
-            chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,
-                                                              detail::options_for(question)));
+        detail::Assembled assembled(chain, question);
+        return detail::answered(chain, revchain::detail::heights_by_interpolation(
+                                           assembled.counter(), detail::range_of(question),
+                                           kind.mode_count, detail::options_for(question)));
     }
 };
 

@@ -27,8 +27,9 @@ namespace models {
 
 using revchain::detail::throw_invalid;
 
-/// The choice of `select`: `model` is an index into `estimates`, past the last where none applies. Where
-/// `meets_tolerance` is false, no model within the budget meets it, and this is the most accurate.
+/// The choice of `select`: `model` is an index into `estimates`, past the last if none applies. If
+/// `meets_tolerance` is false, no model within the budget meets the tolerance. `model` is then the
+/// most accurate within the budget, or else the cheapest.
 template <std::size_t N>
 struct Choice {
     std::array<Estimate, N> estimates;
@@ -50,42 +51,51 @@ void check(const ChainKind& kind, const Question& question) {
     if (question.first < 1) throw_invalid("select", "first must be at least 1", question.first);
     if (question.count < 1) throw_invalid("select", "count must be at least 1", question.count);
     if (question.last() > kind.mode_count)
-        throw_invalid(
-            "select",
-            "the last mode asked for must be at most number " + std::to_string(kind.mode_count) + ", the last there is",
-            question.last());
-    if (!(question.rtol >= 0)) throw_invalid("select", "rtol must not be negative or NaN", question.rtol);
+        throw_invalid("select",
+                      "the last mode asked for must be at most number " +
+                          std::to_string(kind.mode_count) + ", the last there is",
+                      question.last());
+    if (!(question.rtol >= 0))
+        throw_invalid("select", "rtol must not be negative or NaN", question.rtol);
     if (!(question.inclination >= 0 && question.inclination < std::numbers::pi / 2))
-        throw_invalid("select", "inclination must be at least 0 and less than a right angle", question.inclination);
+        throw_invalid("select", "inclination must be at least 0 and less than a right angle",
+                      question.inclination);
 }
 
-/// The tolerance to be kept: the one asked for, or full accuracy.
+/// Returns the tolerance to meet: the requested one, or full accuracy.
 REVCHAIN_LAZY
-double kept_tolerance(const Question& question) { return question.rtol > 0 ? question.rtol : full_accuracy; }
+double kept_tolerance(const Question& question) {
+    return question.rtol > 0 ? question.rtol : full_accuracy;
+}
 
 template <Model M>
 Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {
-    if (question.proved && !is_proved<M>()) return {model.name, Fit::no("its bound is not proved by counts")};
+    if (question.proved && !is_proved<M>())
+        return {model.name, Fit::no("its bound is not proved by counts")};
     Estimate estimate{model.name, model.applies(kind, question)};
     const double off = is_linear<M>() ? error_of_small_inclinations(kind, question) : 0;
     if (estimate.fit.applies && !(off < 1))
         estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
     if (!estimate.fit.applies) return estimate;
-    estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
+    estimate.error_bound = model.error_bound(kind, question),
+    estimate.cost = model.cost(kind, question);
     estimate.error_bound += off * (1 + estimate.error_bound);
     return estimate;
 }
 
 template <Model... Models>
-std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,
-                                                  const Question& question) {
-    return std::apply([&](const Models&... each) { return std::array{estimate(each, kind, question)...}; }, models);
+std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models,
+                                                  const ChainKind& kind, const Question& question) {
+    return std::apply(
+        [&](const Models&... each) { return std::array{estimate(each, kind, question)...}; },
+        models);
 }
 
-/// The cheapest model, of those not `out`, that keeps the tolerance, else the most accurate, the cheaper of equals.
+/// Returns the cheapest model that meets the tolerance, of those not `out`. If none does, returns
+/// the most accurate one, the cheaper of equals.
 template <std::size_t N>
-std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const std::array<bool, N>& out, double rtol,
-                                double budget) {
+std::optional<std::size_t> best(const std::array<Estimate, N>& estimates,
+                                const std::array<bool, N>& out, double rtol, double budget) {
     std::optional<std::size_t> chosen;
     const auto better = [&](const Estimate& x, const Estimate& y) {
         const bool x_meets = x.error_bound <= rtol, y_meets = y.error_bound <= rtol;
@@ -100,10 +110,11 @@ std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const 
     return chosen;
 }
 
-/// The answer of one model, its bounds widened by what the model itself does not know: digits lost to numbers below the
-/// normal ones, and inclinations.
+/// Returns the answer of one model. Its bounds are widened for effects that the model does not
+/// include: digits lost in subnormal numbers, and inclinations.
 template <Model M>
-Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind,
+                 const Question& question) {
     Answer answer = model.solve(chain, kind, question);
     constexpr double least = std::numeric_limits<double>::denorm_min();
     for (Index j = 0; j < answer.conical_height.size(); ++j)
@@ -119,8 +130,8 @@ Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& ki
 }
 
 template <Model... Models>
-Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain, const ChainKind& kind,
-             const Question& question) {
+Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain,
+             const ChainKind& kind, const Question& question) {
     Answer answer;
     std::size_t i = 0;
     const auto ask = [&](const auto& model) {
@@ -132,39 +143,45 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 
 }  // namespace detail
 
-/// Chooses the cheapest model whose bound keeps the tolerance. With a `time_budget` in seconds it must be within that
-/// too; if none is, the choice is the most accurate within the budget, or else the cheapest. Cost: 0.2 microseconds; no
-/// link is read. Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a budget
-/// that is not positive.
+/// Chooses the cheapest model whose bound meets the tolerance. With a `time_budget` in seconds, its
+/// time must be within the budget too. If there is no such model, the choice is the most accurate
+/// within the budget, or else the cheapest. Cost: 0.2 microseconds; no link is read.
+/// Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a
+/// budget that is not positive.
 template <Model... Models>
-Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind, const Question& question,
+Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind,
+                                 const Question& question,
                                  std::optional<double> time_budget = std::nullopt) {
     detail::check(kind, question);
     if (time_budget) revchain::detail::require_positive("select", "time budget", *time_budget);
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double budget = time_budget.value_or(infinity);
-    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::kept_tolerance(question), budget);
-    if (!chosen)  // no model is within the budget: the cheapest one
+    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {},
+                                                  detail::kept_tolerance(question), budget);
+    if (!chosen)  // no model is within the budget
         chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
-    choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
-                             choice.estimates[*chosen].cost <= budget;
+    choice.meets_tolerance =
+        chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
+        choice.estimates[*chosen].cost <= budget;
     return choice;
 }
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
-                                 const Question& question, std::optional<double> time_budget = std::nullopt) {
+                                 const Question& question,
+                                 std::optional<double> time_budget = std::nullopt) {
     return select(models, ChainKind(chain), question, time_budget);
 }
 
-/// The heights asked for, by the model chosen. Where a model turns out to have no answer, or a worse bound than
-/// predicted and asked for, the next best is tried. The status is `tolerance_not_met` where no model within the budget
-/// keeps the tolerance; the bounds are then the best available. There are no heights where no model applies, as for
-/// unlike links without inertia at an inclination, and where none of the list has an answer.
+/// Returns the requested heights by the chosen model. If that model has no answer, or a bound worse
+/// than predicted and requested, the next best is tried. The status is `tolerance_not_met` if no
+/// model within the budget meets the tolerance; the bounds are then the best available. There are
+/// no heights if no model applies, as for unequal links without inertia at an inclination, or if no
+/// model of the list has an answer.
 template <Model... Models>
-Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
-               std::optional<double> time_budget = std::nullopt) {
+Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
+               const Question& question, std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
     const auto choice = select(models, kind, question, time_budget);
     const double rtol = detail::kept_tolerance(question);
@@ -176,22 +193,26 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
         const std::string_view name = choice.estimates[*model].name;
         Answer answer = detail::asked(models, *model, chain, kind, question);
         const double bound = answer.worst_bound();
-        if (bound <= rtol && choice.estimates[*model].cost <= budget) return {std::move(answer), name, Status::success};
+        if (bound <= rtol && choice.estimates[*model].cost <= budget)
+            return {std::move(answer), name, Status::success};
         if (answer.found && (best.model.empty() || bound < best.answer.worst_bound()))
             best = {std::move(answer), name, Status::tolerance_not_met};
         out[*model] = true;
         model = detail::best(choice.estimates, out, rtol, budget);
-        if (model && !best.model.empty() && !(choice.estimates[*model].error_bound < best.answer.worst_bound())) break;
+        if (model && !best.model.empty() &&
+            !(choice.estimates[*model].error_bound < best.answer.worst_bound()))
+            break;
     }
     return best;
 }
 
-/// The heights by the model of that name, whatever others would cost. There are no heights where it does not apply or
-/// finds no answer. The status is then `tolerance_not_met`, as it is where the bound exceeds the tolerance.
+/// Returns the heights by the model of that name, whatever others would cost. There are no heights
+/// if it does not apply or finds no answer. The status is then `tolerance_not_met`, as it is if the
+/// bound exceeds the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
-Solution solve_by(const std::tuple<Models...>& models, std::string_view model, const Chain<double>& chain,
-                  const Question& question) {
+Solution solve_by(const std::tuple<Models...>& models, std::string_view model,
+                  const Chain<double>& chain, const Question& question) {
     const ChainKind kind(chain);
     detail::check(kind, question);
     const auto estimates = detail::estimates(models, kind, question);
@@ -200,7 +221,8 @@ Solution solve_by(const std::tuple<Models...>& models, std::string_view model, c
         Solution found{Answer::none(), estimates[i].name, Status::tolerance_not_met};
         if (!estimates[i].fit.applies) return found;
         found.answer = detail::asked(models, i, chain, kind, question);
-        if (found.answer.worst_bound() <= detail::kept_tolerance(question)) found.status = Status::success;
+        if (found.answer.worst_bound() <= detail::kept_tolerance(question))
+            found.status = Status::success;
         return found;
     }
     throw_invalid("solve_by", "there is no model " + std::string(model));

@@ -13,9 +13,10 @@ using TwoDoubles = DoubleWord<double>;
 
 inline constexpr TwoDoubles two_word_pi = std::numbers::pi_v<DoubleDouble>.word();
 
-/// J_order + i Y_order = M exp(i theta) for large z: theta = z - (order/2 + 1/4) pi - lag(z) and
-/// M^2 = 2 density(z) / (pi z). DLMF 10.18.17-18; theta' = 1 / density gives one series from the
-/// other. Accuracy from z = first(order) on: lag 1e-15 relative, density 3e-16. Cost: 5 to 30 ns.
+/// Series of modulus and phase: J_order + i Y_order = M exp(i theta) for large z. Here theta = z -
+/// (order/2 + 1/4) pi - lag(z) and M^2 = 2 density(z) / (pi z), DLMF 10.18.17-18. theta' = 1 /
+/// density gives one series from the other. Accuracy for z >= first(order): lag 1e-15 relative,
+/// density 3e-16. Cost: 5 to 30 ns.
 class PhaseSeries {
    public:
     explicit PhaseSeries(double order) {
@@ -23,13 +24,14 @@ class PhaseSeries {
         std::array<double, terms + 1> rate{1};
         for (std::size_t m = 1; m <= terms; ++m) {
             const double odd = 2 * static_cast<double>(m) - 1;
-            density_[m] = density_[m - 1] * odd / (odd + 1) * ((2 * order - odd) * (2 * order + odd)) / 4;
+            density_[m] =
+                density_[m - 1] * odd / (odd + 1) * ((2 * order - odd) * (2 * order + odd)) / 4;
             for (std::size_t i = 1; i <= m; ++i) rate[m] -= density_[i] * rate[m - i];
             lag_[m] = rate[m] / odd;
         }
     }
 
-    /// The least z for which the series are accurate.
+    /// Returns the least z for which the series are accurate.
     static double first(double order) { return std::max(30.0, 8 * order); }
 
     double lag(double z) const { return sum(lag_, 1 / z / z) / z; }
@@ -45,7 +47,7 @@ class PhaseSeries {
             const double term = coefficient[m] * power;
             total += term;
             const double size = std::abs(term);
-            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // one may vanish
+            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // one term may vanish
             before = size;
         }
         return total;

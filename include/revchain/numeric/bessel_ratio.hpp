@@ -8,13 +8,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// The number of orders above `order` at which Miller's recurrence begins: it leaves out 1e-20.
+/// The number of orders above `order` at which Miller's recurrence begins; the error is 1e-20.
 inline Index steps_above(double order, double z) {
     return static_cast<Index>(std::max(0.0, z - order) + 9 * std::cbrt(std::max(z, 1.0)) + 12);
 }
 
-/// J_order(z) / J_{order+1}(z) by Miller's recurrence in S; order > -1, z >= 2e-8. Cost: 3 ns a
-/// step in double, 15 ns in two doubles; z - order + 9 cbrt(z) + 12 steps.
+/// Returns J_order(z) / J_{order+1}(z) by Miller's recurrence in S; order > -1, z >= 2e-8. Cost: 3
+/// ns a step in double, 15 ns in two doubles; there are z - order + 9 cbrt(z) + 12 steps.
 template <class S>
 S bessel_ratio(double order, double z) {
     const S step = S(2.0) / S(z);

@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The plain sum of scalars without words. The sums below have one word more than their terms.
+/// A plain sum, for scalars without words. The sums below have one word more than their terms.
 template <class S>
 struct CompensatedSum {
     S high{};
@@ -14,7 +14,8 @@ struct CompensatedSum {
     S value() const { return high; }
 };
 
-/// Sum of n double words in three words. Error: one rounding, and (2 n u)^3/2 of the terms' sizes.
+/// A sum of n double words in three words. Error: one rounding, and (2 n u)^3/2 of the terms'
+/// sizes.
 template <std::floating_point T>
 struct CompensatedSum<DoubleWord<T>> {
     T high{}, middle{}, low{};
@@ -29,8 +30,8 @@ struct CompensatedSum<DoubleWord<T>> {
     DoubleWord<T> value() const { return two_sum(high, middle) + DoubleWord<T>(low); }
 };
 
-/// Sum of numbers, or of packs lane by lane, in two words: the second sums the rounding errors of
-/// the first. Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
+/// A sum of numbers, or of packs lane by lane, in two words. The second word sums the rounding
+/// errors of the first. The relative error for n terms of one sign is u + (n u)^2, u = epsilon/2.
 template <Word V>
 struct CompensatedSum<V> {
     V high{}, low{};
@@ -40,7 +41,7 @@ struct CompensatedSum<V> {
         high = total.high;
         low += total.low;
     }
-    /// Adds x where |x| <= |high|, or where it is the first number.
+    /// Adds x if |x| <= |high|, or if x is the first number.
     [[gnu::always_inline]] void add_smaller(const V& x) {
         const DoubleWord<V> total = fast_two_sum(high, x);
         high = total.high;
@@ -50,7 +51,7 @@ struct CompensatedSum<V> {
         add(x.high);
         low += x.low;
     }
-    /// Exact for powers of two.
+    /// Multiplies the sum by a number; exact for powers of two.
     [[gnu::always_inline]] void scale(const V& by) {
         high *= by;
         low *= by;

@@ -2,11 +2,11 @@
 #pragma once
 
 /// Public functions are declared in public headers, which include their definitions at the end.
-/// With REVCHAIN_COMPILED (set by the CMake target revchain::compiled) that include is left out:
-/// the functions are ordinary ones, defined in the library. Without it they are templates, so that
-/// a program compiles only those that it calls: REVCHAIN_DECLARE stands before declarations,
-/// REVCHAIN_DEFINE before definitions. REVCHAIN_LAZY makes templates of the functions behind them
-/// in both cases. REVCHAIN_INLINE stands before definitions of members.
+/// With REVCHAIN_COMPILED (set by the CMake target revchain::compiled) that include is omitted: the
+/// functions are ordinary functions, defined in the library. Without it they are templates, so that
+/// a program compiles only the functions that it calls. REVCHAIN_DECLARE is written before
+/// declarations, REVCHAIN_DEFINE before definitions. REVCHAIN_LAZY makes templates of internal
+/// functions in both cases. REVCHAIN_INLINE is written before definitions of members.
 #if defined(REVCHAIN_COMPILED)
 #define REVCHAIN_DECLARE
 #define REVCHAIN_DEFINE
@@ -22,7 +22,7 @@
     template <int = 0> \
     inline
 
-/// Functions that need GSL have macros of their own, as they are in another library,
+/// Functions that need GSL have macros of their own, because they are in another library,
 /// revchain::compiled_analytic.
 #if defined(REVCHAIN_COMPILED_ANALYTIC)
 #define REVCHAIN_DECLARE_ANALYTIC

@@ -14,23 +14,24 @@
 #define REVCHAIN_NO_VECTOR_EXTENSIONS
 #endif
 
-/// Stands before the body of a lambda that is always inlined; C++20 has no attribute for that.
+/// Write this before the body of a lambda that is always inlined; C++20 has no attribute for that.
 #if defined(__GNUC__)
 #define REVCHAIN_INLINED __attribute__((always_inline))
 #else
 #define REVCHAIN_INLINED
 #endif
 
-// Defined if the instruction set is chosen at run time: the flags do not name the largest one.
-#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
+// Defined if the instruction set is chosen at run time and the flags do not name the largest one.
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
+    !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) &&           \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 #define REVCHAIN_SEVERAL_TARGETS
 #endif
 
 // REVCHAIN_BUILD is the inline namespace of the whole library. It names the flags of the compiler,
-// such as for_avx2_fma or for_sse2_and_above. A linker merges inline functions of one name; code
-// with other flags has other names, and therefore does not link with a library compiled
-// differently. Flags without a macro of their own, such as -ffp-contract, do not show.
+// such as for_avx2_fma or for_sse2_and_above. A linker merges inline functions of one name. Code
+// with other flags has other names, so it does not link with a library compiled differently. Flags
+// without a macro, such as -ffp-contract, have no effect on the name.
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define REVCHAIN_BUILD_SET avx512
 #elif defined(__AVX512F__)
@@ -58,20 +59,22 @@
 #else
 #define REVCHAIN_BUILD_KIND
 #endif
-#if defined(REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
+#if defined( \
+    REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
 #define REVCHAIN_BUILD_LIBRARY _compiled
 #else
 #define REVCHAIN_BUILD_LIBRARY
 #endif
 #define REVCHAIN_JOINED(set, fma, kind, library) for_##set##fma##kind##library
 #define REVCHAIN_JOIN(set, fma, kind, library) REVCHAIN_JOINED(set, fma, kind, library)
-#define REVCHAIN_BUILD \
-    REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND, REVCHAIN_BUILD_LIBRARY)
+#define REVCHAIN_BUILD                                                         \
+    REVCHAIN_JOIN(REVCHAIN_BUILD_SET, REVCHAIN_BUILD_FMA, REVCHAIN_BUILD_KIND, \
+                  REVCHAIN_BUILD_LIBRARY)
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// x itself. The compiler must not fuse the operation that computed x with one that uses it, which
-/// error-free transformations need. GCC fuses a product with every sum that uses it, also across
+/// Returns x, which the compiler must not fuse with the operation that computed it: error-free
+/// transformations need this. GCC fuses a product with every sum that uses it, also across
 /// functions that it inlines. Clang fuses within one expression and, under -ffp-contract=fast, only
 /// a product that is used once; the transformations use each argument more often. Other compilers
 /// must not fuse across statements: MSVC does so only under /fp:contract or /fp:fast.

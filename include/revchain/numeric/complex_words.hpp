@@ -7,8 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// Products and quotients of complex numbers of two words, for Eigen too. The standard does not
-/// specify the operators of std::complex for such scalars, and those of libc++ do not compile.
+/// These are products and quotients of complex numbers of two words, also for Eigen. The standard
+/// does not specify std::complex's operators for such scalars, and those of libc++ do not compile.
 inline std::complex<DoubleDouble> operator*(const std::complex<DoubleDouble>& x,
                                             const std::complex<DoubleDouble>& y) {
     return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};

@@ -15,7 +15,7 @@ struct Registers {
     static constexpr std::size_t doubles = Bytes / sizeof(double);
 };
 
-/// Doubles in the largest registers. Every multiple of it fills whole registers of each size.
+/// The number of doubles in the largest registers. Every multiple fills registers of each size.
 inline constexpr std::size_t most_doubles = 8;
 
 namespace detail {
@@ -33,8 +33,8 @@ using OwnRegisters = Registers<32, own_fused>;
 using OwnRegisters = Registers<16, own_fused>;
 #endif
 
-/// Numbers that long recursions take side by side: two registers, one of AVX-512. More than two spill, which costs 1.2
-/// times the time with SSE2 and twice the code.
+/// The number of lanes of long recursions: two registers, or one of AVX-512. More than two
+/// registers spill, which takes 1.2 times as long with SSE2, and twice the code.
 #if defined(REVCHAIN_SEVERAL_TARGETS)
 inline constexpr std::size_t lanes_at_once = most_doubles;
 #else
@@ -59,9 +59,10 @@ template <class F>
 enum class Processor { basic, avx2, avx512 };
 inline Processor processor() {
     static const Processor found = [] {
-        if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return Processor::basic;
-        const bool large = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                           __builtin_cpu_supports("avx512vl");
+        if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+            return Processor::basic;
+        const bool large = __builtin_cpu_supports("avx512f") &&
+                           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
         return large ? Processor::avx512 : Processor::avx2;
     }();
     return found;
@@ -70,13 +71,13 @@ inline Processor processor() {
 
 }  // namespace detail
 
-/// f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With
-/// REVCHAIN_DISPATCH it is compiled for SSE2, AVX2 and AVX-512, and the best is chosen at run time:
-/// a portable build is then a few per cent slower than one for the machine, and compiles in twice
+/// Returns f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With
+/// REVCHAIN_DISPATCH it is compiled for SSE2, AVX2 and AVX-512, and the best is chosen at run time.
+/// A portable build is then a few per cent slower than one for the machine, and compiles in twice
 /// the time. The Python module and revchain::compiled are built that way. Another kind of processor
-/// may change last digits (products and sums are fused where the compiler may do so). f and
-/// everything it calls that handles packs must be always_inline. Other functions remain code for
-/// the oldest processor, and packs must not be passed to them by value.
+/// may change last digits (products and sums are fused where the compiler may do so). f and all
+/// functions it calls that handle packs must be always_inline. Other functions remain code for the
+/// oldest processor, and packs must not be passed to them by value.
 template <class F>
 auto simd(const F& f) {
 #if defined(REVCHAIN_SEVERAL_TARGETS)

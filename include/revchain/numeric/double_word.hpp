@@ -11,15 +11,16 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T. A type of its
-/// own, because no maintained header-only library offers one without Boost. Relative error of one
-/// operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3.
-/// `operation_error<DoubleWord<T>>()` is at least twice that, for compilers that contract a product
-/// and a sum into one fused operation. Valid while no low part underflows. Algorithms 4, 6, 9, 12,
-/// 15 and 17 of Joldes, Muller, Popescu (2017), doi:10.1145/3121432.
+/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T. (No maintained
+/// header-only library offers one without Boost.) Relative error of one operation (u = epsilon/2):
+/// + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3. `operation_error<DoubleWord<T>>()` is at
+/// least twice that, for compilers that contract a product and a sum into one fused operation.
+/// Valid while no low part underflows. Algorithms 4, 6, 9, 12, 15 and 17 of Joldes, Muller, Popescu
+/// (2017), doi:10.1145/3121432.
 template <Word T>
 struct DoubleWord {
-    static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
+    static_assert(std::numeric_limits<Lane<T>>::is_iec559,
+                  "double words need correctly rounded sums");
     T high{};
     T low{};
 
@@ -35,11 +36,12 @@ struct DoubleWord {
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
     friend constexpr auto operator<=>(const DoubleWord& x,
-                                      const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
+                                      const DoubleWord& y) =
+        default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
 
-/// x + y = high + low exactly (Knuth).
+/// Returns x + y = high + low exactly (Knuth).
 template <Word T>
 [[gnu::always_inline]] constexpr DoubleWord<T> two_sum(const T& x_given, const T& y_given) {
     const T x = detail::rounded(x_given), y = detail::rounded(y_given);
@@ -48,7 +50,7 @@ template <Word T>
     return {s, (x - (s - v)) + (y - v)};
 }
 
-/// x + y = high + low exactly, for |x| >= |y| or x = 0 (Dekker).
+/// Returns x + y = high + low exactly, for |x| >= |y| or x = 0 (Dekker).
 template <Word T>
 [[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x_given, const T& y_given) {
     const T x = detail::rounded(x_given), y = detail::rounded(y_given);
@@ -66,11 +68,12 @@ inline constexpr bool has_fast_fma =
 #endif
 }  // namespace detail
 
-/// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest
-/// number. `fused` uses one fused multiply-add, which must be an instruction of the target: a
-/// library call is slower than Dekker's product, used otherwise. That is right on every target:
-/// halves of float and double are cut from the bits, so all their products are exact and may be
-/// fused with sums. Veltkamp's split, which fusing would spoil, serves long double alone.
+/// Returns x y = high + low exactly, if x y 2^-digits is normal and |x|, |y| are below half the
+/// largest number. `fused` uses one fused multiply-add, which must be an instruction of the target,
+/// because a library call is slower than Dekker's product. Dekker's product is used otherwise, and
+/// is right on every target. It cuts halves of float and double from the bits, so all their
+/// products are exact and may be fused with sums. Only long double uses Veltkamp's split, which
+/// fusing would spoil.
 template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = detail::rounded(T(x * y));
@@ -85,14 +88,15 @@ template <bool fused, Word T>
     }
 }
 
-/// x y = high + low, fused if the whole program is compiled for fused multiply-add.
+/// Returns x y = high + low, fused if the whole program is compiled for fused multiply-add.
 template <Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     return two_product<detail::has_fast_fma<Lane<T>>, T>(x, y);
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x,
+                                                         const DoubleWord<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y.high);
     const DoubleWord<T> t = two_sum(x.low, y.low);
     const DoubleWord<T> v = fast_two_sum(s.high, s.low + t.high);
@@ -100,35 +104,41 @@ template <Word T>
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x,
+                                                         const std::type_identity_t<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y);
     return fast_two_sum(s.high, x.low + s.low);
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x,
+                                                         const DoubleWord<T>& y) {
     return x + (-y);
 }
 
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x,
+                                                         const std::type_identity_t<T>& y) {
     return x + (-y);
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x,
+                                                      const DoubleWord<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y.high);
     return fast_two_sum(p.high, p.low + (x.low * y.low + x.high * y.low + x.low * y.high));
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x,
+                                                      const std::type_identity_t<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y);
     return fast_two_sum(p.high, p.low + x.low * y);
 }
 
 template <Word T>
-[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x,
+                                                      const DoubleWord<T>& y) {
     const T q = x.high / y.high;
     const DoubleWord<T> r = y * q;
     return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
@@ -155,13 +165,13 @@ inline bool isfinite(const DoubleWord<T>& x) {
     return std::isfinite(x.high) && std::isfinite(x.low);
 }
 
-/// Whether x is finite and its low part is at most what rounding the sum leaves over.
+/// Returns true if x is finite and its low part is at most the rounding error of the sum.
 template <std::floating_point T>
 inline bool is_normalised(const DoubleWord<T>& x) {
     return std::isfinite(x.high) && x.high + x.low == x.high;
 }
 
-/// One Newton step on the root of the high part.
+/// Returns the square root by one Newton step from the root of the high part.
 template <std::floating_point T>
 inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
     const T s = std::sqrt(x.high);
@@ -178,7 +188,7 @@ template <IsPack V>
 
 namespace detail {
 
-/// x in every lane of a pack.
+/// Returns x in every lane of a pack.
 template <IsPack V>
 [[gnu::always_inline]] inline DoubleWord<V> in_all_lanes(const DoubleWord<Lane<V>>& x) {
     return {V(x.high), V(x.low)};
@@ -205,22 +215,22 @@ struct Narrower<DoubleWord<T>> : std::type_identity<T> {};
 }  // namespace detail
 
 /// The arithmetic in which results in T are certified: double for float, a double word for double
-/// and long double, T itself for other types (whose bounds then grow with the number of links).
+/// and long double. For other types it is T, and bounds then grow with the number of links.
 template <class T>
 using Wide = typename detail::Wider<T>::type;
 
-/// The type of sizes and errors of numbers of type S: T for a double word of T, else S itself.
+/// The type of sizes and errors of numbers of type S: T for a double word of T, else S.
 template <class S>
 using Narrow = typename detail::Narrower<S>::type;
 
-/// Whether x is finite and, as a double word, normalised.
+/// Returns true if x is finite and, if it is a double word, normalised.
 template <Real S>
 bool is_normalised(const S& x) {
     using std::isfinite;
     return isfinite(x);
 }
 
-/// Bound on the relative error of one operation + - * / in S.
+/// Returns a bound on the relative error of one operation + - * / in S.
 template <class S>
 constexpr Narrow<S> operation_error() {
     return static_cast<Narrow<S>>(std::numeric_limits<S>::epsilon()) / Narrow<S>(2);
@@ -237,9 +247,13 @@ struct std::numeric_limits<revchain::DoubleWord<T>> : std::numeric_limits<T> {
     static constexpr revchain::DoubleWord<T> min() { return std::numeric_limits<T>::min(); }
     static constexpr revchain::DoubleWord<T> max() { return std::numeric_limits<T>::max(); }
     static constexpr revchain::DoubleWord<T> lowest() { return std::numeric_limits<T>::lowest(); }
-    static constexpr revchain::DoubleWord<T> infinity() { return std::numeric_limits<T>::infinity(); }
-    static constexpr revchain::DoubleWord<T> quiet_NaN() { return std::numeric_limits<T>::quiet_NaN(); }
-    /// 64 u^2: four times the bound of the least accurate operation, division.
+    static constexpr revchain::DoubleWord<T> infinity() {
+        return std::numeric_limits<T>::infinity();
+    }
+    static constexpr revchain::DoubleWord<T> quiet_NaN() {
+        return std::numeric_limits<T>::quiet_NaN();
+    }
+    /// Returns 64 u^2: four times the bound of the least accurate operation, division.
     static constexpr revchain::DoubleWord<T> epsilon() {
         return std::numeric_limits<T>::epsilon() * std::numeric_limits<T>::epsilon() * T(16);
     }

@@ -7,8 +7,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// While this exists, no floating-point flag is raised and nothing traps: for code in which
-/// infinities and NaNs are valid results ("nothing proved").
+/// While an object of this class exists, no floating-point flag is raised and nothing traps. It is
+/// for code in which infinities and NaNs are valid results (no proof).
 class FloatingPointStateGuard {
    public:
     FloatingPointStateGuard() { std::feholdexcept(&before_); }

@@ -6,13 +6,13 @@
 #include "revchain/numeric/double_word.hpp"
 
 /// Interval arithmetic for proofs. Results are rounded to nearest and widened by three times the
-/// error of one operation: they hold without directed rounding, with or without contraction.
+/// error of one operation, so they hold without directed rounding, with or without contraction.
 /// Libraries that switch the rounding mode (Boost.Numeric.Interval) need -frounding-math in the
-/// user's program. Where the digit and a half lost matters, wider numbers are used.
+/// user's program. Where the lost digit and a half matters, wider numbers are used.
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// low <= number <= high; NaN where nothing is known (an overflow), so that comparisons fail. If T
-/// is a pack, each lane holds an interval (simd/interval_lanes.hpp).
+/// An interval, low <= number <= high. The ends are NaN if nothing is known (an overflow), so
+/// comparisons fail. If T is a pack, each lane holds an interval (simd/interval_lanes.hpp).
 template <class T>
 requires(Real<T> || IsPack<T>) struct Interval {
     T low{}, high{};
@@ -24,12 +24,12 @@ requires(Real<T> || IsPack<T>) struct Interval {
 
     bool positive() const { return low > T(0); }
     bool negative() const { return high < T(0); }
-    /// Also true where nothing is known.
+    /// Returns true if the number may be 0, also if nothing is known.
     bool may_vanish() const { return !(positive() || negative()); }
     bool contains(const T& x) const { return low <= x && x <= high; }
-    /// 1 or -1, or 0 where it may vanish.
+    /// Returns 1 or -1, or 0 if the number may vanish.
     int sign() const { return positive() ? 1 : negative() ? -1 : 0; }
-    /// The largest absolute value; NaN if an end is NaN.
+    /// Returns the largest absolute value; NaN if an end is NaN.
     T size() const {
         using std::abs;
         const T a = abs(low), b = abs(high);
@@ -38,16 +38,18 @@ requires(Real<T> || IsPack<T>) struct Interval {
     [[gnu::always_inline]] T width() const { return high - low; }
     [[gnu::always_inline]] T middle() const { return low + (high - low) / T(2); }
 
-    [[gnu::always_inline]] friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
+    [[gnu::always_inline]] friend Interval operator-(const Interval& x) {
+        return {-x.high, -x.low};
+    }
 };
 
 namespace detail {
 
-/// Bound on the absolute error from underflow: at most five roundings by the smallest number.
+/// The bound on the absolute error from underflow: at most five roundings by the smallest number.
 template <Real T>
 inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
 
-/// Bounds, from below and from above, of an exact result that was rounded to x.
+/// These return bounds, from below and from above, of an exact result that was rounded to x.
 template <Real T>
 T down(const T& x) {
     using std::abs;
@@ -59,8 +61,8 @@ T up(const T& x) {
     return x + (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
 }
 
-/// An interval that holds x and whose ends are 0 or at least 2^-960: quotients and roots of smaller
-/// double words lose digits. Other scalars are rounded correctly.
+/// Returns an interval that holds x and whose ends are 0 or at least 2^-960. (Quotients and roots
+/// of smaller double words lose digits. Other scalars are rounded correctly.)
 template <Real T>
 Interval<T> without_faint_ends(const Interval<T>& x) {
     if constexpr (std::numeric_limits<T>::is_iec559) {
@@ -100,7 +102,7 @@ Interval<T> operator*(const Interval<T>& x, const Interval<T>& y) {
     return {detail::down(std::min(std::min(a, b), std::min(c, d))),
             detail::up(std::max(std::max(a, b), std::max(c, d)))};
 }
-/// NaN unless y is away from 0, and where it is empty.
+/// Returns the quotient; NaN unless y excludes 0, and where it is empty.
 template <Real T>
 Interval<T> operator/(const Interval<T>& dividend, const Interval<T>& y) {
     if (y.negative() && !y.positive()) return -dividend / -y;
@@ -118,21 +120,22 @@ Interval<T> square(const Interval<T>& x) {
     const T low = x.may_vanish() ? T(0) : std::min(a, b);
     return {std::max(T(0), detail::down(T(low * low))), detail::up(T(high * high))};
 }
-/// The root of a number that is not negative.
+/// Returns the root of a number that is not negative.
 template <Real T>
 Interval<T> sqrt(const Interval<T>& radicand) {
     using std::sqrt;
     const Interval<T> x = detail::without_faint_ends(radicand);
-    return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))), detail::up(T(sqrt(x.high)))};
+    return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))),
+            detail::up(T(sqrt(x.high)))};
 }
 
-/// The intersection of two intervals that hold the same number.
+/// Returns the intersection of two intervals that hold the same number.
 template <Real T>
 Interval<T> common(const Interval<T>& x, const Interval<T>& y) {
     return {x.low > y.low || !(y.low == y.low) ? x.low : y.low,
             x.high < y.high || !(y.high == y.high) ? x.high : y.high};
 }
-/// The smallest interval that contains both. An end is NaN if that end of x or of y is NaN.
+/// Returns the smallest interval that contains both. An end is NaN if that end of x or of y is NaN.
 template <Real T>
 Interval<T> hull(const Interval<T>& x, const Interval<T>& y) {
     return {!(x.low == x.low) || x.low < y.low ? x.low : y.low,

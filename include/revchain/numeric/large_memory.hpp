@@ -12,8 +12,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Tells the system that memory just allocated will all be written: from 4 MB on in pages of 2 MB,
-/// where Linux has them. Pages of 4 kB for a million numbers take longer than copying the numbers.
+/// Tells the system that new memory will all be written. From 4 MB on Linux then uses pages of 2
+/// MB, if it can. Pages of 4 kB for a million numbers take longer than copying the numbers.
 inline void will_be_filled([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     constexpr std::uintptr_t page = 4096;

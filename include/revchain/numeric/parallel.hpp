@@ -21,8 +21,9 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// While it exists, `parallel_for` called on the thread that made it uses this many threads, or
-/// with 0 all processors. Else, and on threads that it starts, it uses 1. Throws if negative.
+/// While it exists, `parallel_for` on the same thread uses this many threads, or with 0 all
+/// processors. Otherwise, and on threads that it starts, it uses 1. Throws if `threads` is
+/// negative.
 class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {
@@ -35,27 +36,30 @@ class Threads {
     static Index used() { return used_; }
 
    private:
-    /// Reads a file: not for every question.
-    static Index processors() { return std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency())); }
+    /// Returns the number of processors. It reads a file, so it is not called often.
+    static Index processors() {
+        return std::max<Index>(1, static_cast<Index>(std::thread::hardware_concurrency()));
+    }
 
     static inline thread_local Index used_ = 1;
     Index before_;
 };
 
-/// A function f(begin, end) by reference: threads are started by one function, whatever they compute.
+/// A function f(begin, end) by reference, so that one function starts threads for any computation.
 struct RangeFunction {
     const void* function;
     void (*call)(const void* function, Index begin, Index end);
     void operator()(Index begin, Index end) const { call(function, begin, end); }
 };
 
-/// `parallel_for` on several threads.
+/// Does `parallel_for` on several threads.
 inline void on_threads(Index threads, Index count, Index chunk, const RangeFunction& f) {
-    const Index chunks = (count + chunk - 1) / chunk, range = std::max<Index>(1, chunks / (8 * threads)) * chunk;
+    const Index chunks = (count + chunk - 1) / chunk,
+                range = std::max<Index>(1, chunks / (8 * threads)) * chunk;
     std::atomic<Index> next = 0;
     std::atomic<bool> stop = false;
     std::exception_ptr thrown;
-    std::mutex mutex;  // of `running`
+    std::mutex mutex;  // protects `running`
     std::condition_variable ended;
     Index running = 0;
     const auto attempt = [&](const auto& work) {
@@ -89,13 +93,13 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
                 ++running;
             }
         } catch (const std::system_error&) {
-        }  // no more threads: those started do the work
+        }  // no more threads: those that started do the work
         ranges();
         std::unique_lock lock(mutex);
         while (running > 0) {
             ended.wait_for(lock, std::chrono::milliseconds(50));
             lock.unlock();
-            look();
+            check_interrupt();
             lock.lock();
         }
     });
@@ -104,18 +108,21 @@ inline void on_threads(Index threads, Index count, Index chunk, const RangeFunct
 }
 
 /// Calls f(begin, end) for ranges that together are 0 ... count - 1, on `Threads::used()` threads.
-/// Ranges begin at multiples of `chunk`; with one thread or chunk there is one range, and no thread
+/// Ranges begin at multiples of `chunk`. With one thread or chunk there is one range, and no thread
 /// is started. Results do not depend on the number of threads if f treats each chunk by itself. The
-/// first exception reaches the caller after all threads have ended; they stop at their next `look`.
-/// The caller calls `look` every 50 ms, if f does. Cost: 50 microseconds for each thread started.
+/// first exception reaches the caller after all threads have ended; they stop at their next
+/// `check_interrupt`. The caller calls `check_interrupt` every 50 ms, if f does. Cost: 50
+/// microseconds for each started thread.
 template <std::integral I, class F>
 void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
-    const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
+    const I chunks = (count + chunk - 1) / chunk,
+            threads = std::min(static_cast<I>(Threads::used()), chunks);
     if (threads > 1)
-        on_threads(static_cast<Index>(threads), static_cast<Index>(count), static_cast<Index>(chunk),
-                   {&f, [](const void* function, Index begin, Index end) {
-                        (*static_cast<const F*>(function))(static_cast<I>(begin), static_cast<I>(end));
-                    }});
+        on_threads(
+            static_cast<Index>(threads), static_cast<Index>(count), static_cast<Index>(chunk),
+            {&f, [](const void* function, Index begin, Index end) {
+                 (*static_cast<const F*>(function))(static_cast<I>(begin), static_cast<I>(end));
+             }});
     else if (count > 0)
         f(I(0), count);
 }

@@ -8,8 +8,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A product or quotient as a fraction times a power of two: no intermediate result leaves the
-/// range. Accuracy: half an ulp for each factor after the first, and for each sum.
+/// A product or quotient as a fraction times a power of two, so no intermediate result overflows or
+/// underflows. Accuracy: half an ulp for each factor after the first, and for each sum.
 template <Real T>
 struct Product {
     T fraction = T(1);
@@ -24,7 +24,8 @@ struct Product {
         if (x.fraction == T(0)) return *this;
         if (fraction == T(0)) return x;
         const int common = std::max(exponent, x.exponent);
-        return {ldexp(fraction, exponent - common) + ldexp(x.fraction, x.exponent - common), common};
+        return {ldexp(fraction, exponent - common) + ldexp(x.fraction, x.exponent - common),
+                common};
     }
     Product plus(const T& x) const { return plus(of(x)); }
     Product root() const {

@@ -3,10 +3,12 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
+#error \
+    "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
 #endif
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2)
-#error "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
+#error \
+    "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
 #endif
 
 #include <Eigen/Core>
@@ -22,13 +24,13 @@ namespace revchain::inline REVCHAIN_BUILD {
 using Index = Eigen::Index;
 
 namespace detail {
-/// pi to the last digit of T; libc++ 14 has that of double for long double.
+/// The number pi to the last digit of T; libc++ 14 has the value of double for long double.
 template <class T>
 inline constexpr T pi = std::numbers::pi_v<T>;
 template <>
 inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;
 
-// The functions of a scalar besides its operators, found in std or next to the type.
+// These functions of a scalar, besides its operators, are found in std or next to the type.
 using std::abs, std::frexp, std::isfinite, std::ldexp, std::sqrt;
 template <class T>
 concept HasRealFunctions = requires(T x, int* exponent) {
@@ -43,8 +45,9 @@ concept HasRealFunctions = requires(T x, int* exponent) {
 /// A binary floating-point scalar: float, double, long double, or any type with the same operators,
 /// `std::numeric_limits`, and `abs`, `sqrt`, `ldexp`, `frexp`, `isfinite` found next to the type.
 template <class T>
-concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
-               std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
+concept Real =
+    std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
+    std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
     { x + y } -> std::convertible_to<T>;
     { x - y } -> std::convertible_to<T>;
     { x* y } -> std::convertible_to<T>;
@@ -56,7 +59,7 @@ concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>
     T(0.5);
 };
 
-// Results hold the next two, which get their memory from `malloc` whatever the compiler's flags.
+// Results hold the next two types, whose memory comes from `malloc`, whatever the compiler's flags.
 // How Eigen allocates other matrices depends on the instruction set.
 
 /// A column of numbers.
@@ -67,11 +70,11 @@ using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 template <class T>
 using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
-/// A square matrix, inside the library only.
+/// A square matrix, used only inside the library.
 template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// The distance from 1 to the next number, 2^-52 for double. An "ulp" is a relative `epsilon`.
+/// Returns the gap from 1 to the next number, 2^-52 for double. An "ulp" is a relative `epsilon`.
 template <Real T>
 inline T epsilon() {
     return std::numeric_limits<T>::epsilon();

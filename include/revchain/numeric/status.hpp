@@ -10,14 +10,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A wrong call (in Python: ValueError). The message has function, rule and value:
-/// "revchain::Chain: links[2]: length must be positive, got -0.5". The arguments are unchanged.
+/// The exception for a wrong call (in Python: ValueError). Its message has function, rule and
+/// value: "revchain::Chain: links[2]: length must be positive, got -0.5". Arguments are unchanged.
 class InvalidArgument : public std::invalid_argument {
    public:
     using std::invalid_argument::invalid_argument;
 };
 
-/// The caller asked a running computation to stop. (In Python: revchain.Cancelled.)
+/// The exception if the caller stopped a running computation. (In Python: revchain.Cancelled.)
 class Cancelled : public std::runtime_error {
    public:
     using std::runtime_error::runtime_error;
@@ -25,8 +25,8 @@ class Cancelled : public std::runtime_error {
 
 /// The outcome of a computation.
 enum class Status {
-    success,            ///< a proved bound meets the tolerance asked for
-    tolerance_not_met,  ///< it does not; `error_bound` says what was reached
+    success,            ///< a proved bound meets the requested tolerance
+    tolerance_not_met,  ///< no proved bound meets it; `error_bound` is the bound reached
 };
 
 inline std::string_view to_string(Status status) {
@@ -44,33 +44,37 @@ template <class T>
         return text.str();
     };
     using Limits = std::numeric_limits<T>;
-    // The fewest digits that give the same number when read back.
+    // These are the fewest digits that give the same number when read back.
     if constexpr (std::is_floating_point_v<T>)
         for (int digits = 6; digits < Limits::max_digits10; ++digits) {
             T back{};
-            if (std::istringstream(written(digits)) >> back && back == value) return written(digits);
+            if (std::istringstream(written(digits)) >> back && back == value)
+                return written(digits);
         }
     return written(Limits::is_specialized ? Limits::max_digits10 : 17);
 }
 
 // Functions that throw are marked cold: a compiler optimizes them for size, which takes less time.
 template <class T>
-[[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function, std::string_view sentence,
+[[noreturn, gnu::cold, gnu::noinline]] void throw_invalid(std::string_view function,
+                                                          std::string_view sentence,
                                                           const T& value) {
-    throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence) + ", got " +
-                          in_digits(value));
+    throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence) +
+                          ", got " + in_digits(value));
 }
 
-[[noreturn, gnu::cold, gnu::noinline]] inline void throw_invalid(std::string_view function, std::string_view sentence) {
+[[noreturn, gnu::cold, gnu::noinline]] inline void throw_invalid(std::string_view function,
+                                                                 std::string_view sentence) {
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence));
 }
 
 template <class T>
-[[noreturn]] void throw_rule(std::string_view function, std::string_view name, std::string_view rule, const T& value) {
+[[noreturn]] void throw_rule(std::string_view function, std::string_view name,
+                             std::string_view rule, const T& value) {
     throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
 }
 
-/// Throws InvalidArgument unless every value is finite and `good`; names and values in pairs.
+/// Throws InvalidArgument unless every value is finite and `good`. Names and values are in pairs.
 template <class Good, Real T, class... Rest>
 void require(const Good& good, std::string_view rule, std::string_view function,
              std::string_view name, const T& value, const Rest&... rest) {
@@ -79,18 +83,20 @@ void require(const Good& good, std::string_view rule, std::string_view function,
     if constexpr (sizeof...(rest) > 0) require(good, rule, function, rest...);
 }
 
-/// Throw InvalidArgument unless every value is finite and as the name says; arguments as above.
+/// These throw InvalidArgument unless every value is finite and as the name says (same arguments).
 template <class... Pairs>
 void require_finite(std::string_view function, const Pairs&... pairs) {
     require([](const auto&) { return true; }, "finite", function, pairs...);
 }
 template <class... Pairs>
 void require_positive(std::string_view function, const Pairs&... pairs) {
-    require([]<class T>(const T& x) { return x > T(0); }, "positive and finite", function, pairs...);
+    require([]<class T>(const T& x) { return x > T(0); }, "positive and finite", function,
+            pairs...);
 }
 template <class... Pairs>
 void require_not_negative(std::string_view function, const Pairs&... pairs) {
-    require([]<class T>(const T& x) { return !(x < T(0)); }, "finite and not negative", function, pairs...);
+    require([]<class T>(const T& x) { return !(x < T(0)); }, "finite and not negative", function,
+            pairs...);
 }
 
 }  // namespace detail

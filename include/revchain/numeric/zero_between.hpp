@@ -8,21 +8,24 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
-/// Zeros of functions of one number in known brackets; for all scalars, unlike other libraries.
+/// This header finds zeros of functions of one number in known brackets. It works for all scalars,
+/// unlike other libraries.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// More halvings than a bracket of numbers in T can need.
+/// A number of halvings that exceeds the need of any bracket of numbers in T.
 template <Real T>
-inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
+inline constexpr int most_halvings = 2 * (std::numeric_limits<T>::max_exponent -
+                                          std::numeric_limits<T>::min_exponent);
 
-/// The last step of Newton's method: the zero is `from - step`, in two words to more digits than T.
+/// The last step of Newton's method. The zero is `from - step`, in two words to more digits than T.
 template <Real T>
 struct NewtonStep {
     T from, step;
 };
 
-/// The zero of a function that increases through it once between `low` and `high`: Newton's method
-/// from `start`, bracketed by halving, to `enough` of the zero. `value_and_slope(x)` is a pair.
+/// Returns the zero of a function that increases through it once between `low` and `high`, to a
+/// relative `enough`: Newton's method from `start`, bracketed by halving. `value_and_slope(x)`
+/// returns a pair.
 template <Real T, class F>
 NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T enough) {
     using std::abs;
@@ -35,7 +38,7 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
         if (abs(step) <= enough * abs(x)) return {x, step};
         const auto is_within = [&](const T& y) { return y > low && y < high; };
         T next = x - step;
-        // Steps that do not shrink by half are no better than halving.
+        // A step that does not shrink by half is no better than halving.
         if (!is_within(next) || abs(step) > last / T(2)) next = low + (high - low) / T(2);
         last = abs(next - x);
         x = next;
@@ -44,8 +47,8 @@ NewtonStep<T> newton_between(T low, T high, const F& value_and_slope, T start, T
     return {x, T(0)};
 }
 
-/// The zero that `newton_between` finds from the middle, to the last digit of T or `enough`. Cost:
-/// about six evaluations, and one for each halving where Newton's method fails.
+/// Returns the zero that `newton_between` finds from the middle, to the last digit of T or
+/// `enough`. Cost: about six evaluations, and one for each halving where Newton's method fails.
 template <Real T, class F>
 T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() / T(2)) {
     const T middle = low + (high - low) / T(2);
@@ -53,13 +56,13 @@ T zero_between(T low, T high, const F& value_and_slope, T enough = epsilon<T>() 
     return last.from - last.step;
 }
 
-/// The zeros of a function that increases through one above the first, third, ... of `places` and
-/// decreases through one above the others, each below the next of `places` or `end`.
+/// Returns zeros of a function, one above each of `places` and below the next of them or `end`. The
+/// function increases through the first, third, ... zero and decreases through the others.
 template <class F>
 Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
     Vector<double> zeros(places.size());
     for (Index i = 0; i < places.size(); ++i) {
-        look();
+        check_interrupt();
         const double sign = i % 2 == 0 ? 1 : -1;
         const double next = i + 1 < places.size() ? places[i + 1] : end;
         zeros[i] = zero_between(places[i], next, [&](double x) {
@@ -81,36 +84,40 @@ struct SignChange {
     ValueAt<T> low, high;
 };
 
-/// A sign change of a function that increases through 0 above 0, from `guess` by factors of 2.
+/// Returns a sign change, from `guess` by factors of 2, of a function that increases through 0
+/// above 0.
 template <Real T, class F>
 SignChange<T> sign_change_near(T guess, const F& value) {
     const auto at = [&](const T& x) { return ValueAt<T>{x, value(x)}; };
     SignChange<T> found{at(guess), {}};
     found.high = found.low;
-    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i) found = {found.high, at(found.high.x * T(2))};
-    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i) found = {at(found.low.x / T(2)), found.low};
+    for (int i = 0; i < most_halvings<T> && found.high.value < T(0); ++i)
+        found = {found.high, at(found.high.x * T(2))};
+    for (int i = 0; i < most_halvings<T> && found.low.value > T(0); ++i)
+        found = {at(found.low.x / T(2)), found.low};
     return found;
 }
 
-/// The width and the value at which a search ends. It ends at the last digit in any case.
+/// The width and the value at which a search ends. It always ends at the last digit.
 template <Real T>
 struct Enough {
     T width{}, value{};
 };
 
-/// The zero within a sign change, without a slope: inverse quadratic interpolation, and halving
-/// where three points show no suitable bend. NaN where the signs agree, and as soon as `value(x)`
-/// is NaN. Source: T. R. Chandrupatla (1997), doi:10.1016/S0965-9978(96)00051-8; the first step is
-/// that of the chord. Cost: five to nine evaluations of a smooth function.
+/// Returns the zero within a sign change, without a slope: inverse quadratic interpolation, and
+/// halving where three points show no suitable curvature. The result is NaN if the signs agree, and
+/// as soon as `value(x)` is NaN. Source: T. R. Chandrupatla (1997),
+/// doi:10.1016/S0965-9978(96)00051-8, with a first step along the chord. Cost: five to nine
+/// evaluations of a smooth function.
 template <Real T, class F>
 T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& enough = {}) {
     using std::abs;
-    // a: the last point; b: one on the other side of the zero; c: the last that was replaced
+    // a is the last point, b a point on the other side of the zero, c the last replaced point.
     ValueAt<T> a = bracket.high, b = bracket.low, c = b;
     if (a.value != T(0) && b.value != T(0) && (a.value < T(0)) == (b.value < T(0)))
         return std::numeric_limits<T>::quiet_NaN();
-    T share = a.value / (a.value - b.value);  // of the way from a to b
-    if (!(share >= T(0))) share = T(0.5);     // an infinite value
+    T share = a.value / (a.value - b.value);  // share of the way from a to b
+    if (!(share >= T(0))) share = T(0.5);     // for an infinite value
     for (int round = 0; round < most_halvings<T>; ++round) {
         const ValueAt<T>& nearest = abs(a.value) < abs(b.value) ? a : b;
         const T width = b.x - a.x;
@@ -133,8 +140,9 @@ T zero_between(const SignChange<T>& bracket, const F& value, const Enough<T>& en
     return a.x;
 }
 
-/// The state between two at which `off(state)` vanishes, to a share of 2e-16 or `enough`; it is
-/// `at_low` and `at_high` at the two. `at(share)` is the state part of the way, or nothing.
+/// Returns the state between two others at which `off(state)` vanishes, to a share of 2e-16 or
+/// `enough`. `off` is `at_low` and `at_high` at these two. `at(share)` returns the state at a share
+/// of the way, or nothing.
 template <class At, class Off>
 auto state_between(double at_low, double at_high, const At& at, const Off& off, double enough = 0) {
     decltype(at(0.0)) found;
@@ -147,9 +155,9 @@ auto state_between(double at_low, double at_high, const At& at, const Off& off, 
     return found;
 }
 
-/// Two numbers of any kind between which something changes, brought together by at most 200
-/// halvings. `side(x)` is negative where x may replace `low`, positive where it may replace `high`,
-/// and 0, which ends the search, where that cannot be decided.
+/// Returns two numbers of any kind between which something changes, after at most 200 halvings.
+/// `side(x)` is negative if x may replace `low`, and positive if it may replace `high`. It is 0,
+/// which ends the search, if that cannot be decided.
 template <class N, class F>
 std::pair<N, N> halved(N low, N high, const F& side) {
     for (int round = 0; round < 200; ++round) {

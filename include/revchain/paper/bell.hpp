@@ -6,10 +6,10 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// G(r) = h1 r^2 - [(m + 1) l1 - m l2 - a2] r - (m + 1) a2 = 0 gives the ratios of inclinations of
-/// the modes: §8 (14) with lambda = l1 + a2/r, the moment of the clapper about its pin. With f the
-/// ratio of the weights, a2 (m + 1) = f h2 + a2 and a2 m l2 = f (h2^2 + rho2^2). Lengths are in the
-/// chain's unit.
+/// The zeros of G(r) = h1 r^2 - [(m + 1) l1 - m l2 - a2] r - (m + 1) a2 are the ratios of
+/// inclinations of the modes. G is §8 (14) with lambda = l1 + a2/r, from the moment of the clapper
+/// about its pin. With f the ratio of the weights, a2 (m + 1) = f h2 + a2 and a2 m l2 = f (h2^2 +
+/// rho2^2). Lengths are in the chain's unit.
 template <Real T>
 struct BellNumbers {
     using S = Wide<T>;
@@ -20,7 +20,8 @@ struct BellNumbers {
 
     BellNumbers(std::string_view place, const Chain<T>& chain) {
         using std::ldexp;
-        if (chain.size() != 2) throw_invalid(place, "the chain must have two links, clapper and bell", chain.size());
+        if (chain.size() != 2)
+            throw_invalid(place, "the chain must have two links, clapper and bell", chain.size());
         clapper = chain.link(0), bell = chain.link(1), exponent = chain.units().length_exponent;
         require_positive(place, "the bell's weight", bell.weight);
         const auto scaled = [&](const T& x) { return S(x * ldexp(T(1), -exponent)); };
@@ -39,7 +40,8 @@ struct BellNumbers {
     }
 };
 
-/// The root of a x^2 + b x + c = 0 nearest to x0 among those for which `may` is true; NaN where there is none.
+/// Returns the root of a x^2 + b x + c = 0 nearest to x0 among those for which `may` is true, or
+/// NaN.
 template <class S, class May>
 S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) {
     using std::abs, std::sqrt;
@@ -71,7 +73,8 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
     const S two(T(2)), one(T(1)), slope = n.moment / n.a2 * n.l1 - n.turning / n.a2 - n.a2;
     const S root = sqrt(slope * slope + S(T(4)) * n.h1 * n.moment);
     const bool rising = !(slope < S(T(0)));
-    const S far = (rising ? slope + root : slope - root) / (two * n.h1), near = -n.moment / (n.h1 * far);
+    const S far = (rising ? slope + root : slope - root) / (two * n.h1),
+            near = -n.moment / (n.h1 * far);
     const S r = rising ? far : near, other = rising ? near : far;
 
     BellAndClapper<T> result;
@@ -79,14 +82,18 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
     result.inclination_ratio = {static_cast<T>(r), static_cast<T>(other)};
     result.silent_height = n.length(n.l1 + n.a2);
     result.mismatch = n.length(n.h1 - slope - n.moment);
-    result.present = {n.clapper.weight, n.clapper.centroid, radius_of_gyration(n.clapper), n.bell.weight,
-                      n.bell.length,    n.bell.centroid,    radius_of_gyration(n.bell)};
+    result.present = {
+        n.clapper.weight, n.clapper.centroid, radius_of_gyration(n.clapper), n.bell.weight,
+        n.bell.length,    n.bell.centroid,    radius_of_gyration(n.bell)};
     // dr/dx = -(dG/dx)/(dG/dr)
-    const S m1 = n.moment / n.a2, lean = n.l1 / n.a2 * r + one, radius1 = sqrt(n.square1), radius2 = sqrt(n.square2);
+    const S m1 = n.moment / n.a2, lean = n.l1 / n.a2 * r + one, radius1 = sqrt(n.square1),
+            radius2 = sqrt(n.square2);
     const S by_weights = n.turning * r / n.a2 - n.f * n.h2 * lean;  // f dG/df
     const S by_joint = (n.f * n.h2 * n.l1 - n.turning) / (n.a2 * n.a2) * r + r - one;
     const auto weight = [&](const S& x, const T& w) { return static_cast<T>(-x / root) / w; };
-    const auto per_length = [&](const S& x) { return ldexp(static_cast<T>(-x / root), -n.exponent); };
+    const auto per_length = [&](const S& x) {
+        return ldexp(static_cast<T>(-x / root), -n.exponent);
+    };
     result.derivative = {weight(-by_weights, n.clapper.weight),
                          per_length(r * r - m1 * (one - n.square1 / (n.h1 * n.h1)) * r),
                          per_length(-m1 * two * radius1 / n.h1 * r),
@@ -106,22 +113,27 @@ ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio
     const detail::BellNumbers<T> n(place, chain);
     const S zero(T(0)), one(T(1)), r(ratio), m1 = n.moment / n.a2, bend = n.turning / n.a2 + n.a2;
     const T none = std::numeric_limits<T>::quiet_NaN();
-    const auto radius = [&](const S& square) { return square < zero ? none : n.length(sqrt(square)); };
+    const auto radius = [&](const S& square) {
+        return square < zero ? none : n.length(sqrt(square));
+    };
     // G = fixed + f by_weight
     const S fixed = n.h1 * r * r - n.l1 * r + n.a2 * (r - one), lean = n.l1 / n.a2 * r + one;
     const S by_weight = (n.h2 * n.h2 + n.square2) * r / n.a2 - n.h2 * lean;
     const S f = -fixed / by_weight;
     const T change = f > zero && f * n.h2 + n.a2 > zero ? static_cast<T>(f / n.f) : none;
     return {n.clapper.weight / change,
-            n.length(detail::nearest_root(S(r * r - m1 * r), S(bend * r - n.moment), S(-m1 * r * n.square1), n.h1,
+            n.length(detail::nearest_root(S(r * r - m1 * r), S(bend * r - n.moment),
+                                          S(-m1 * r * n.square1), n.h1,
                                           [&](const S& x) { return x > zero; })),
             radius(n.h1 * (n.h1 * r * r + bend * r - n.moment) / (m1 * r) - n.h1 * n.h1),
             n.bell.weight * change,
-            n.length(detail::nearest_root(S(r - one), S(n.h1 * r * r - n.l1 * r - n.f * n.h2),
-                                          S(r * (n.turning - n.f * n.h2 * n.l1)), n.a2,
-                                          [&](const S& a) { return a > zero && n.f * n.h2 + a > zero; })),
-            n.length(detail::nearest_root(S(n.f * r / n.a2), S(-n.f * lean), S(n.f * n.square2 * r / n.a2 + fixed),
-                                          n.h2, [&](const S& h) { return n.f * h + n.a2 > zero; })),
+            n.length(detail::nearest_root(
+                S(r - one), S(n.h1 * r * r - n.l1 * r - n.f * n.h2),
+                S(r * (n.turning - n.f * n.h2 * n.l1)), n.a2,
+                [&](const S& a) { return a > zero && n.f * n.h2 + a > zero; })),
+            n.length(detail::nearest_root(S(n.f * r / n.a2), S(-n.f * lean),
+                                          S(n.f * n.square2 * r / n.a2 + fixed), n.h2,
+                                          [&](const S& h) { return n.f * h + n.a2 > zero; })),
             radius((n.h2 * lean - fixed / n.f) * n.a2 / r - n.h2 * n.h2)};
 }
 

@@ -18,16 +18,19 @@ template <std::floating_point T>
 T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other) {
     using S = Wide<T>;
     if constexpr (std::is_same_v<T, float>) {
-        return static_cast<T>(pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
-                                                  CompoundLink<double>{other.centroid, other.radius_of_gyration}));
+        return static_cast<T>(
+            pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
+                                CompoundLink<double>{other.centroid, other.radius_of_gyration}));
     } else {
         int power = 0;
         std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
         const auto scaled = [&](const T& x) { return std::ldexp(x, -power); };
         const T h = scaled(link.centroid), k = scaled(link.radius_of_gyration);
         const T h0 = scaled(other.centroid), k0 = scaled(other.radius_of_gyration);
-        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
-        if (std::abs(static_cast<T>(whole)) > T(0x1p-20)) return std::ldexp(static_cast<T>(whole), power);
+        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() -
+                        CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
+        if (std::abs(static_cast<T>(whole)) > T(0x1p-20))
+            return std::ldexp(static_cast<T>(whole), power);
         // h h0 times the difference is a sum of products of three numbers, each exactly four words.
         std::array<T, 16> terms;
         std::size_t size = 0;
@@ -58,8 +61,10 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
     const auto squares = detail::squares_over_centroid(link);
-    const T longer = height <= h ? static_cast<T>(squares.plus(h - height).over(length).root().value())
-                                 : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
+    const T longer =
+        height <= h
+            ? static_cast<T>(squares.plus(h - height).over(length).root().value())
+            : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));
     const T sine = longer * sqrt(T(1) + height / length), outwards = h / height * sine;

@@ -41,27 +41,32 @@ struct Pair {
     T height;
     S upper = l2;  ///< a2, between the pins of the upper link
 
-    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights: the form with the
-    /// smaller terms.
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights. Of two forms the one
+    /// with the smaller terms is used.
     S characteristic() const {
         using std::abs;
-        const S one(1), p = (one - l1) * (one - l2), q = share * l1 * l2, r = other * l1 * l2, rest = l1 + l2 - one;
+        const S one(1), p = (one - l1) * (one - l2), q = share * l1 * l2, r = other * l1 * l2,
+                        rest = l1 + l2 - one;
         return abs(p) + q < r + abs(rest) ? p - q : r - rest;
     }
-    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm (`direction` 1)
-    /// or falls, `rest` = arm (sec d2 - 1), and arm sec d2 = l2 (arm + joint), joint = +- s l1.
-    std::pair<S, S> balance(int direction, const S& joint, const S& arm, const S& versed, const S& rest) const {
-        const S cosine1 = S(1) / (S(1) + versed), sine1_squared = versed * cosine1 * (S(1) + cosine1);
+    /// F/a2^2 and its slope along arm = |A|. `versed` = sec d1 - 1 grows with the arm (`direction`
+    /// 1) or falls, `rest` = arm (sec d2 - 1), and arm sec d2 = l2 (arm + joint), joint = +- s l1.
+    std::pair<S, S> balance(int direction, const S& joint, const S& arm, const S& versed,
+                            const S& rest) const {
+        const S cosine1 = S(1) / (S(1) + versed),
+                sine1_squared = versed * cosine1 * (S(1) + cosine1);
         const S lever = arm + rest, cosine2 = arm / lever, ratio = arm / upper;
         return {ratio * ratio * sine1_squared - rest / lever * (S(1) + cosine2),
-                S(2) * (ratio / upper * (sine1_squared + S(direction) * arm * cosine1 * cosine1 * cosine1) +
+                S(2) * (ratio / upper *
+                            (sine1_squared + S(direction) * arm * cosine1 * cosine1 * cosine1) +
                         cosine2 * cosine2 * (joint * l2 / lever) / arm)};
     }
     PairShape<T> shape(int side, const S& arm, const S& versed, const S& rest) const {
         using std::atan, std::sqrt;
         const S excess = rest / arm, secant2 = S(1) + excess;
         const S square1 = versed * (S(2) + versed), square2 = excess * (S(2) + excess);
-        const T tangent1 = sqrt(static_cast<T>(square1)), tangent2 = T(side) * sqrt(static_cast<T>(square2));
+        const T tangent1 = sqrt(static_cast<T>(square1)),
+                tangent2 = T(side) * sqrt(static_cast<T>(square2));
         return {{atan(tangent1), atan(tangent2)},
                 {height * tangent1, height * (static_cast<T>(upper / secant2) * tangent2)},
                 {static_cast<T>(share * (S(1) + versed)), static_cast<T>(secant2)}};
@@ -99,17 +104,18 @@ Place<S> zero_within(const S& width, const Place<S>& low, const Place<S>& high, 
 /// The one shape with arm = arm0 + x, sec d1 - 1 = versed0 + x, rest = rest0 + (l2 - 1) x for
 /// 0 <= x <= farthest or, where l2 < 1, up to d2 = 0, where the rest is 0. F grows with x.
 template <Real T, class S>
-PairShape<T> growing_shape(const Pair<T>& pair, const S& joint, const S& arm0, const S& versed0, const S& rest0,
-                           const S& farthest) {
+PairShape<T> growing_shape(const Pair<T>& pair, const S& joint, const S& arm0, const S& versed0,
+                           const S& rest0, const S& farthest) {
     const auto at = [&](const S& x, const S& rest) {
         return pair.balance(1, joint, S(arm0 + x), S(versed0 + x), rest);
     };
     S x, rest;
     if (pair.l2 < S(1)) {
         const S falls = S(1) - pair.l2, width = rest0 / falls;
-        const Place<S> place =
-            zero_within(width, {S(0), width}, {width, S(0)}, S(1),
-                        [&](const S& from_low, const S& from_high) { return at(from_low, S(falls * from_high)); });
+        const Place<S> place = zero_within(width, {S(0), width}, {width, S(0)}, S(1),
+                                           [&](const S& from_low, const S& from_high) {
+                                               return at(from_low, S(falls * from_high));
+                                           });
         x = place.x, rest = falls * place.left;
     } else {
         const auto rest_at = [&](const S& from) { return rest0 + (pair.l2 - S(1)) * from; };
@@ -126,9 +132,10 @@ void add_same_side(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) {
     using S = Wide<T>;
     const S chi = pair.characteristic(), one(1);
     if (!(chi < S(0)) && !(pair.l1 > one && pair.l2 > one)) return;
-    shapes.push_back(
-        growing_shape(pair, S(pair.share * pair.l1), std::max(S(0), S(one - pair.l1)), std::max(S(0), S(pair.l1 - one)),
-                      pair.l1 < one ? S(-chi) : S(pair.share * pair.l1 * pair.l2), S(pair.l1 + pair.upper + one)));
+    shapes.push_back(growing_shape(pair, S(pair.share * pair.l1), std::max(S(0), S(one - pair.l1)),
+                                   std::max(S(0), S(pair.l1 - one)),
+                                   pair.l1 < one ? S(-chi) : S(pair.share * pair.l1 * pair.l2),
+                                   S(pair.l1 + pair.upper + one)));
 }
 
 /// The shape in which the lower link stands, if any: A = l1 + sec d1, d1 from the upward vertical.
@@ -150,7 +157,8 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     const S chi = pair.characteristic();
     if (!(chi > S(0) && pair.l1 > S(1) && pair.l2 > S(1))) return;
     // B runs from s l1 l2/(l2 - 1), where d2 = 0, over chi/(l2 - 1) to l1 - 1, where d1 = 0.
-    const S rises = pair.l2 - S(1), first = pair.share * pair.l1 * (pair.l2 / rises), width = chi / rises;
+    const S rises = pair.l2 - S(1), first = pair.share * pair.l1 * (pair.l2 / rises),
+            width = chi / rises;
     const auto at = [&](const S& x, const S& versed) {
         return pair.balance(-1, S(-pair.share * pair.l1), S(first + x), versed, S(rises * x));
     };
@@ -159,13 +167,19 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
         const auto [x, versed] = zero_within(width, low, high, S(sign), at);
         shapes.push_back(pair.shape(-1, S(first + x), versed, S(rises * x)));
     };
-    // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and
-    // Q = B - s l1 = x + s l1/(l2 - 1). The bracket has its maximum at Q : P = (r^2 s)^(1/4), a zero on either side.
+    // F turns where 1 - l1/P^3 - r^2 s l1/Q^3 = 0, r = a2/l2, P = l1 - B = 1 + versed and Q = B - s
+    // l1 = x + s l1/(l2 - 1). The bracket has its maximum at Q : P = (r^2 s)^(1/4), a zero on
+    // either side.
     const S both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
-    const S root = sqrt(sqrt(pair.share) * ratio), top_p = both / (S(1) + root), top_q = root * top_p;
-    const auto first_part = [&](const S& p) { return pair.l1 / p / p / p; };  // cubes may leave the range
+    const S root = sqrt(sqrt(pair.share) * ratio), top_p = both / (S(1) + root),
+            top_q = root * top_p;
+    const auto first_part = [&](const S& p) {
+        return pair.l1 / p / p / p;
+    };  // cubes may leave the range
     const auto second_part = [&](const S& q) { return lower / q * (ratio / q) * (ratio / q); };
-    const auto turning = [&](const S& p, const S& q) { return S(1) - first_part(p) - second_part(q); };
+    const auto turning = [&](const S& p, const S& q) {
+        return S(1) - first_part(p) - second_part(q);
+    };
     Place<S> low = start, high = start;  // F grows between the two
     if (turning(top_p, top_q) > S(0)) {
         const auto at_place = [&](const S& p, const S& q, int sign) {  // value, slope along +- Q
@@ -173,8 +187,10 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
             return std::pair<S, S>(turning(p, q), S(sign) * slope);
         };
         const S q = zero_between(S(0), top_q, [&](const S& x) { return at_place(both - x, x, 1); });
-        const S p = zero_between(S(0), top_p, [&](const S& x) { return at_place(x, both - x, -1); });
-        const S x = std::clamp(S(q - lower / rises), S(0), width), versed = std::clamp(S(p - S(1)), S(0), width);
+        const S p =
+            zero_between(S(0), top_p, [&](const S& x) { return at_place(x, both - x, -1); });
+        const S x = std::clamp(S(q - lower / rises), S(0), width),
+                versed = std::clamp(S(p - S(1)), S(0), width);
         low = {x, S(width - x)}, high = {S(width - versed), versed};
     }
     const auto value = [&](const Place<S>& place) { return at(place.x, place.left).first; };
@@ -195,15 +211,18 @@ std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     return shapes;
 }
 
-/// A pair of links. Throws InvalidArgument where cubes of lengths over the height overflow.
+/// Returns a pair of links. Throws InvalidArgument if cubes of lengths over the height overflow.
 template <Real T>
-Pair<T> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper, const Wide<T>& share,
-                const Wide<T>& other, const T& height) {
+Pair<T> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper,
+                const Wide<T>& share, const Wide<T>& other, const T& height) {
     using std::ldexp;
-    const Pair<T> pair{in_lengths<T>(lower, height), in_lengths<T>(upper, height), share, other, height};
+    const Pair<T> pair{in_lengths<T>(lower, height), in_lengths<T>(upper, height), share, other,
+                       height};
     const T limit = ldexp(T(1), std::numeric_limits<T>::max_exponent / 3 - 2);
     if (!(static_cast<T>(pair.l1) <= limit && static_cast<T>(pair.l2) <= limit))
-        throw_invalid(place, "height must not be smaller than the lengths by more than a third of the range", height);
+        throw_invalid(
+            place, "height must not be smaller than the lengths by more than a third of the range",
+            height);
     return pair;
 }
 

@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// lower < eigenvalue <= upper, by count; `isolated` if no other eigenvalue shares the bracket.
+/// A bracket by count: lower < eigenvalue <= upper. `isolated`: no other eigenvalue shares it.
 template <Real T>
 struct Bracket {
     T lower{};
@@ -17,7 +17,7 @@ struct Bracket {
     bool isolated = true;
 };
 
-/// The mean of two positive numbers, the geometric one while they are far apart.
+/// Returns a mean of two positive numbers: the geometric mean if they differ by a factor above 4.
 template <Real T>
 T between(const T& lower, const T& upper) {
     using std::sqrt;
@@ -26,21 +26,22 @@ T between(const T& lower, const T& upper) {
 
 namespace detail {
 
-/// A bracket of the eigenvalues `first` ... `last - 1` (descending, from 0).
+/// An interval that holds the eigenvalues `first` ... `last - 1` (descending, from 0).
 template <Real T>
 struct Segment {
     T lower{}, upper{};
     Index first = 0, last = 0;
 };
 
-/// Finds a bracket of the eigenvalues `first` ... `last - 1` by counts, starting at `guess`.
+/// Returns an interval that holds the eigenvalues `first` ... `last - 1`, by counts from `guess`.
 template <class Pencil, Real T>
 Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     using std::ldexp;
     Segment<T> all{guess, guess, first, last};
     std::array<T, lanes> shifts;
-    for (bool found = false; !found;) {  // upwards, by factors of 4
-        for (std::size_t i = 0; i < lanes; ++i) shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
+    for (bool found = false; !found;) {  // search upwards, by factors of 4
+        for (std::size_t i = 0; i < lanes; ++i)
+            shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
         const auto above = count_above(pencil, shifts);
         for (std::size_t i = 0; i < lanes && !found; ++i)
             if (above[i] <= first) {
@@ -49,11 +50,13 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
             } else {
                 all.lower = shifts[i];
             }
-        // overflow, or a guess that was not positive
-        if (!(all.upper > T(0) && all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10))) return all;
+        // The number overflowed, or the guess was not positive.
+        if (!(all.upper > T(0) &&
+              all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10)))
+            return all;
     }
     all.lower = std::min(all.lower, all.upper / T(4));
-    T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below
+    T ratio(4);  // search downwards, squaring the stride: the modes may lie far below
     for (bool found = false; !found;) {
         shifts[0] = all.lower;
         for (std::size_t i = 1; i < lanes; ++i) shifts[i] = shifts[i - 1] / ratio;
@@ -69,7 +72,7 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     return all;
 }
 
-/// The 2^levels - 1 inner points that halve (lower, upper) repeatedly, ascending.
+/// Writes the 2^levels - 1 inner points that halve (lower, upper) repeatedly, ascending.
 template <Real T>
 void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
     if (count == 0) return;
@@ -79,9 +82,10 @@ void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
     subdivide(points + half + 1, half, points[half], upper);
 }
 
-/// Cuts `segment` at the shifts; calls `keep(piece)` for pieces that hold eigenvalues.
+/// Cuts `segment` at the shifts, and calls `keep(piece)` for each piece that holds eigenvalues.
 template <Real T, class Keep>
-void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count, Keep keep) {
+void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count,
+           Keep keep) {
     T lower = segment.lower;
     Index last = segment.last;
     for (std::size_t c = 0; c <= count; ++c) {
@@ -96,9 +100,9 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 
 }  // namespace detail
 
-/// Brackets of `count` eigenvalues from number `first` on (from 0, descending), each no wider than
-/// a relative `tolerance` or a few ulp; eigenvalues that share a bracket are bisected further, down
-/// to a few ulp. `pencil` has a `count_above` for `lanes` shifts, which limits the accuracy.
+/// Returns brackets of `count` eigenvalues from number `first` on (from 0, descending). Each is no
+/// wider than a relative `tolerance` or a few ulp; shared brackets are bisected further, down to a
+/// few ulp. `pencil` needs a `count_above` for `lanes` shifts, which limits the accuracy.
 /// `finished(done)` receives the number found after every pass, and may throw. Preconditions: first
 /// >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
 /// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues.
@@ -115,7 +119,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         const T width = s.upper - s.lower;
         const bool alone = s.last - s.first == 1;
         const T middle = between(s.lower, s.upper);
-        const bool divisible = s.lower < middle && middle < s.upper;  // subnormals may not be
+        const bool divisible = s.lower < middle && middle < s.upper;  // false for some subnormals
         if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
             work.push_back(s);
         } else {
@@ -125,15 +129,17 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         }
     };
     while (!work.empty()) {
-        revchain::detail::look();
+        revchain::detail::check_interrupt();
         const std::size_t taken = std::min(lanes, work.size());
         now.assign(work.end() - static_cast<std::ptrdiff_t>(taken), work.end());
         work.resize(work.size() - taken);
-        // Few segments are each cut into 4 or 8 at once, to fill all lanes.
+        // One segment is cut into 8 parts, two segments into 4 each, to fill all lanes.
         const std::size_t cuts = taken == 1 ? 7 : taken == 2 ? 3 : 1;
-        for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
+        for (std::size_t i = 0; i < taken; ++i)
+            detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
         const auto above = count_above(pencil, shifts);
-        for (std::size_t i = 0; i < taken; ++i) detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
+        for (std::size_t i = 0; i < taken; ++i)
+            detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
         if (finished) finished(done);
     }
     return brackets;

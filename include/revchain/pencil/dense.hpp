@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// K and M as square matrices, without the held pin; the slowest modes lose accuracy in this form.
+/// The square matrices K and M without the held pin. The slowest modes lose accuracy in this form.
 template <Real T>
 struct AssembledPencil {
     Matrix<T> K, M;
@@ -58,21 +58,22 @@ Eigensystem<T> sorted(const Vector<T>& values, const Matrix<T>& vectors) {
 }
 }  // namespace detail
 
-/// Solves M y = lambda K y, K positive definite: Cholesky and the symmetric QR algorithm, O(N^3).
-/// Absolute accuracy: eps times the largest eigenvalue times cond(K) at worst.
+/// Solves M y = lambda K y, with K positive definite, by Cholesky and the symmetric QR algorithm,
+/// O(N^3). The absolute error is at most eps times the largest eigenvalue times cond(K).
 template <Real T>
 Eigensystem<T> solve_symmetric_definite(const Matrix<T>& K, const Matrix<T>& M) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix<T>> solver(M, K);
     return detail::sorted<T>(solver.eigenvalues(), solver.eigenvectors());
 }
 
-/// Solves A y = lambda B y for any square matrices by QZ, O(N^3): real parts of finite eigenvalues.
+/// Returns real parts of finite eigenvalues of A y = lambda B y, A and B square; QZ, O(N^3).
 template <Real T>
 Eigensystem<T> solve_general(const Matrix<T>& A, const Matrix<T>& B) {
     const Eigen::GeneralizedEigenSolver<Matrix<T>> solver(A, B);
     Vector<T> values(A.rows());
     for (Index j = 0; j < A.rows(); ++j)
-        values[j] = solver.betas()[j] == T(0) ? T(0) : solver.alphas()[j].real() / solver.betas()[j];
+        values[j] =
+            solver.betas()[j] == T(0) ? T(0) : solver.alphas()[j].real() / solver.betas()[j];
     return detail::sorted<T>(values, solver.eigenvectors().real());
 }
 

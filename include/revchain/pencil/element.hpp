@@ -10,7 +10,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Factors of an element's stiffness and spin: x and 0, or x^2 and x.
+/// The factors of an element's stiffness and spin are x and 0, or x^2 and x.
 template <class X>
 struct Factors {
     X stiffness{}, spin{};
@@ -23,7 +23,7 @@ struct ElementError {
 };
 
 namespace detail {
-/// An empty member. Two members of one empty type may not share an address, hence the number.
+/// An empty member. Members of one empty type must have different addresses, hence the number.
 template <int>
 struct Nothing {};
 }  // namespace detail
@@ -32,10 +32,11 @@ struct Nothing {};
 ///
 ///     Q(x) = L [ 1 -1 ; -1 1 ] - [ A  X ; X  B ],     L = x k,  or with spins  L = x^2 k + x s,
 ///
-/// with W = A + 2 X + B and c W = A B - X^2. All are stored, none is a difference of others: that
-/// keeps counts accurate. In a hanging chain k > 0, masses are not negative, relative errors are
-/// small, and numbers are linear in the weights, so that no square of a small one underflows. With
-/// `OwnErrors` numbers may have any sign, and c W takes the place of c, because W may be 0.
+/// with W = A + 2 X + B and c W = A B - X^2. All numbers are stored. None is computed as a
+/// difference of others, so counts stay accurate. In a hanging chain k > 0, masses are not
+/// negative, and relative errors are small. All numbers are linear in the weights, so no square of
+/// a small weight underflows. With `OwnErrors` numbers may have any sign, and c W is stored instead
+/// of c, because W may be 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct Element {
     using M = Narrow<S>;
@@ -44,16 +45,19 @@ struct Element {
     S turning{};                                   ///< c, the inertia against turning; or c W
     std::conditional_t<OwnErrors, S, M> weight{};  ///< W
     [[no_unique_address]] std::conditional_t<Spins, S, detail::Nothing<0>> spin{};  ///< s
-    [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>> error{};
+    [[no_unique_address]] std::conditional_t<OwnErrors, ElementError<M>, detail::Nothing<1>>
+        error{};
 
-    /// An element given by its stiffness, spin and masses.
-    static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper, const S& cross,
+    /// Returns the element with this stiffness, spin and masses.
+    static Element of(const S& stiffness, const S& spin, const S& lower, const S& upper,
+                      const S& cross,
                       const ElementError<M>& error = {}) requires(Spins&& OwnErrors) {
-        const S weight = (lower + cross) + (cross + upper), determinant = lower * upper - cross * cross;
+        const S weight = (lower + cross) + (cross + upper),
+                determinant = lower * upper - cross * cross;
         return {stiffness, lower, upper, cross, determinant, weight, spin, error};
     }
 
-    /// L at x, a number or a pack.
+    /// Returns the stiffness L at x, which is a number or a pack.
     template <class X>
     [[gnu::always_inline]] X stiffness_at(const Factors<X>& x) const {
         if constexpr (Spins)
@@ -61,7 +65,7 @@ struct Element {
         else
             return x.stiffness * X(stiffness);
     }
-    /// |L|.
+    /// Returns the absolute value of the stiffness, |L|.
     template <class X>
     [[gnu::always_inline]] static X size(const X& L) {
         using std::abs;
@@ -72,20 +76,21 @@ struct Element {
         using std::abs;
         return OwnErrors ? abs(mass) : mass;
     }
-    /// (L - c) W.
+    /// Returns (L - c) W.
     template <class X>
     [[gnu::always_inline]] X resisted(const X& L) const {
         return OwnErrors ? L * X(weight) - X(turning) : (L - X(turning)) * X(weight);
     }
-    /// (L - c) W over a pivot. Quotients first: products of small weights would underflow.
+    /// Returns (L - c) W / pivot. Quotients come first: small weights' products would underflow.
     template <class X>
     [[gnu::always_inline]] X resisted_over(const X& L, const X& inverse) const {
         return OwnErrors ? resisted(L) * inverse : (L - X(turning)) * (X(weight) * inverse);
     }
-    /// The sum of the sizes of the terms of `resisted_over`; L and `inverse` are sizes.
+    /// Returns the sum of the sizes of the terms of `resisted_over`. L and `inverse` are sizes.
     template <class X>
     [[gnu::always_inline]] X resisted_size(const X& L, const X& inverse) const {
-        const X resists(mass_size(static_cast<M>(turning))), heavy(mass_size(static_cast<M>(weight)));
+        const X resists(mass_size(static_cast<M>(turning))),
+            heavy(mass_size(static_cast<M>(weight)));
         return OwnErrors ? (L * heavy + resists) * inverse : (L + resists) * (heavy * inverse);
     }
 };
@@ -93,29 +98,29 @@ struct Element {
 template <Real S>
 using SignedElement = Element<S, true, true>;
 
-/// Dynamic stiffness carried across an element, equation (1) of docs/theory/counts.md, from `near`
-/// at one pin to the other, where the element's mass is `far`; `inverse` is 1 over the pivot.
+/// Returns the dynamic stiffness at an element's far pin from `near` at its other pin, by equation
+/// (1) of docs/theory/counts.md. `far` is the mass at the far pin, `inverse` is 1 over the pivot.
 template <class E, class S>
-[[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near, const S& far,
-                                          const S& inverse) {
+[[gnu::always_inline]] inline S propagate(const E& e, const S& stiffness, const S& near,
+                                          const S& far, const S& inverse) {
     return (stiffness - far) * (near * inverse) - e.resisted_over(stiffness, inverse);
 }
 
-/// One operation less after the division; for pencils in one unit, whose products stay in range.
+/// Returns `propagate` with one operation less after the division, if all products stay in range.
 template <class E, class X>
-[[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near, const X& far,
-                                                      const X& pivot) {
+[[gnu::always_inline]] inline X propagate_in_one_unit(const E& e, const X& stiffness, const X& near,
+                                                      const X& far, const X& pivot) {
     return ((stiffness - far) * near - e.resisted(stiffness)) / pivot;
 }
 
-/// Equation (2), from the coupling L + X of the pins: accurate where it and the pivot are small.
+/// Returns equation (2), from the pins' coupling L + X: accurate if it and the pivot are small.
 template <class S>
-[[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling,
-                                                      const S& inverse) {
+[[gnu::always_inline]] inline S propagate_by_coupling(const S& stiffness, const S& far,
+                                                      const S& coupling, const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
-/// The least pivot whose reciprocal can be split into two halves for a product of double words.
+/// Returns the least pivot whose reciprocal can be halved for a product of double words.
 template <Real M>
 M least_pivot() {
     using std::ldexp;
@@ -123,7 +128,8 @@ M least_pivot() {
     return ldexp(M(1), limits::min_exponent + (limits::digits + 1) / 2 + 3);
 }
 
-/// The pivot, or a tiny positive number: eigenvalues at the shift are not above it. `size`: |L|.
+/// Returns the pivot, or a tiny positive number if it is tiny: an eigenvalue at the shift then
+/// counts as not above it. `size` is |L|.
 template <class S>
 [[gnu::always_inline]] inline S not_zero(const S& pivot, const S& size) {
     using std::abs;
@@ -135,9 +141,10 @@ template <class S>
         return abs(pivot) < least ? size * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
-/// A family Q(x) as its elements, lowest first, never assembled: sums of neighbouring stiffnesses
-/// lose the slowest modes. The last element's upper pin is held. Without spins it is lambda K - M
-/// of a hanging chain, with positive eigenvalues; with spins modes of one sense have roots x > 0.
+/// A family of matrices Q(x), stored as elements, lowest first. It is never assembled: sums of
+/// neighbouring stiffnesses lose the slowest modes. The last element's upper pin is held. Without
+/// spins Q is lambda K - M of a hanging chain, with positive eigenvalues. With spins modes of one
+/// sense have roots x > 0.
 template <Real S, bool Spins = false, bool OwnErrors = false>
 struct ElementPencil {
     static constexpr bool own_errors = OwnErrors;
@@ -146,10 +153,10 @@ struct ElementPencil {
     /// With own errors: the element that ties the lowest pin to the ground, if that pin is held.
     std::optional<Element<S, Spins, OwnErrors>> ground{};
     bool quadratic = Spins && !OwnErrors;  ///< L = x^2 k + x s, not L = x k
-    /// If one unit does not suffice: element m is in units of 2^units[m], ascending to 0.
+    /// Not empty if one unit does not suffice: element m is in units of 2^units[m], ascending to 0.
     std::vector<int> units;
-    /// Without own errors: the relative error of every number, for the cross mass relative to
-    /// |X| + 2 c, besides underflow: `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
+    /// Without own errors: the relative error of every number (for the cross mass relative to |X| +
+    /// 2 c). Underflow adds `least_pivot` to masses and `stiffness_underflow` to stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 
@@ -159,15 +166,17 @@ struct ElementPencil {
         if (OwnErrors ? quadratic : Spins) return {x * x, x};
         return {x, {}};
     }
-    /// 4/a times the least positive number, a the shortest length possible beside one of 1.
+    /// Returns 4/a times the least positive number; a is the shortest length possible beside 1.
     static Narrow<S> largest_underflow() {
         using std::ldexp;
         using limits = std::numeric_limits<Narrow<S>>;
         return ldexp(limits::min() * limits::epsilon(), limits::max_exponent / 4 + 2);
     }
-    /// The exponent of the factor from the unit of element m - 1 to that of element m.
-    int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
-    /// The pencil with every spin reversed: its roots x have the other sign.
+    /// Returns the exponent of the factor from the unit of element m - 1 to that of element m.
+    int step_down(std::size_t m) const {
+        return units.empty() || m == 0 ? 0 : units[m - 1] - units[m];
+    }
+    /// Returns the pencil with every spin reversed: its roots x have the other sign.
     ElementPencil reversed() const {
         ElementPencil other = *this;
         for (auto& e : other.elements) e.spin = -e.spin;
@@ -179,7 +188,7 @@ struct ElementPencil {
 template <Real S>
 using SignedPencil = ElementPencil<S, true, true>;
 
-/// The pencil in a narrower scalar, with one more rounding in each entry, without own errors.
+/// Returns the pencil in a narrower scalar, without own errors; each entry is rounded once more.
 template <Real T, Real S, bool Spins, bool OwnErrors>
 ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErrors>& wide) {
     if constexpr (std::is_same_v<T, S>) {
@@ -187,9 +196,9 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
     } else {
         ElementPencil<T, Spins, OwnErrors> pencil;
         const auto narrow = [](const Element<S, Spins, OwnErrors>& e) {
-            Element<T, Spins, OwnErrors> result{static_cast<T>(e.stiffness), static_cast<T>(e.lower),
-                                                static_cast<T>(e.upper),     static_cast<T>(e.cross),
-                                                static_cast<T>(e.turning),   static_cast<T>(e.weight)};
+            Element<T, Spins, OwnErrors> result{
+                static_cast<T>(e.stiffness), static_cast<T>(e.lower),   static_cast<T>(e.upper),
+                static_cast<T>(e.cross),     static_cast<T>(e.turning), static_cast<T>(e.weight)};
             if constexpr (Spins) result.spin = static_cast<T>(e.spin);
             return result;
         };
@@ -199,21 +208,22 @@ ElementPencil<T, Spins, OwnErrors> rounded(const ElementPencil<S, Spins, OwnErro
         pencil.quadratic = wide.quadratic;
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
-        if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
+        if constexpr (std::numeric_limits<T>::min_exponent ==
+                      std::numeric_limits<Narrow<S>>::min_exponent)
             pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);
         return pencil;
     }
 }
 
-/// Whether a number of an element is certainly 0.
+/// Returns true if a number of an element is certainly 0.
 template <Real S>
 bool vanishes(const S& x, const Narrow<S>& error) {
     return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
 }
 
-/// A pencil with own errors as one with small relative errors. Nothing if an error exceeds 1e-20 of
-/// a number, the lowest pin is held, or weights are in several units. Precondition: every stiffness
-/// is positive, and no mass is negative; `Spins` says whether the family is quadratic.
+/// Returns a pencil with own errors as one with small relative errors. It returns nothing if an
+/// error exceeds 1e-20 of a number, the lowest pin is held, or weights have several units.
+/// Precondition: stiffnesses > 0, masses >= 0. `Spins` says whether the family is quadratic.
 template <bool Spins, Real S>
 std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;
@@ -228,8 +238,8 @@ std::optional<ElementPencil<S, Spins>> positive_elements(const SignedPencil<S>& 
     };
     for (const SignedElement<S>& e : pencil.elements) {
         const S turning = e.weight > zero ? e.turning / e.weight : zero;
-        result.elements.push_back(
-            {e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero, static_cast<M>(e.weight)});
+        result.elements.push_back({e.stiffness, e.lower, e.upper, e.cross,
+                                   turning > zero ? turning : zero, static_cast<M>(e.weight)});
         if constexpr (Spins) {
             result.elements.back().spin = e.spin;
             add(e.error.spin, static_cast<M>(abs(e.spin)));

@@ -4,10 +4,10 @@
 #include "revchain/pencil/element.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// One pencil at several x, one in each lane: stiffnesses, and residual forces in twice the digits.
+/// This header has one pencil's stiffnesses at several x, and residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Whether all elements are point masses at their lower pins.
+/// Returns true if all elements are point masses at their lower pins.
 template <class S, bool Spins>
 bool is_lumped(const ElementPencil<S, Spins>& pencil) {
     for (const auto& e : pencil.elements)
@@ -17,7 +17,7 @@ bool is_lumped(const ElementPencil<S, Spins>& pencil) {
 
 namespace detail {
 
-/// high + low, unevaluated, for sums and products whose low parts need only T's own digits.
+/// An unevaluated sum high + low, for sums and products whose low parts need only T's own digits.
 template <class V>
 struct Pair {
     V high{}, low{};
@@ -41,26 +41,31 @@ template <class V>
     return {s.high, s.low + (x.low + y.low)};
 }
 
-/// Whether every element is a point mass at its lower pin; loops are compiled for each case.
+/// `lumped`: every element is a point mass at its lower pin. Loops are compiled for each case.
 template <bool Lumped>
 struct Terms {
     static constexpr bool lumped = Lumped;
 };
 
-/// An element rounded to T, as loops in lanes take it.
+/// Returns an element rounded to T, for loops in lanes.
 template <bool Spins, class T>
 [[gnu::always_inline]] inline Element<T, Spins> high_part(const Element<DoubleWord<T>, Spins>& e) {
-    Element<T, Spins> high{e.stiffness.high, e.lower.high, e.upper.high, e.cross.high, e.turning.high, e.weight};
+    Element<T, Spins> high{e.stiffness.high, e.lower.high,   e.upper.high,
+                           e.cross.high,     e.turning.high, e.weight};
     if constexpr (Spins) high.spin = e.spin.high;
     return high;
 }
 
-/// Residual forces L(x) y - M y at the pins but the held one, from the free end up. `take(m, force,
-/// size, offset, stretch)` receives, for pin m: the force, if `sized` the sum of the sizes of its
-/// terms, the pin's offset, and that offset minus the next one's.
-template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset, class Take>
-[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                               const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
+/// Computes residual forces L(x) y - M y at all pins but the held one, from the free end up.
+/// `take(m, force, size, offset, stretch)` receives, for pin m, the force and the pin's offset.
+/// `size` is the sum of the sizes of the force's terms, if `sized`. `stretch` is the offset minus
+/// the next one.
+template <bool fused, bool sized, class V, class Terms, bool Spins, class T, class Offset,
+          class Take>
+[[gnu::always_inline]] inline void forces_left(Terms,
+                                               const ElementPencil<DoubleWord<T>, Spins>& pencil,
+                                               const Factors<Pair<V>>& at, const Offset& offset,
+                                               const Take& take) {
     const std::size_t n = pencil.elements.size();
     const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
         return times<fused>(x, revchain::detail::in_all_lanes<V>(y));
@@ -82,9 +87,11 @@ template <bool fused, bool sized, class V, class Terms, bool Spins, class T, cla
         Pair<V> near = times<fused>(e.lower, -lower), far{};
         V near_size = abs(near.high), far_size{};
         if constexpr (!Terms::lumped) {
-            const Pair<V> by_upper = times<fused>(e.cross, -upper), by_lower = times<fused>(e.cross, -lower);
+            const Pair<V> by_upper = times<fused>(e.cross, -upper),
+                          by_lower = times<fused>(e.cross, -lower);
             far = times<fused>(e.upper, -upper);
-            if constexpr (sized) near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
+            if constexpr (sized)
+                near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
             near = near + by_upper;
             far = far + by_lower;
         }
@@ -99,7 +106,7 @@ template <bool fused, bool sized, class V, class Terms, bool Spins, class T, cla
     }
 }
 
-/// x as a pair, or x^2 and x.
+/// Returns the factors as pairs: x and 0, or x^2 and x.
 template <bool fused, bool Spins, class V>
 [[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(const V& x, const V& low) {
     if constexpr (Spins) {

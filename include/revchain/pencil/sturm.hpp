@@ -9,14 +9,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Shifts in one pass over the elements. The recursion waits for one division an element; eight
-/// shifts fill that wait: in packs they cost what one costs, 7 ns a link.
+/// The number of shifts in one pass over the elements. The recursion waits for one division an
+/// element. Eight shifts fill that wait: in packs they cost as much as one shift, 7 ns a link.
 inline constexpr std::size_t lanes = 8;
 
 namespace detail {
 
-/// Carries the dynamic stiffness D of all below a pin up the elements, at several shifts, and
-/// counts negative pivots. `Carry` is the method, with or without an error bound.
+/// Carries the dynamic stiffness D of everything below a pin up the elements, at several shifts,
+/// and counts negative pivots. `Carry` is the method, with or without an error bound.
 template <class Carry, class Pencil, class X, std::size_t L>
 [[gnu::always_inline]] inline auto carried_up(const Carry& carry, const Pencil& pencil,
                                               const std::array<X, L>& shifts) {
@@ -38,7 +38,7 @@ template <class Carry, class Pencil, class X, std::size_t L>
     return state;
 }
 
-/// D and the number of negative pivots, at one shift or at each of a pack.
+/// The stiffness D and the number of negative pivots, at one shift or at each shift of a pack.
 template <class V>
 struct Counted {
     V below{};
@@ -56,7 +56,7 @@ struct Counted {
     }
 };
 
-/// Without a bound. `InUnits`: weights are in several units; else loops need only registers.
+/// The method without an error bound. Loops need only registers, unless `InUnits` (several units).
 template <class Pencil, class V, bool InUnits>
 struct PlainCarry {
     using Shift = Factors<V>;
@@ -69,7 +69,8 @@ struct PlainCarry {
     [[gnu::always_inline]] static void begin(const auto& ground, const Shift& at, State& state) {
         state.below = ground.stiffness_at(at) - V(ground.upper);
     }
-    [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at, State& state) const {
+    [[gnu::always_inline]] void operator()(const auto& e, int, const Shift& at,
+                                           State& state) const {
         const V stiffness = e.stiffness_at(at);
         const V pivot = not_zero(V(state.below + (stiffness - V(e.lower))), e.size(stiffness));
         state.add(pivot);
@@ -82,17 +83,19 @@ struct PlainCarry {
 
 }  // namespace detail
 
-/// For each shift x the number of negative eigenvalues of Q(x): for a hanging chain that of
-/// eigenvalues above x. Sylvester's law of inertia on the dynamic stiffness D of everything below a
-/// pin, carried up the chain (equation (1) of docs/theory/counts.md):
+/// Returns, for each shift x, the number of negative eigenvalues of Q(x). For a hanging chain it is
+/// the number of eigenvalues above x. The method is Sylvester's law of inertia on the dynamic
+/// stiffness D of everything below a pin, carried up the chain (equation (1) of
+/// docs/theory/counts.md):
 ///
 ///     p = D + L - A,    D' = [ (L - B) D - (L - c) W ] / p,    negative p are counted.
 ///
-/// Precondition for hanging chains: shifts positive. Cost: one pass, O(N). Accuracy: exact for a
-/// pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp for
-/// each link above; for a proof see `certified_count`.
+/// Precondition for hanging chains: shifts are positive. Cost: one pass, O(N). Accuracy: exact for
+/// a pencil whose entries differ by a few ulp and whose parts below a pin are scaled by a few ulp
+/// for each link above. For a proof use `certified_count`.
 template <Real T, std::size_t L, bool Spins, bool OwnErrors>
-std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil, const std::array<T, L>& shifts) {
+std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& pencil,
+                                 const std::array<T, L>& shifts) {
     using Pencil = ElementPencil<T, Spins, OwnErrors>;
     std::array<Index, L> above;
     const auto counted = [&](const auto& state) {
@@ -100,22 +103,25 @@ std::array<Index, L> count_above(const ElementPencil<T, Spins, OwnErrors>& penci
         return above;
     };
     if (!pencil.units.empty())
-        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
+        return counted(
+            detail::carried_up(detail::PlainCarry<Pencil, T, true>{pencil}, pencil, shifts));
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
         return simd([&](auto registers) REVCHAIN_INLINED {  // in packs, for any compiler
             constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
             using V = Pack<T, width, L / width>;
             const detail::PlainCarry<Pencil, V, false> carry{pencil};
-            const auto state = detail::carried_up(carry, pencil, std::array{V::load(shifts.data())});
+            const auto state =
+                detail::carried_up(carry, pencil, std::array{V::load(shifts.data())});
             for (std::size_t i = 0; i < L; ++i) above[i] = static_cast<Index>(state[0].negative[i]);
             return above;
         });
     } else {
-        return counted(detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
+        return counted(
+            detail::carried_up(detail::PlainCarry<Pencil, T, false>{pencil}, pencil, shifts));
     }
 }
 
-/// A count; if `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
+/// A count. If `proved`, exactly `above` eigenvalues of the exact pencil exceed the exact shift.
 struct CertifiedCount {
     Index above = 0;
     bool proved = false;
@@ -123,7 +129,7 @@ struct CertifiedCount {
 
 namespace detail {
 
-/// D below a pin at one shift, its error bound, and the negative pivots.
+/// The stiffness D below a pin at one shift, its error bound, and the number of negative pivots.
 template <Real S>
 struct BoundedStiffness {
     using M = Narrow<S>;  // magnitudes and errors
@@ -131,7 +137,7 @@ struct BoundedStiffness {
     M error{};
     CertifiedCount count{0, true};
 
-    /// Twice the least pivot: more than what underflows.
+    /// Returns twice the least pivot, which exceeds the loss by underflow.
     static M tiny() { return M(2) * least_pivot<M>(); }
     void change_unit(int step) {
         using std::ldexp;
@@ -143,9 +149,10 @@ struct BoundedStiffness {
 template <class Pencil>
 class BoundedCarry;
 
-/// For elements of a hanging chain: small relative errors, no negative mass or stiffness. The bound
-/// follows the exact derivative dD'/dD = ((L + X)/p)^2, without which it would grow exponentially
-/// along the chain. D is carried by the one of equations (1) and (2) that has the smaller bound.
+/// The method with a bound for a hanging chain: small relative errors, no negative mass or
+/// stiffness. The bound uses the exact derivative dD'/dD = ((L + X)/p)^2; without it the bound
+/// would grow exponentially along the chain. D is carried by the equation, (1) or (2), with the
+/// smaller bound.
 template <Real S>
 class BoundedCarry<ElementPencil<S>> {
    public:
@@ -154,14 +161,15 @@ class BoundedCarry<ElementPencil<S>> {
     static constexpr bool in_units = true;
     struct Shift {
         S x;
-        M underflow;  // of a pivot
+        M underflow;  // the underflow of a pivot
     };
     struct Sizes {
         M lower, upper, turning, cross;
     };
 
     explicit BoundedCarry(const ElementPencil<S>& pencil)
-        : local_(M(2) * pencil.entry_error + M(6) * unit()), stiffness_underflow_(pencil.stiffness_underflow) {}
+        : local_(M(2) * pencil.entry_error + M(6) * unit()),
+          stiffness_underflow_(pencil.stiffness_underflow) {}
 
     Shift at(const S& x) const {
         using std::abs;
@@ -173,10 +181,11 @@ class BoundedCarry<ElementPencil<S>> {
         return {static_cast<M>(e.lower), static_cast<M>(e.upper), turning,
                 abs(static_cast<M>(e.cross)) + M(2) * turning};
     }
-    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift, State& at) const {
+    [[gnu::always_inline]] void operator()(const Element<S>& e, const Sizes& of, const Shift& shift,
+                                           State& at) const {
         using std::abs;
-        const M inflate = M(1) + M(24) * epsilon<M>();  // the bound's own rounding
-        const M slack = M(1) + M(4) * epsilon<M>();     // of magnitudes taken from rounded numbers
+        const M inflate = M(1) + M(24) * epsilon<M>();  // the rounding of the bound itself
+        const M slack = M(1) + M(4) * epsilon<M>();     // the error of rounded magnitudes
         const S stiffness = shift.x * e.stiffness;
         const S pivot = at.below + (stiffness - e.lower);
         const M size = abs(static_cast<M>(at.below));
@@ -184,7 +193,7 @@ class BoundedCarry<ElementPencil<S>> {
         const M pivot_error = local_ * (k + of.lower + size) + shift.underflow;
         const M least = abs(static_cast<M>(pivot)) * (M(1) - M(2) * epsilon<M>()) - pivot_error;
         const M least_with_below = least - at.error * inflate;
-        // Written so that a NaN anywhere withdraws the proof.
+        // The comparison is written so that any NaN withdraws the proof.
         at.count.proved = at.count.proved && least_with_below > M(0);
         at.count.above += pivot < S(M(0)) ? 1 : 0;
 
@@ -193,14 +202,17 @@ class BoundedCarry<ElementPencil<S>> {
         const M gain = abs(static_cast<M>(coupling)) * slack + coupling_error;
         const M inverse = M(1) / least;
         const M push = gain * inverse;
-        // Quotients first: the products of small weights would underflow.
-        const M by_weight = local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
-        const M by_coupling = local_ * (k + of.upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
+        // Quotients come first: the products of small weights would underflow.
+        const M by_weight =
+            local_ * ((k + of.upper) * (size * inverse) + (k + of.turning) * (e.weight * inverse));
+        const M by_coupling =
+            local_ * (k + of.upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
         const S one_over = S(M(1)) / not_zero(pivot, stiffness);
         const S by_weight_value = propagate(e, stiffness, at.below, e.upper, one_over);
         const M quotient = abs(static_cast<M>(by_weight_value));
         const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
-        at.below = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
+        at.below = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over)
+                           : by_weight_value;
         const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
         const M rest = shift.underflow * (M(1) + (size + e.weight) * inverse) +
                        tiny() * (k + of.upper + of.turning + gain + (k + of.turning) * inverse);
@@ -212,14 +224,14 @@ class BoundedCarry<ElementPencil<S>> {
     static M tiny() { return State::tiny(); }
     static M unit() { return operation_error<S>(); }
 
-    M local_;  // stiffness times weight has both their errors
+    M local_;  // stiffness times weight has the errors of both
     M stiffness_underflow_;
 };
 
-/// For elements of any sign, each with its own error bounds. D' = L - B - (L + X)^2/p has the
-/// slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and 1 - q = (D - A
-/// - X)/p; the roundings of numerator, p and quotient are added. It proves as much of a hanging
-/// chain as the other form, in 1.4 times the time (in double 4 times).
+/// The method for elements of any sign, each with its own error bounds. D' = L - B - (L + X)^2/p
+/// has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X. Here q = (L + X)/p and 1 - q
+/// = (D - A - X)/p. The roundings of numerator, p and quotient are added. For a hanging chain it
+/// proves as much as the other form, in 1.4 times the time (4 times in double).
 template <Real S>
 class BoundedCarry<SignedPencil<S>> {
    public:
@@ -242,45 +254,58 @@ class BoundedCarry<SignedPencil<S>> {
     }
     static Sizes sizes(const SignedElement<S>& e) {
         const M lower = size_of(e.lower), upper = size_of(e.upper), cross = size_of(e.cross);
-        return {size_of(e.stiffness),         size_of(e.spin), lower, upper, cross, lower + upper + M(2) * cross,
+        return {size_of(e.stiffness),
+                size_of(e.spin),
+                lower,
+                upper,
+                cross,
+                lower + upper + M(2) * cross,
                 lower * upper + cross * cross};
     }
     static void begin(const SignedElement<S>& ground, const Shift& shift, State& at) {
         const M a = shift.stiffness_size, b = shift.spin_size;
-        const M size = a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
+        const M size =
+            a * size_of(ground.stiffness) + b * size_of(ground.spin) + size_of(ground.upper);
         const ElementError<M>& off = ground.error;
         at.below = ground.stiffness_at(shift.x) - ground.upper;
-        at.error = (M(1) + M(64) * epsilon<M>()) *
-                   (a * off.stiffness + b * off.spin + off.upper + M(5) * operation_error<S>() * size + underflow());
+        at.error =
+            (M(1) + M(64) * epsilon<M>()) * (a * off.stiffness + b * off.spin + off.upper +
+                                             M(5) * operation_error<S>() * size + underflow());
     }
-    [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of, const Shift& shift,
-                                           State& at) const {
+    [[gnu::always_inline]] void operator()(const SignedElement<S>& e, const Sizes& of,
+                                           const Shift& shift, State& at) const {
         using std::abs;
         const M u = operation_error<S>();
-        const M inflate = M(1) + M(64) * epsilon<M>();  // the bound's own rounding
+        const M inflate = M(1) + M(64) * epsilon<M>();  // the rounding of the bound itself
         const M tiny = State::tiny();
         const ElementError<M>& off = e.error;
         const S L = e.stiffness_at(shift.x);
-        const M a = shift.stiffness_size, b = shift.spin_size, L_size = a * of.stiffness + b * of.spin;
+        const M a = shift.stiffness_size, b = shift.spin_size,
+                L_size = a * of.stiffness + b * of.spin;
         const M L_error = (a * off.stiffness + b * off.spin) + M(4) * u * L_size + underflow();
         const S p = at.below + (L - e.lower);
-        const M D_size = size_of(at.below), p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
+        const M D_size = size_of(at.below),
+                p_size = abs(static_cast<M>(p)) * (M(1) - M(2) * epsilon<M>());
         const M p_rounding = M(3) * u * (D_size + L_size + of.lower);
         const M least = p_size - inflate * (at.error + L_error + off.lower + p_rounding);
-        // Written so that a NaN anywhere withdraws the proof.
+        // The comparison is written so that any NaN withdraws the proof.
         at.count.proved = at.count.proved && least > tiny;
         at.count.above += p < S(M(0)) ? 1 : 0;
 
         const S pivot = abs(p) < S(tiny) ? S(tiny) : p;
         const S next = propagate_in_one_unit(e, L, at.below, e.upper, pivot);
-        if (at.count.proved) {  // else the bound is of no use
+        if (at.count.proved) {  // the bound is needed only for a proof
             const M C_size = size_of(L + e.cross) + L_error + off.cross;
             const M q = C_size / least;
             const M r = (D_size + at.error + of.lower + off.lower + of.cross + off.cross) / least;
-            const M slopes = q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
-            const M roundings = M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
-                                M(8) * u * (of.determinant / least) + size_of(next) * (p_rounding / least + M(4) * u);
-            const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) * (M(1) + M(1) / least);
+            const M slopes =
+                q * q * (at.error + off.lower) + r * r * L_error + off.upper + M(2) * q * off.cross;
+            const M roundings =
+                M(8) * u * ((L_size + of.upper) * (D_size / least) + L_size * (of.weight / least)) +
+                M(8) * u * (of.determinant / least) +
+                size_of(next) * (p_rounding / least + M(4) * u);
+            const M lost = underflow() * (M(1) + L_size + of.upper + D_size + of.weight) *
+                           (M(1) + M(1) / least);
             at.error = inflate * (slopes + roundings + lost);
         }
         at.below = next;
@@ -297,10 +322,10 @@ class BoundedCarry<SignedPencil<S>> {
 
 }  // namespace detail
 
-/// The number of negative eigenvalues of the exact Q at each exact shift, with a running bound on
-/// the error of D from rounding and from the entries: `proved` if no pivot's sign is in doubt. S is
-/// usually wider than the scalar of the answer. Cost O(N): two shifts take 140 ns a link in double
-/// words, 20 ns in double. Derivation: docs/theory/counts.md, "Proved counts".
+/// Returns the number of negative eigenvalues of the exact Q at each exact shift. A running bound
+/// covers the error of D from rounding and from the entries. `proved` is true if every pivot's sign
+/// is certain. S is usually wider than the scalar of the result. Cost O(N): two shifts take 140 ns
+/// a link in double words, 20 ns in double. Derivation: docs/theory/counts.md, "Proved counts".
 template <Real S, std::size_t L, bool Spins, bool OwnErrors>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S, Spins, OwnErrors>& pencil,
                                               const std::array<S, L>& shifts) {

@@ -11,14 +11,14 @@
 #include "revchain/pencil/forces_in_lanes.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// Eigenvectors of several modes at once: twisted factorisations in plain arithmetic, one mode a
-/// lane, and one correction from residual forces in twice the digits.
+/// This header computes eigenvectors of several modes at once: twisted factorisations in plain
+/// arithmetic, one mode a lane, and one correction from residual forces in twice the digits.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// How many modes are found at once.
+/// The number of modes computed at once.
 inline constexpr std::size_t shape_lanes = revchain::detail::lanes_at_once;
 
-/// Heights or, with spins, x of some modes, exact and rounded.
+/// Heights (or x with spins) of some modes, exact and rounded.
 template <std::floating_point T>
 struct RootsInLanes {
     std::array<DoubleWord<T>, shape_lanes> exact, rounded;
@@ -30,13 +30,13 @@ struct ShapesInLanes {
     static constexpr T least_offset{1e-290};
     std::span<T> offset;                         ///< (n + 1, shape_lanes); the largest is 1
     std::array<T, shape_lanes> residual;         ///< `relative_residual` as rounded
-    std::array<bool, shape_lanes> found;         ///< the correction was small
-    std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours need the ratios
-    std::array<std::size_t, shape_lanes> twist;  ///< below this pin `down` is used, from it on `up`
+    std::array<bool, shape_lanes> found;         ///< true if the correction was small
+    std::array<bool, shape_lanes> underflows;    ///< true if signs of neighbours need the ratios
+    std::array<std::size_t, shape_lanes> twist;  ///< offsets use `down` below it, else `up`
     std::span<T> down, up;                       ///< (n, shape_lanes): ratios of neighbours
     std::span<T> below, above, rest, change;     ///< scratch
 
-    /// Numbers are left as they are. One block: of several the system gives each back after use.
+    /// Sets the sizes, not the numbers. There is one block, because the system takes several back.
     void make_room(std::size_t links) {
         const std::size_t each = links * shape_lanes, all = 7 * each + shape_lanes;
         if (all > size_) {
@@ -45,7 +45,8 @@ struct ShapesInLanes {
         }
         T* next = numbers_.get();
         offset = {next, each + shape_lanes}, next += offset.size();
-        for (std::span<T>* part : {&down, &up, &below, &above, &rest, &change}) *part = {next, each}, next += each;
+        for (std::span<T>* part : {&down, &up, &below, &above, &rest, &change})
+            *part = {next, each}, next += each;
     }
     /// Stores the first `pins` numbers of the first `count` lanes as rows `stride` numbers apart.
     void store_rows(T* rows, std::size_t stride, std::size_t pins, std::size_t count) const {
@@ -54,16 +55,18 @@ struct ShapesInLanes {
         if (count == shape_lanes)
             for (; m + tile <= pins; m += tile)
                 for (std::size_t i = 0; i < shape_lanes; ++i)
-                    for (std::size_t k = 0; k < tile; ++k) rows[i * stride + m + k] = offset[(m + k) * shape_lanes + i];
+                    for (std::size_t k = 0; k < tile; ++k)
+                        rows[i * stride + m + k] = offset[(m + k) * shape_lanes + i];
         for (; m < pins; ++m)
-            for (std::size_t i = 0; i < count; ++i) rows[i * stride + m] = offset[m * shape_lanes + i];
+            for (std::size_t i = 0; i < count; ++i)
+                rows[i * stride + m] = offset[m * shape_lanes + i];
     }
-    /// Crossings of the mode in `lane` with offsets `row`, lowest first, without the held pin.
+    /// Returns crossings of the mode in `lane` with offsets `row`, lowest first, without held pin.
     std::vector<Crossing<T>> crossings(std::size_t lane, const T* row) const {
         const std::size_t n = down.size() / shape_lanes;
         std::vector<Crossing<T>> crossed(n);
         std::size_t count = 0;
-        for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches, which would be unpredictable
+        for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches, which are unpredictable here
             crossed[count].element = static_cast<Index>(m);
             count += (row[m] < T(0)) != (row[m + 1] < T(0)) ? 1 : 0;
         }
@@ -82,7 +85,8 @@ struct ShapesInLanes {
         crossed.clear();
         for (std::size_t m = 0; m + 1 < down.size() / shape_lanes; ++m) {
             const T lower = row[m], upper = row[m + 1];
-            const T ratio = m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
+            const T ratio =
+                m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
             const bool seen = std::min(abs(lower), abs(upper)) > least_offset;
             if (seen ? (lower < T(0)) == (upper < T(0)) : !(ratio < T(0))) continue;
             const T share = seen              ? lower / (lower - upper)
@@ -96,10 +100,10 @@ struct ShapesInLanes {
     std::size_t size_ = 0;
 };
 
-/// The largest number of links whose scratch is reused from call to call: 1.8 MB.
+/// The largest number of links for which scratch is reused from call to call: 1.8 MB.
 inline constexpr std::size_t most_kept_links = 4096;
 
-/// Calls f with scratch, reused on the same thread: allocating costs more than computing.
+/// Calls f with scratch that the thread reuses: allocating costs more than computing.
 template <std::floating_point T, class F>
 void with_shapes_in_lanes(std::size_t links, const F& f) {
     static thread_local ShapesInLanes<T> kept;
@@ -114,21 +118,21 @@ void with_shapes_in_lanes(std::size_t links, const F& f) {
 namespace detail {
 
 /// Vectors at some x in plain arithmetic, 1 at the pin where the lower and the upper part balance
-/// best: offsets below it are in `s.offset`, those above follow from `s.up`.
+/// best. Offsets below that pin are in `s.offset`; those above follow from `s.up`.
 template <class V>
 struct TwistInLanes {
-    V pin, side;  ///< and the side of the axis on which the free end is
+    V pin, side;  ///< the pin, and the side of the axis of the free end
     V above;      ///< the number of eigenvalues above x, by rounded arithmetic
 };
 template <class Terms, bool Spins, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                               const V& x, ShapesInLanes<T>& s) {
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(
+    Terms, const ElementPencil<DoubleWord<T>, Spins>& pencil, const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
     constexpr bool lumped = Terms::lumped;
     const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
     const Factors<V> at = pencil.factors(x);
-    // Stiffness below each pin, upwards, and above it, downwards; they fill each other's waits.
+    // Stiffness below each pin is carried up, above it down; each loop runs while the other waits.
     V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);
@@ -150,7 +154,7 @@ template <class Terms, bool Spins, class V, class T>
         rise.ratio.store(&s.down[m * L]);
         below = rise.stiffness;
     }
-    // They balance best where the mode is largest.
+    // The two stiffnesses balance best where the mode is largest.
     V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
     for (std::size_t m = 0; m < n; ++m) {
         const auto e = high_part(pencil.elements[m]);
@@ -162,8 +166,8 @@ template <class Terms, bool Spins, class V, class T>
         twist = select(better, V(static_cast<T>(m)), twist);
         from_link = k + V(e.upper);
     }
-    // Offsets, 1 at the twist, outwards by ratios.
-    V y = one, side = one;  // sides of the axis are known even where offsets underflow
+    // Offsets are 1 at the twist and follow outwards by ratios.
+    V y = one, side = one;  // signs are known even where offsets underflow
     for (std::size_t m = n; m-- > 0;) {
         const V at_pin(static_cast<T>(m)), ratio = V::load(&s.down[m * L]);
         y = if_less(at_pin, twist, ratio * y, one);
@@ -174,18 +178,22 @@ template <class Terms, bool Spins, class V, class T>
     return {twist, side, negative};
 }
 
-/// The offset of pin m from `twisted_in_lanes`, for one pin after the other; `last`: that of m - 1.
+/// Returns the offset of pin m from `twisted_in_lanes`, in the order of pins; `last` is that of m -
+/// 1.
 template <class V, class T>
-[[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist, const V& last) {
+[[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist,
+                                            const V& last) {
     V offset = V::load(&s.offset[m * shape_lanes]);
-    if (m > 0) offset = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * shape_lanes]) * last, offset);
+    if (m > 0)
+        offset = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * shape_lanes]) * last,
+                         offset);
     return offset;
 }
 
 template <class Where, class Terms, bool Spins, class T>
-[[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms,
-                                                   const ElementPencil<DoubleWord<T>, Spins>& pencil,
-                                                   const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
+[[gnu::always_inline]] inline void shapes_in_lanes(
+    Where, Terms terms, const ElementPencil<DoubleWord<T>, Spins>& pencil,
+    const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     using V = Pack<T, width, L / width>;
@@ -203,7 +211,8 @@ template <class Where, class Terms, bool Spins, class T>
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
-    forces_left<fused, false, V>(terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
+    forces_left<fused, false, V>(
+        terms, pencil, factors_in_pairs<fused, Spins>(x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -226,7 +235,9 @@ template <class Where, class Terms, bool Spins, class T>
     for (std::size_t m = 0; m < n; ++m) {
         const V at(static_cast<T>(m)), given = V::load(&s.change[m * L]);
         if (m > 0)
-            change = if_less(twist, at, given * V::load(&s.above[m * L]) + V::load(&s.up[(m - 1) * L]) * change, given);
+            change = if_less(
+                twist, at, given * V::load(&s.above[m * L]) + V::load(&s.up[(m - 1) * L]) * change,
+                given);
         else
             change = given;
         change.store(&s.change[m * L]);
@@ -238,7 +249,7 @@ template <class Where, class Terms, bool Spins, class T>
         most = max(most, abs(change));
         smallest = min(smallest, abs(offset));
     }
-    // Scaled by 1 over the largest, in twice the digits; the free end positive.
+    // Offsets are scaled by 1 over the largest, in twice the digits. The free end is positive.
     const DoubleWord<V> whole = fast_two_sum(largest, largest_low);
     V scale = one / whole.high;
     const DoubleWord<V> unit = two_product<fused>(whole.high, scale);
@@ -259,7 +270,8 @@ template <class Where, class Terms, bool Spins, class T>
     }
     if (!residuals) return;
     V worst{}, meeting{};
-    forces_left<fused, true, V>(terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
+    forces_left<fused, true, V>(
+        terms, pencil, factors_in_pairs<fused, Spins>(rounded, rounded_low),
         [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
@@ -271,18 +283,20 @@ template <class Where, class Terms, bool Spins, class T>
 
 }  // namespace detail
 
-/// Shapes at some roots, and if asked residuals. Accuracy as `eigenvector` in double words; `found`
-/// is false where the correction is not small; `eigenvector` can still do those. Precondition: the
-/// pencil is in one unit. Cost: 5 ns a link and mode (AVX-512), residuals 2.
+/// Computes shapes at some roots and, on request, residuals, as accurate as `eigenvector` in double
+/// words. `found` is false where the correction is not small; `eigenvector` can still compute those
+/// shapes. Precondition: the pencil is in one unit. Cost: 5 ns a link and mode (AVX-512), residuals
+/// 2.
 template <std::floating_point T, bool Spins>
-void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped, const RootsInLanes<T>& roots,
-                     bool residuals, ShapesInLanes<T>& shapes) {
+void shapes_in_lanes(const ElementPencil<DoubleWord<T>, Spins>& pencil, bool lumped,
+                     const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& shapes) {
     shapes.make_room(pencil.elements.size());
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
             detail::shapes_in_lanes(where, detail::Terms<true>(), pencil, roots, residuals, shapes);
         else
-            detail::shapes_in_lanes(where, detail::Terms<false>(), pencil, roots, residuals, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<false>(), pencil, roots, residuals,
+                                    shapes);
     });
 }
 

@@ -11,7 +11,8 @@ namespace detail {
 template <Real T>
 void check(const ChainBatch<T>& batch, const BatchOptions& options) {
     constexpr std::string_view place = "conical_heights";
-    if (batch.chains < 0) throw_invalid(place, "the number of chains must not be negative", batch.chains);
+    if (batch.chains < 0)
+        throw_invalid(place, "the number of chains must not be negative", batch.chains);
     if (batch.size < 1) throw_invalid(place, "a chain needs at least one link", batch.size);
     if (!batch.centroid && (batch.pendulum_length || batch.radius_of_gyration))
         throw_invalid(place, "pendulum_length and radius_of_gyration need the centroid");
@@ -21,13 +22,13 @@ void check(const ChainBatch<T>& batch, const BatchOptions& options) {
     const Index count = options.count.value_or(1);
     if (count < 1) throw_invalid(place, "count must be at least 1", count);
     if (count > batch.size)
-        throw_invalid(place,
-                      "count must not exceed the " + std::to_string(batch.size) + " links of a chain",
-                      count);
+        throw_invalid(
+            place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain",
+            count);
 }
 
-/// Finds all heights. With `looking`, checks every chain just before it is needed, while it is in
-/// the cache, and returns false as soon as one is not ordinary.
+/// Computes all heights. If `looking` is true, it also checks every chain just before use, while it
+/// is in the cache, and returns false as soon as a chain is not ordinary.
 template <Real T>
 bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptions& options,
              bool looking, Table<T>& heights) {

@@ -9,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// One chain by itself, by `modes`: any valid chain, every height proved.
+/// Computes the heights of one chain by `modes`. The chain may be any valid one; every height is
+/// proved.
 template <Real T>
 void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& heights) {
     using std::sqrt;
@@ -25,7 +26,8 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
 template <class T>
 inline constexpr bool fits_lanes = std::is_same_v<T, double> || std::is_same_v<T, float>;
 
-/// Chains of a batch, `block_lanes` at a time, or one by one in scalars that do not fit the lanes.
+/// Solves chains of a batch, `block_lanes` at a time, or one by one if the scalar does not fit the
+/// lanes.
 template <Real T>
 class BatchWorker {
    public:
@@ -49,7 +51,7 @@ class BatchWorker {
         }
     }
 
-    /// Solves the chains that are waiting, and those that could not be proved at once.
+    /// Solves the waiting chains, then again those whose heights could not be proved at first.
     void finish(Progress* progress) {
         if constexpr (fits_lanes<T>) {
             solve(first_method());
@@ -86,11 +88,13 @@ class BatchWorker {
     void copy(const BatchColumn<T>& column, Index c, Index which) {
         const T* from = column.data + c * column.chain_stride;
         double* to = raw_.data() + which * batch_.size * pencil::block_lanes + waiting_;
-        for (Index m = 0; m < batch_.size; ++m, from += column.link_stride, to += pencil::block_lanes)
+        for (Index m = 0; m < batch_.size;
+             ++m, from += column.link_stride, to += pencil::block_lanes)
             *to = static_cast<double>(*from);
     }
 
-    /// Empty lanes get a copy of the first chain; their results are not read.
+    /// Solves the waiting chains. Empty lanes get a copy of the first chain; their results are not
+    /// read.
     void solve(pencil::LaneMethod method) {
         if (waiting_ == 0) return;
         const Index column = batch_.size * pencil::block_lanes;
@@ -99,11 +103,13 @@ class BatchWorker {
             std::fill(lanes + waiting_, lanes + pencil::block_lanes, lanes[0]);
         }
         const double* const raw = raw_.data();
-        const pencil::LaneBlock block{batch_.size,      raw,
-                                      raw + column,     batch_.centroid ? raw + 2 * column : nullptr,
-                                      raw + 3 * column, batch_.radius_of_gyration.has_value()};
+        const pencil::LaneBlock block{
+            batch_.size,      raw,
+            raw + column,     batch_.centroid ? raw + 2 * column : nullptr,
+            raw + 3 * column, batch_.radius_of_gyration.has_value()};
         std::array<std::int64_t, pencil::block_lanes> verified{};
-        pencil::lane_spectrum(block, plan_.count, method, work_.data(), found_.data(), verified.data());
+        pencil::lane_spectrum(block, plan_.count, method, work_.data(), found_.data(),
+                              verified.data());
         for (Index i = 0; i < waiting_; ++i) {
             const Index c = chains_[static_cast<std::size_t>(i)];
             const double* const found = found_.data() + i;
@@ -114,7 +120,8 @@ class BatchWorker {
                 continue;
             }
             T* const to = heights_.data() + c * plan_.count;
-            for (Index j = 0; j < plan_.count; ++j) to[j] = static_cast<T>(found[j * pencil::block_lanes]);
+            for (Index j = 0; j < plan_.count; ++j)
+                to[j] = static_cast<T>(found[j * pencil::block_lanes]);
         }
         waiting_ = 0;
     }

@@ -7,13 +7,14 @@
 #include "revchain/questions/modes.hpp"
 #include "revchain/recurrence.hpp"
 
-/// Modes by two formulations that share no step with `modes`: slow, less accurate references of it.
-/// The same counts prove their error bounds, which say what a dense solver costs in digits.
+/// Modes by two formulations that share no step with `modes`. They are slow, less accurate
+/// references. Their error bounds are proved by the same counts and show how many digits a dense
+/// solver loses.
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The proved relative error of `height` as eigenvalue number j: the least power of two times an ulp
-/// that two counts confirm, infinite if none up to 1/2 does.
+/// Returns the proved relative error of `height` as eigenvalue number j. It is the least power of
+/// two times an ulp that two counts confirm, or infinity if they confirm none up to 1/2.
 template <Real T>
 T proved_error(const pencil::ElementPencil<Wide<T>>& pencil, Index j, const T& height) {
     for (T margin = T(2) * epsilon<T>(); height > T(0) && margin <= T(0.5); margin = margin * T(2))
@@ -22,9 +23,10 @@ T proved_error(const pencil::ElementPencil<Wide<T>>& pencil, Index j, const T& h
     return std::numeric_limits<T>::infinity();
 }
 
-/// The modes asked for of all that `solve()` finds, in the units of the chain's pencils.
+/// Returns the requested modes among all that `solve()` finds, in the units of the chain's pencils.
 template <Real T, class Solve>
-Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method, const Solve& solve) {
+Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method,
+                  const Solve& solve) {
     check(options);
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
@@ -50,7 +52,8 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
 
 }  // namespace detail
 
-/// By the assembled symmetric-definite pencil, dense, O(N^3). Arguments and errors as for `modes`.
+/// Finds modes by a dense solver for the assembled symmetric-definite pencil, O(N^3). Arguments and
+/// errors as for `modes`.
 template <Real T>
 Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "dense", [](const detail::Pencils<T>& pencils) {
@@ -59,7 +62,8 @@ Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {})
     });
 }
 
-/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3); otherwise as `modes_dense`.
+/// Finds modes by the QZ algorithm for relation (21) as a dense pencil, O(N^3). Arguments and
+/// errors as for `modes`.
 template <Real T>
 Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
     return detail::modes_of(chain, options, "recurrence", [&chain](const detail::Pencils<T>&) {

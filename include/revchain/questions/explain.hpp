@@ -14,7 +14,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// Seconds with the unit that suits them.
+/// Returns a time as text in s, ms, us or ns.
 REVCHAIN_LAZY
 std::string time_text(double seconds) {
     using Unit = std::pair<const char*, double>;
@@ -38,23 +38,29 @@ REVCHAIN_INLINE std::string Explanation::text() const {
         bound.precision(1);
         bound << std::scientific << model.error_bound;
         const std::string arrow = i == chosen ? "->" : "", name(model.name);
-        lines.push_back(model.fit.applies ? Line{arrow, name, bound.str(), detail::time_text(model.cost), ""}
-                                          : Line{arrow, name, "-", "-", std::string(model.fit.reason)});
+        lines.push_back(model.fit.applies
+                            ? Line{arrow, name, bound.str(), detail::time_text(model.cost), ""}
+                            : Line{arrow, name, "-", "-", std::string(model.fit.reason)});
     }
     std::array<std::size_t, 4> width{};
     for (const Line& line : lines)
-        for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
+        for (std::size_t i = 0; i < width.size(); ++i)
+            width[i] = std::max(width[i], line[i].size());
     std::string result = meets_tolerance ? "" : "no model keeps the tolerance\n";
     for (const Line& line : lines) {
-        const auto space = [&](std::size_t i) { return std::string(width[i] - line[i].size(), ' '); };
-        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] + "  " + space(3) +
-                          line[3] + "  " + line[4];
+        const auto space = [&](std::size_t i) {
+            return std::string(width[i] - line[i].size(), ' ');
+        };
+        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) +
+                          line[2] + "  " + space(3) + line[3] + "  " + line[4];
         row.erase(row.find_last_not_of(' ') + 1);
         result += row + '\n';
     }
 #if !defined(REVCHAIN_COMPILED)
     if (chosen < methods.size() && methods[chosen].name != models::Bisection::name)
-        result += "include <revchain/methods.hpp> and call modes(chain, options, revchain::methods::all)\n";
+        result +=
+            "include <revchain/methods.hpp> and call modes(chain, options, "
+            "revchain::methods::all)\n";
 #endif
     return result;
 }
@@ -63,8 +69,10 @@ REVCHAIN_DEFINE
 Explanation explain(const Chain<double>& chain, const ExplainOptions& options) {
     detail::check(options);
     const ModeRange range = detail::numbered_range(chain.mode_count(), options);
-    const auto choice = select(detail::with_bisection(methods::all), chain, detail::question_of(range, options.rtol));
-    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
+    const auto choice = select(detail::with_bisection(methods::all), chain,
+                               detail::question_of(range, options.rtol));
+    return {
+        {choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
 }
 
 }  // namespace revchain

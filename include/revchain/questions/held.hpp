@@ -12,7 +12,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The conical height of the speed asked for; 0 without gravity.
+/// Returns the conical height of the requested speed; 0 without gravity.
 template <class Options>
 Wide<double> height_asked(const HeldBy& by, const Options& options) {
     constexpr std::string_view place = "steady_shapes";
@@ -22,8 +22,10 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
     if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
     if (by.weightless) {
         if (options.conical_height)
-            throw_invalid(place, "without gravity there is no conical height; give angular_speed instead of it",
-                          *options.conical_height);
+            throw_invalid(
+                place,
+                "without gravity there is no conical height; give angular_speed instead of it",
+                *options.conical_height);
         if (by.tension && !options.angular_speed)
             throw_invalid(place,
                           "without gravity the shape under a tension depends on the speed; "
@@ -36,14 +38,15 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
         return Wide<double>(*options.conical_height);
     }
     if (options.gravity == 0)
-        throw_invalid(place, "gravity must be positive; for none, hold the system with weightless = true");
+        throw_invalid(place,
+                      "gravity must be positive; for none, hold the system with weightless = true");
     require_positive(place, "gravity", options.gravity);
     const Wide<double> height = finite::height_at_speed(*options.angular_speed, options.gravity);
     require_positive(place, "gravity / angular_speed^2", static_cast<double>(height));
     return height;
 }
 
-/// The conical height times the upper tension; without gravity, tension over speed squared.
+/// Returns the conical height times the upper tension; without gravity, tension over speed squared.
 REVCHAIN_LAZY
 Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
                                   const std::optional<double>& angular_speed) {
@@ -53,7 +56,8 @@ Wide<double> height_times_tension(const HeldBy& by, const Wide<double>& height,
     return product;
 }
 
-/// The supports at a speed; without gravity stiffnesses are divided by the square of the speed.
+/// Returns the supports at a speed. Without gravity, stiffnesses are divided by the square of the
+/// speed.
 REVCHAIN_LAZY
 finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                  const std::optional<double>& angular_speed) {
@@ -80,21 +84,26 @@ struct TautChain {
     Index above(std::string_view place, const Wide<double>& height) const {
         return heights.above(scaled(height), place, height.high);
     }
-    Wide<double> scaled(const Wide<double>& height) const { return ldexp(height, -pencil.units.length_exponent); }
+    Wide<double> scaled(const Wide<double>& height) const {
+        return ldexp(height, -pencil.units.length_exponent);
+    }
 
    private:
-    /// Without gravity stiffnesses are those of masses, as tensions are.
+    /// Without gravity, weights stand for masses: stiffnesses are divided by `gravity`, as tensions
+    /// are.
     static Support end(const HeldBy& by, Support support, double gravity) {
-        if (by.weightless && !support.is_firm()) support.stiffness = support.stiffness / Wide<double>(gravity);
+        if (by.weightless && !support.is_firm())
+            support.stiffness = support.stiffness / Wide<double>(gravity);
         return support;
     }
-    static LowerEnd lower_end(std::string_view place, const Held<Chain<double>>& held, double gravity) {
+    static LowerEnd lower_end(std::string_view place, const Held<Chain<double>>& held,
+                              double gravity) {
         const auto [tension, error] = lower_tension(place, held, gravity);
         return {end(held.by(), held.by().lower, gravity), tension, error, held.by().weightless};
     }
 };
 
-/// The span, for questions about shapes at every speed.
+/// Returns the span, for questions about shapes at all speeds.
 REVCHAIN_LAZY
 double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
@@ -117,23 +126,27 @@ std::pair<double, double> span_and_height(const HeldBy& by, const HeldDiagramOpt
     return {span, finite::lowest_height(place, options)};
 }
 
-/// `at_height(span, height)` and `of_tension(span, tension)` return the shape asked for, if any.
+/// `at_height(span, height)` and `of_tension(span, tension)` return the requested shape, if any.
 template <class AtHeight, class OfTension>
 auto held_shape(const HeldBy& by, const HeldOnBranchOptions& options, const AtHeight& at_height,
                 const OfTension& of_tension) {
     constexpr std::string_view place = "steady_shape";
     const double span = span_asked(place, by);
     if (options.mode < 1) throw_invalid(place, "mode must be at least 1", options.mode);
-    if (options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value() != 1)
+    if (options.conical_height.has_value() + options.angular_speed.has_value() +
+            options.top_tension.has_value() !=
+        1)
         throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
     if (options.top_tension) {
         require_positive(place, "top_tension", *options.top_tension);
         if (auto shape = of_tension(span, *options.top_tension)) return *shape;
-        throw_invalid(place, "no shape of the branch has this tension at its upper end", *options.top_tension);
+        throw_invalid(place, "no shape of the branch has this tension at its upper end",
+                      *options.top_tension);
     }
     const Wide<double> height = height_asked(by, options);
     if (auto shape = at_height(span, height)) return *shape;
-    throw_invalid(place, "the branch does not reach this conical height; branches says how far it goes",
+    throw_invalid(place,
+                  "the branch does not reach this conical height; branches says how far it goes",
                   static_cast<double>(height));
 }
 
@@ -161,17 +174,21 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldCordShapesOptions
 }
 
 REVCHAIN_DEFINE
-std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldDiagramOptions& options) {
+std::vector<HeldBranch> branches(const Held<Chain<double>>& held,
+                                 const HeldDiagramOptions& options) {
     const auto [span, least] = detail::span_and_height(held.by(), options);
     const finite::HeldSupports supports{held.by().lower, held.by().upper, {}};
     std::vector<HeldBranch> result;
-    std::vector<HeldShape> last;  // a branch that comes back ends where another would begin
+    std::vector<HeldShape> last;  // a branch that returns ends where another would begin
     const int most = (held.by().on_axis() ? 1 : 2) * static_cast<int>(held.system().size() - 1);
-    const int gap = supports.plain() ? 1 : 4;  // arms and springs may end a branch and not the next
+    const int gap = supports.plain() ? 1 : 4;  // with arms or springs a branch may end although the
+                                               // next exists
     for (int mode = 1, without = 0; mode <= most && without < gap; ++mode) {
-        auto branch = finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
+        auto branch =
+            finite::held_branch(held.system(), supports, span, least, mode, options.max_step);
         without = branch ? 0 : without + 1;
-        if (!branch || branch->shapes.empty() || finite::has(last, branch->shapes.front())) continue;
+        if (!branch || branch->shapes.empty() || finite::has(last, branch->shapes.front()))
+            continue;
         if (branch->end == HeldBranchEnd::speed) last.push_back(branch->shapes.back());
         result.push_back(std::move(*branch));
     }
@@ -193,9 +210,10 @@ std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldDiagramOp
 REVCHAIN_DEFINE
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOptions& options) {
     const HeldBy& by = held.by();
-    const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
+    const auto at_height = [&](double span,
+                               const Wide<double>& height) -> std::optional<HeldShape> {
         finite::HeldChain chain(held.system(), {by.lower, by.upper, height});
-        const auto start = finite::HeldStart::of_mode(options.mode, chain.mirrored());
+        const auto start = finite::HeldStart::of_mode(options.mode, chain.is_symmetric());
         const int exponent = chain.links().units.length_exponent;
         const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
         const auto state = chain.at_height(start.half_waves, apart, lambda.high, start.outwards);
@@ -204,11 +222,14 @@ HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOption
     };
     return detail::held_shape(by, options, at_height, [&](double span, double tension) {
         if (!by.firm())
-            detail::throw_invalid("steady_shape",
-                                  "the speed of a tension between springs is not available: a spring gives way without "
-                                  "end as the speed grows; give angular_speed, or read it from branches; top_tension",
-                                  tension);
-        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension, options.mode);
+            detail::throw_invalid(
+                "steady_shape",
+                "the speed of a tension between springs is not available: a spring gives way "
+                "without "
+                "end as the speed grows; give angular_speed, or read it from branches; top_tension",
+                tension);
+        return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension,
+                                             options.mode);
     });
 }
 
@@ -233,7 +254,9 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
     const Index available = taut.mode_count();
     const ModeRange range = chosen(
         available, options, [&](double height) { return taut.above(place, height); },
-        [&](double speed) { return taut.above(place, finite::height_at_speed(speed, options.gravity)); });
+        [&](double speed) {
+            return taut.above(place, finite::height_at_speed(speed, options.gravity));
+        });
     Modes<double> result = room_for_modes<double>(range);
     result.method = "bisection";
     std::vector<RigWord> found;
@@ -242,19 +265,22 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
         const auto finished = [&](Index done) {
             advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
         };
-        for (const auto& root : refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
-            set_height(result, static_cast<Index>(found.size()), static_cast<double>(root.x),
-                       pencil::bound_of_margin<RigWord>(root.margin), taut.pencil.units.length_exponent, options.rtol);
-            found.push_back(root.x);
+        for (const auto& root :
+             refined_roots(roots, range.first - 1, range.count, length, {}, finished)) {
+            set_height(result, static_cast<Index>(found.size()), root.eigenvalue,
+                       pencil::bound_of_margin<RigWord>(root.error_bound),
+                       taut.pencil.units.length_exponent, options.rtol);
+            found.push_back(root.unrounded);
         }
     }
     if (options.certify)
         certify(result, available, [&](double lower, double upper) {
-            return std::array{roots.certified(taut.scaled(lower)), roots.certified(taut.scaled(upper))};
+            return std::array{roots.certified(taut.scaled(lower)),
+                              roots.certified(taut.scaled(upper))};
         });
-    ShapesBehind::of(result) =
-        LazyModeShapes<double>([shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()),
-                                found = std::move(found)](Index first, Index count, bool details, Progress* progress) {
+    ShapesBehind::of(result) = LazyModeShapes<double>(
+        [shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()),
+         found = std::move(found)](Index first, Index count, bool details, Progress* progress) {
             auto shapes = room_for_shapes(shape.chain(), count, details);
             for (Index j = 0; j < count; ++j) {
                 shape.find(shapes, j, found[static_cast<std::size_t>(first + j)]);
@@ -269,7 +295,8 @@ REVCHAIN_DEFINE
 Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
     constexpr std::string_view place = "count_modes";
     Wide<double> height = detail::height_given(place, options);
-    if (options.angular_speed) height = finite::height_at_speed(*options.angular_speed, options.gravity);
+    if (options.angular_speed)
+        height = finite::height_at_speed(*options.angular_speed, options.gravity);
     return detail::TautChain(place, held, options.gravity).above(place, height);
 }
 

@@ -25,11 +25,12 @@ struct LowerTension {
 template <class System>
 LowerTension lower_tension(std::string_view place, const Held<System>& held, double gravity) {
     if (held.by().span)
-        throw_invalid(place,
-                      "a chain or cord whose ends are a span apart is bent, and has no modes of a "
-                      "straight one; use steady_shapes for its shapes and stability for small motions "
-                      "about one; span",
-                      *held.by().span);
+        throw_invalid(
+            place,
+            "a chain or cord whose ends are a span apart is bent, and has no modes of a "
+            "straight one; use steady_shapes for its shapes and stability for small motions "
+            "about one; span",
+            *held.by().span);
     constexpr double rounding = operation_error<Wide<double>>();
     const Wide<double> upper = *held.by().tension;
     if (held.by().weightless) {
@@ -52,8 +53,9 @@ LowerTension lower_tension(std::string_view place, const Held<System>& held, dou
     const double given = upper.low == 0 ? 0 : rounding * upper.high;
     const double error = given + parts * parts * parts * upper.high + 2 * rounding * tension.high;
     if (tension.high > error) return {tension, error};
-    throw_invalid(place, "tension at the upper end must exceed the weight " + in_digits(weight) +
-                             ", or the lower part is slack",
+    throw_invalid(place,
+                  "tension at the upper end must exceed the weight " + in_digits(weight) +
+                      ", or the lower part is slack",
                   upper.high);
 }
 

@@ -4,16 +4,16 @@
 #include "revchain/modes.hpp"
 #include "revchain/pencil/sturm.hpp"
 
-/// The certificates that modes carry where the option `certify` is set.
-/// `count(lower, upper)` returns the certified counts of heights above the two.
+/// Certificates of modes, for the option `certify`. `count(lower, upper)` returns the certified
+/// counts of heights above `lower` and above `upper`.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Proved counts at numbers of T on either side of the height at index j, that of mode number
-/// `before` + 1 of `mode_count`. They are as far away as its error bound says, or where rounding to
-/// T leaves that in doubt a little farther.
+/// Stores proved counts at a number of T below and one above the height at index j, which belongs
+/// to mode number `before` + 1 of `mode_count`. Their distance from the height is its error bound,
+/// doubled at most seven times while rounding to T leaves a count unproved.
 template <Real T, class Count>
-void certify(Certificate<T>& certificate, Index j, const T& height, const T& bound, Index before, Index mode_count,
-             const Count& count) {
+void certify(Certificate<T>& certificate, Index j, const T& height, const T& bound, Index before,
+             Index mode_count, const Count& count) {
     using std::isfinite;
     certificate.lower[j] = T(0), certificate.above_lower[j] = mode_count;
     certificate.upper[j] = std::numeric_limits<T>::infinity(), certificate.above_upper[j] = 0;
@@ -35,7 +35,7 @@ void certify(Certificate<T>& certificate, Index j, const T& height, const T& bou
     }
 }
 
-/// Certifies every mode of `modes`, of a system that has `mode_count`.
+/// Certifies every mode in `modes`. The system has `mode_count` modes in all.
 template <class Found, class Count>
 void certify(Found& modes, Index mode_count, const Count& count) {
     const Index size = modes.size();
@@ -43,8 +43,9 @@ void certify(Found& modes, Index mode_count, const Count& count) {
     modes.certificate = {height, height, Vector<Index>(size), Vector<Index>(size)};
     parallel_for(size, 1, [&](Index begin, Index end) {
         for (Index j = begin; j < end; ++j) {
-            look();
-            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j, mode_count, count);
+            check_interrupt();
+            certify(modes.certificate, j, height[j], modes.error_bound[j], modes.first - 1 + j,
+                    mode_count, count);
         }
     });
 }

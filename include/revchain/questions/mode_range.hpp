@@ -6,20 +6,21 @@
 
 #include "revchain/count.hpp"
 
-/// Which modes the options of a question mean.
+/// The range of modes that the options of a question select.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Modes found where no count is given and there are as many.
+/// The number of modes found if no count is given; fewer if the chain has fewer.
 inline constexpr Index default_count = 10;
 
 template <class Options>
 void check(const Options& options) {
     if (!options.rtol) return;
     const auto rtol = *options.rtol;
-    if (!(rtol >= decltype(rtol)(0))) throw_invalid("modes", "rtol must not be negative or NaN", rtol);
+    if (!(rtol >= decltype(rtol)(0)))
+        throw_invalid("modes", "rtol must not be negative or NaN", rtol);
 }
 
-/// The modes whose numbers are asked for, of `all` there are.
+/// Returns the modes that the options request by number; `all` is the number of modes.
 template <class Options>
 ModeRange numbered_range(Index all, const Options& options) {
     const std::string of = std::to_string(all) + " modes of this chain";
@@ -32,19 +33,21 @@ ModeRange numbered_range(Index all, const Options& options) {
     if (count < 1) throw_invalid("modes", "count must be at least 1", count);
     std::string most = of;
     if (left < all)
-        most = std::to_string(left) + " from number " + std::to_string(options.first) + " on of the " + of;
+        most = std::to_string(left) + " from number " + std::to_string(options.first) +
+               " on of the " + of;
     if (count > left) throw_invalid("modes", "count must not exceed the " + most, count);
     return {options.first, count};
 }
 
-/// The numbers of the modes asked for, of `all` there are. For a window, `above(height)` counts the
-/// modes above a height and `below(speed)` those slower than a speed.
+/// Returns the mode numbers that the options request; `all` is the number of modes. For a window,
+/// `above(height)` counts the modes above a height and `below(speed)` those slower than a speed.
 template <class Options, class Above, class Below>
 ModeRange chosen(Index all, const Options& options, const Above& above, const Below& below) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        throw_invalid("modes", "give one of mode numbers (first, count), conical_height and "
-                               "angular_speed, not several");
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and "
+                      "angular_speed, not several");
     if (options.conical_height) return modes_within(*options.conical_height, all, above);
     if (!options.angular_speed) return numbered_range(all, options);
     require_positive("modes", "gravity", options.gravity);

@@ -11,7 +11,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// Heights and speeds in the units of a chain.
+/// Returns heights and speeds in the units of a chain.
 template <class Carried>
 std::vector<Driving> drives(const Carried& carried, const ResponseOptions& options) {
     using S = Wide<double>;
@@ -38,7 +38,7 @@ std::vector<Driving> drives(const Carried& carried, const ResponseOptions& optio
     return result;
 }
 
-/// The source of each offset asked for.
+/// The source of each requested offset.
 struct PinsAsked {
     std::vector<Index> asked;
     pencil::DrivenPins wanted;
@@ -46,11 +46,13 @@ struct PinsAsked {
     std::vector<Index> carried_columns;       ///< of the moved end itself
 };
 
-/// The pins asked for. A pin of an idle link moves with the lowest other pin.
+/// Returns the requested pins. A pin of an idle link moves with the lowest pin of the other links.
 REVCHAIN_LAZY
 PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.pencil.elements.size();
-    const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
+    const auto place = [&](Index pin) {
+        return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle));
+    };
     PinsAsked result;
     if (options.pins) {
         result.asked = *options.pins;
@@ -60,7 +62,8 @@ PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenCh
     }
     for (const Index pin : result.asked) {
         if (pin < 0 || pin > links)
-            throw_invalid("response", "pins must be numbers from 0 to " + std::to_string(links), pin);
+            throw_invalid("response", "pins must be numbers from 0 to " + std::to_string(links),
+                          pin);
         if (place(pin) < below) result.wanted.pins.push_back(place(pin));
     }
     auto& pins = result.wanted.pins;
@@ -80,8 +83,8 @@ PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenCh
 }
 
 REVCHAIN_LAZY
-void store(Response& result, Index row, const pencil::Driven& found, const Driving& at, const DrivenChain& chain,
-           double radius) {
+void store(Response& result, Index row, const pencil::Driven& found, const Driving& at,
+           const DrivenChain& chain, double radius) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const bool finite = found.decided && result.offset.row(row).allFinite();
@@ -96,7 +99,8 @@ void store(Response& result, Index row, const pencil::Driven& found, const Drivi
     }
     const double rounding = 0x1.00001p-53 + std::numeric_limits<double>::denorm_min() / radius;
     result.error_bound[row] = found.error_bound * (1 + 0x1p-50) + rounding;
-    const double over = std::ldexp(radius / at.height.high, chain.units.weight_exponent - chain.units.length_exponent);
+    const double over = std::ldexp(radius / at.height.high,
+                                   chain.units.weight_exponent - chain.units.length_exponent);
     result.support_force[row] = -found.stiffness * over;
     result.support_force_error[row] = found.stiffness_error * over * (1 + 0x1p-40) +
                                       0x1p-50 * std::abs(result.support_force[row]) +
@@ -112,10 +116,12 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
     const DrivenChain chain = driven_chain(carried);
     const PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain);
 
-    const auto rows = static_cast<Index>(at.size()), columns = static_cast<Index>(pins.asked.size());
-    Response result{pins.asked,           Table<double>(rows, columns), Vector<double>(rows),
-                    Vector<Index>(rows),  std::vector<char>(at.size()), std::vector<char>(at.size()),
-                    Vector<double>(rows), Vector<double>(rows)};
+    const auto rows = static_cast<Index>(at.size()),
+               columns = static_cast<Index>(pins.asked.size());
+    Response result{
+        pins.asked,           Table<double>(rows, columns), Vector<double>(rows),
+        Vector<Index>(rows),  std::vector<char>(at.size()), std::vector<char>(at.size()),
+        Vector<double>(rows), Vector<double>(rows)};
     for (const Index column : pins.carried_columns) result.offset.col(column).setConstant(radius);
     const auto put = [&](Index row, std::size_t which, const Wide<double>& y) {
         const double offset = (y * radius).high;
@@ -125,7 +131,9 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
         store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
     };
     const bool one_unit = chain.pencil.units.empty();
-    if (one_unit) driven_by_lanes<std::is_same_v<Carried, Rig>>(chain, at, pins.wanted, put, take, options.progress);
+    if (one_unit)
+        driven_by_lanes<std::is_same_v<Carried, Rig>>(chain, at, pins.wanted, put, take,
+                                                      options.progress);
     std::vector<Index> left;
     for (Index row = 0; row < rows; ++row)
         if (!one_unit || result.resonant[static_cast<std::size_t>(row)] != 0) left.push_back(row);
@@ -156,6 +164,8 @@ Response response(const Chain<double>& chain, const ResponseOptions& options) {
     return detail::responses(chain, options);
 }
 REVCHAIN_DEFINE
-Response response(const Rig& rig, const ResponseOptions& options) { return detail::responses(rig, options); }
+Response response(const Rig& rig, const ResponseOptions& options) {
+    return detail::responses(rig, options);
+}
 
 }  // namespace revchain

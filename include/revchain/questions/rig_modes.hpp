@@ -13,7 +13,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The mode numbers asked for; fewer, or none, where there are not as many.
+/// Returns the requested mode numbers; fewer, or none, if fewer modes are available.
 REVCHAIN_LAZY
 ModeRange numbered(const RigModesOptions& options, Index available) {
     const Index count = options.count.value_or(default_count);
@@ -22,11 +22,14 @@ ModeRange numbered(const RigModesOptions& options, Index available) {
     return {options.first, std::clamp<Index>(available - options.first + 1, 0, count)};
 }
 
-/// The mode numbers of one sense that numbers or a window ask for.
+/// Returns the mode numbers of one sense that the options request by numbers or a window.
 REVCHAIN_LAZY
-ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward, Index available) {
+ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool forward,
+                 Index available) {
     if (!options.conical_height && !options.angular_speed) return numbered(options, available);
-    const auto above = [&](const RigWord& x, double given) { return roots.above(x, forward, "modes", given); };
+    const auto above = [&](const RigWord& x, double given) {
+        return roots.above(x, forward, "modes", given);
+    };
     return chosen(
         available, options, [&](double height) { return above(roots.at_height(height), height); },
         [&](double speed) { return above(roots.at_speed(speed), speed); });
@@ -35,24 +38,26 @@ ModeRange chosen(const RigModesOptions& options, const RigRoots& roots, bool for
 REVCHAIN_LAZY
 void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
     modes.first = range.first, modes.available = available;
-    for (Vector<double>* column :
-         {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
+    for (Vector<double>* column : {&modes.conical_height, &modes.error_bound, &modes.angular_speed,
+                                   &modes.speed_error_bound})
         column->resize(range.count);
 }
 
 /// Stores mode number j (from 0) of those found; returns whether it is proved.
 REVCHAIN_LAZY
-bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
-              const FoundRoot& root) {
-    const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
-    const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
+bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
+              const pencil::SignedPencil<RigWord>& pencil, const FoundRoot& root) {
+    const RigWord height = pencil.quadratic ? root.unrounded * root.unrounded : root.unrounded;
+    const RigWord speed = rig.pace / (pencil.quadratic ? root.unrounded : sqrt(root.unrounded));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
     modes.angular_speed[j] = static_cast<double>(speed);
     // The margin bounds the root; the bound of its square or root takes in two roundings.
     const double ulp = epsilon<double>();
-    const double margin = root.margin * (1 + 4 * root.margin) + 32 * operation_error<RigWord>();
+    const double margin =
+        root.error_bound * (1 + 4 * root.error_bound) + 32 * operation_error<RigWord>();
     double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
-    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    if (pencil.quadratic)
+        of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
     const bool proved = of_height < 1;
     if (!proved) of_height = of_speed = std::numeric_limits<double>::infinity();
     modes.error_bound[j] = of_height, modes.speed_error_bound[j] = of_speed;
@@ -74,41 +79,47 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
     const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
     const double guess = roots.pencil().quadratic ? std::sqrt(height) : height;
     const auto report = [&](double share, Index done, double of) {
-        advance(options.progress, from + (to - from) * (share + of * static_cast<double>(done) / all));
+        advance(options.progress,
+                from + (to - from) * (share + of * static_cast<double>(done) / all));
     };
     const auto finished = [&](Index done) { report(0, done, 0.4); };
     bool proved = true;
     std::vector<RigWord> found;
-    const auto store = [&]<bool Spins>(const std::vector<FoundRoot>& stored,
-                                       std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
+    const auto store = [&]<bool Spins>(
+                           const std::vector<FoundRoot>& stored,
+                           std::shared_ptr<const pencil::ElementPencil<RigWord, Spins>> elements) {
         for (const FoundRoot& root : stored) {
             const auto j = static_cast<Index>(found.size());
             proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
-            found.push_back(root.x);
+            found.push_back(root.unrounded);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<Spins>(
-            rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(
+            RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
+                                  std::move(found), options.threads));
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
         if (!elements) return false;
         std::optional<std::vector<FoundRoot>> several_roots;
-        if constexpr (!Spins) several_roots = roots_under_a_spring(rig, *elements, range, available);
-        if (!several_roots) several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if constexpr (!Spins)
+            several_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!several_roots)
+            several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
         if (!several_roots) return false;
         using Elements = pencil::ElementPencil<RigWord, Spins>;
         store(*several_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type())) return proved;
+        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type()))
+            return proved;
     store(refined_roots(roots, range.first - 1, range.count, guess, finished,
                         [&](Index done) { report(0.4, done, 0.6); }),
           std::shared_ptr<const pencil::ElementPencil<RigWord>>());
     return proved;
 }
 
-/// The modes of a rig that has nothing but its chain.
+/// Returns the modes of a rig that is a plain chain.
 REVCHAIN_LAZY
 RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
@@ -123,7 +134,8 @@ RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
                                   .gravity = options.gravity,
                                   .threads = options.threads,
                                   .progress = options.progress};
-    if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
+    if (!options.conical_height &&
+        !options.angular_speed) {  // numbers beyond the last give no modes
         const ModeRange range = numbered(options, available);
         if (range.count == 0) {
             make_room(result.forward, range, available);
@@ -151,14 +163,15 @@ bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// The mode of a height in the pencil's unit. Its growth rate is the root of -g/height with a
-/// positive real part.
+/// Returns the mode of a height in the pencil's unit. Its growth rate is the root of -g/height with
+/// a positive real part.
 REVCHAIN_LAZY
 OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
     if (!(bound < 1)) bound = std::numeric_limits<double>::infinity();
     const auto in_unit = [&](double y) { return std::ldexp(y, rig.units.length_exponent); };
-    return {{in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
+    return {
+        {in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
 REVCHAIN_LAZY
@@ -170,7 +183,8 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     const std::size_t senses = roots.senses().size();
     bool proved = true;
     for (std::size_t i = 0; i < senses; ++i) {
-        const double share = 0.9 / static_cast<double>(senses), from = share * static_cast<double>(i);
+        const double share = 0.9 / static_cast<double>(senses),
+                     from = share * static_cast<double>(i);
         WhirlModes& sense = i == 0 ? result.forward : result.backward;
         proved &= count_modes_of(sense, rig, roots, i == 0, options, from, from + share);
         result.complete &= roots.senses()[i].available.proved;
@@ -178,13 +192,15 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     if (!roots.has_momentum())
         if (const auto negative = counted_negative_heights(pencil)) {
             const Index count = std::max<Index>(0, negative->available.count);
-            const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+            const double start =
+                std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
             result.other_available = count;
             result.complete &= negative->available.proved;
             if (options.other && count > 0)
-                for (const FoundRoot& root : refined_roots(negative->roots, 0, count, start, {}, {})) {
-                    const double height = -static_cast<double>(root.x);
-                    result.other.push_back(other_height(pencil, height, root.margin + 1e-30));
+                for (const FoundRoot& root :
+                     refined_roots(negative->roots, 0, count, start, {}, {})) {
+                    const double height = -root.eigenvalue;
+                    result.other.push_back(other_height(pencil, height, root.error_bound + 1e-30));
                     proved &= std::isfinite(result.other.back().error_bound);
                 }
         }
@@ -192,7 +208,7 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     return result;
 }
 
-/// By discs around all roots, where counts cannot find them.
+/// Finds modes by discs around all roots, for rigs whose roots counts cannot find.
 REVCHAIN_LAZY
 RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
@@ -206,12 +222,13 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         const double size = std::abs(root.value);
         double bound = std::numeric_limits<double>::infinity();
         if (spectrum.proved) bound = root.radius / size;
-        if (!(size > 0x1p-200)) continue;  // not proved, and no speed if it is 0
+        if (!(size > 0x1p-200)) continue;  // not proved; a root of 0 has no speed
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
             const bool ahead = root.value.real() > 0;
             // The mode is rounded from x, which may be half an ulp from the disc's centre.
+            const RigWord x = ahead ? root.x.real : -root.x.real;
             (ahead ? forward : backward)
-                .push_back({ahead ? root.x.real : -root.x.real, bound + 1.01 * epsilon<double>()});
+                .push_back({static_cast<double>(x), bound + 1.01 * epsilon<double>(), x});
         } else if (!result.has_momentum) {
             result.other.push_back(other_height(pencil, root.value, bound));
         } else {
@@ -219,8 +236,8 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x);
             const std::complex<double> speed(pencil::ComplexWord(pencil.pace) / root.x);
-            result.other.push_back(
-                {height * unit, speed, std::abs(speed.imag()), 2 * bound * (1 + bound) + 8 * epsilon<double>()});
+            result.other.push_back({height * unit, speed, std::abs(speed.imag()),
+                                    2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
     result.other_available = static_cast<Index>(result.other.size());
@@ -233,17 +250,17 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         for (Index j = 0; j < range.count; ++j) {
             const FoundRoot& root = found[static_cast<std::size_t>(range.first - 1 + j)];
             set_mode(modes, j, pencil, sense, root);
-            at.push_back(root.x);
+            at.push_back(root.unrounded);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(
-            RigShapeFinder<>(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
+            rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
     return result;
 }
 
-/// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
+/// Returns the links with tension + n spin = 0 at a speed n between 0 and the fastest speeds found.
 REVCHAIN_LAZY
 std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
     const auto fastest = [](const WhirlModes& sense) {
@@ -275,7 +292,8 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     check(options);
     const Threads used("modes", options.threads);
     if (has_nothing(rig)) return plain_modes(rig, options);
-    const RigRoots roots("modes", rig, options.gravity, [&](double share) { advance(options.progress, 0.9 * share); });
+    const RigRoots roots("modes", rig, options.gravity,
+                         [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = RigMethod::counts;
@@ -313,24 +331,28 @@ REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) :
     if (detail::has_nothing(rig))
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
-        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
+        roots_ =
+            std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
 }
 
 REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {
     detail::require_positive("count_modes", "conical height", height);
     if (plain_) return plain_->above_height(height);
     const auto above = [&](bool forward) {
-        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height", height);
+        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height",
+                             height);
     };
     return above(true) + (roots_->has_momentum() ? above(false) : 0);
 }
 
 REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
     if (!std::isfinite(angular_speed) || angular_speed == 0)
-        detail::throw_invalid("count_modes", "angular speed must be finite and not 0", angular_speed);
+        detail::throw_invalid("count_modes", "angular speed must be finite and not 0",
+                              angular_speed);
     if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
     const bool forward = angular_speed > 0 || !roots_->has_momentum();
-    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed", angular_speed);
+    return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed",
+                         angular_speed);
 }
 
 REVCHAIN_DEFINE

@@ -27,8 +27,10 @@ struct LinksAtSpeed {
     }
     const RigLink& link(Index m) const { return links[static_cast<std::size_t>(m)]; }
     S sign(Index m) const { return S(rig.stands(m) ? -1.0 : 1.0); }
-    S stiffness(Index m) const { return sign(m) * (link(m).tension + speed * link(m).spin) / link(m).length; }
-    /// Dynamic stiffness at one pin of link m, where `at` is the one at its other pin.
+    S stiffness(Index m) const {
+        return sign(m) * (link(m).tension + speed * link(m).spin) / link(m).length;
+    }
+    /// Dynamic stiffness at one pin of link m; `at` is the dynamic stiffness at its other pin.
     S across(Index m, const S& at, const S& near, const S& far) const {
         const S k = stiffness(m), coupling = k + turning * link(m).cross;
         return (k - turning * far) - coupling * coupling / (at + k - turning * near);
@@ -39,7 +41,9 @@ struct LinksAtSpeed {
         for (Index m = 0; m < end; ++m) found = across(m, found, link(m).lower, link(m).upper);
         return found;
     }
-    S carriage_weight() const { return S(std::ldexp(rig.support().carriage_weight, -units.weight_exponent)); }
+    S carriage_weight() const {
+        return S(std::ldexp(rig.support().carriage_weight, -units.weight_exponent));
+    }
 };
 
 /// The offsets y of a mode, and the change dn of its speed for a change of the balance of forces.
@@ -48,16 +52,19 @@ struct RigMode : LinksAtSpeed {
     std::vector<S> slope;  ///< s of each link
     S denominator{0.0};    ///< y^T G y - 2 y^T M y n/g
 
-    RigMode(std::string_view place, const Rig& of, double angular_speed, const Vector<double>& y, double gravity)
+    RigMode(std::string_view place, const Rig& of, double angular_speed, const Vector<double>& y,
+            double gravity)
         : LinksAtSpeed(place, of, angular_speed, gravity), offset(y) {
         if (y.size() != of.size() + 1)
-            throw_invalid(place, "there must be " + std::to_string(of.size() + 1) + " offsets", y.size());
+            throw_invalid(place, "there must be " + std::to_string(of.size() + 1) + " offsets",
+                          y.size());
         S inertia(0.0), momentum(0.0);  // y^T M y, y^T G y
         for (Index m = 0; m < of.size(); ++m) {
             const RigLink& it = link(m);
             const S lower(y[m]), upper(y[m + 1]), s = (lower - upper) / it.length;
             slope.push_back(s);
-            inertia = inertia + (lower * (it.lower * lower + (it.cross + it.cross) * upper) + it.upper * upper * upper);
+            inertia = inertia + (lower * (it.lower * lower + (it.cross + it.cross) * upper) +
+                                 it.upper * upper * upper);
             momentum = momentum + sign(m) * (it.spin * it.length * s * s);
         }
         if (!of.support().is_firm()) inertia = inertia + carriage_weight() * top() * top();
@@ -69,13 +76,15 @@ struct RigMode : LinksAtSpeed {
                           angular_speed);
     }
     S top() const { return S(offset[rig.size()]); }
-    /// dn for a change x of y^T (stiffness - n^2/g mass) y, over these powers of the units.
+    /// Returns dn for a change x of y^T (stiffness - n^2/g mass) y, divided by these powers of the
+    /// units.
     double rate(const S& x, int weight_power, int length_power) const {
-        return std::ldexp(static_cast<double>(-x / denominator),
-                          -weight_power * units.weight_exponent - length_power * units.length_exponent);
+        return std::ldexp(
+            static_cast<double>(-x / denominator),
+            -weight_power * units.weight_exponent - length_power * units.length_exponent);
     }
 
-    /// A body of a link, the offset of its centre, and the parts of dn of a unit of its weight.
+    /// A body of a link, the offset of its centre, and the parts of dn for a unit of its weight.
     struct Body {
         S weight, centroid, gyration, centre, bears, moves;
         S resists(const S& s) const { return weight * s * (centroid * centre + gyration * s); }
@@ -84,14 +93,20 @@ struct RigMode : LinksAtSpeed {
         const S h(std::ldexp(centroid, -units.length_exponent)), a = link(m).length;
         const S s = slope[static_cast<std::size_t>(m)], gyration = ratio * (a * a);
         const S centre = S(offset[m + 1]) + h * s;
-        return {S(std::ldexp(weight, -units.weight_exponent)),   h, gyration, centre, sign(m) * h * (s * s) + borne,
+        return {S(std::ldexp(weight, -units.weight_exponent)),
+                h,
+                gyration,
+                centre,
+                sign(m) * h * (s * s) + borne,
                 turning * (centre * centre + gyration * (s * s))};
     }
 };
 
-/// Derivatives for the numbers of link m; `above` sums a s^2 over the links above, standing ones less.
+/// Sets the derivatives by the data of link m. `above` sums a s^2 over the links above; standing
+/// links count negative.
 REVCHAIN_LAZY
-void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, RigSensitivity& result) {
+void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above,
+                      RigSensitivity& result) {
     using S = Wide<double>;
     const Rig& rig = mode.rig;
     const RigLink& link = mode.link(m);
@@ -108,12 +123,14 @@ void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, R
     result.displaced_weight[m] = mode.rate(turns ? fluid.moves - fluid.bears : -fluid.bears, 1, 0);
     result.added_weight[m] = turns ? 0 : mode.rate(-fluid.moves, 1, 0);
 
-    // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
-    const S axial =
-        ldexp(rig.flywheel(m).axial_moment, -mode.units.weight_exponent - 2 * mode.units.length_exponent) * square;
-    S by_length(0.0);  // of the lowest link: where nothing hangs, no pin matters
+    // With fixed pins, slopes are proportional to 1/a; kappa = W h - B h_B + a S.
+    const S axial = ldexp(rig.flywheel(m).axial_moment,
+                          -mode.units.weight_exponent - 2 * mode.units.length_exponent) *
+                    square;
+    S by_length(0.0);  // 0 for the lowest link: nothing hangs from its lower pin
     if (m > 0)
-        by_length = sign * square * (mode.link(m - 1).hung - S(2.0) * (link.tension + mode.speed * link.spin)) +
+        by_length = sign * square *
+                        (mode.link(m - 1).hung - S(2.0) * (link.tension + mode.speed * link.spin)) +
                     twice * (solid.resists(s) + fluid.resists(s) - axial) / link.length;
     const S by_centroid = solid.weight * (sign * square - twice * solid.centre * s);
     const S radius = sqrt(solid.gyration), by_radius = -(twice * solid.weight * radius * square);
@@ -127,12 +144,13 @@ void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, R
 }  // namespace detail
 
 REVCHAIN_DEFINE
-RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset, double gravity) {
+RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
+                           double gravity) {
     const detail::RigMode mode("sensitivity", rig, angular_speed, offset, gravity);
     RigSensitivity result{};
-    for (auto* column :
-         {&result.weight, &result.length, &result.centroid, &result.radius_of_gyration, &result.length_in_proportion,
-          &result.momentum, &result.displaced_weight, &result.added_weight})
+    for (auto* column : {&result.weight, &result.length, &result.centroid,
+                         &result.radius_of_gyration, &result.length_in_proportion, &result.momentum,
+                         &result.displaced_weight, &result.added_weight})
         column->resize(rig.size());
     Wide<double> above(0.0);
     for (Index m = rig.size(); m-- > 0;) {
@@ -153,7 +171,8 @@ double momentum_for_speed(const Rig& rig, Index link, double angular_speed, doub
     constexpr std::string_view place = "momentum_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
     if (link < 0 || link >= rig.size())
-        detail::throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(rig.size() - 1), link);
+        detail::throw_invalid(
+            place, "link must be from 0, the lowest, to " + std::to_string(rig.size() - 1), link);
     const ChainUnits& units = links.units;
     const S turning = links.turning;
     S above(0.0);
@@ -169,7 +188,8 @@ double momentum_for_speed(const Rig& rig, Index link, double angular_speed, doub
     const S x = turning * it.cross, k = held ? -p : (x * x - p * q) / (p + q - x - x);
     const S tension = links.sign(link) * k * it.length;
     const S needed_spin = (tension - it.tension) * it.length / S(angular_speed);
-    const double needed = std::ldexp(needed_spin.high, units.weight_exponent + units.length_exponent);
+    const double needed =
+        std::ldexp(needed_spin.high, units.weight_exponent + units.length_exponent);
     if (std::isfinite(needed)) return needed;
     detail::throw_invalid(place,
                           "no finite momentum of links[" + std::to_string(link) +
@@ -182,10 +202,12 @@ double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity)
     constexpr std::string_view place = "stiffness_for_speed";
     const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
     const Wide<double> sum = links.turning * links.carriage_weight() - links.below(rig.size());
-    const double needed = std::ldexp(sum.high, links.units.weight_exponent - links.units.length_exponent);
+    const double needed =
+        std::ldexp(sum.high, links.units.weight_exponent - links.units.length_exponent);
     if (needed > 0 && std::isfinite(needed)) return needed;
-    detail::throw_invalid(place, "no positive stiffness of the support makes this a whirl speed; choose another",
-                          angular_speed);
+    detail::throw_invalid(
+        place, "no positive stiffness of the support makes this a whirl speed; choose another",
+        angular_speed);
 }
 
 }  // namespace revchain

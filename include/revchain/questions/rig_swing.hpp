@@ -10,11 +10,13 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The rig as it swings: links do not turn about their own axes, so axial moments play no part.
+/// Returns the rig for a swing. Links do not turn about their own axes, so axial moments are set to
+/// 0. Throws InvalidArgument for a support carried round and for a fluid that turns.
 REVCHAIN_LAZY
 Rig swinging(std::string_view place, const Rig& rig) {
     if (rig.support().radius != 0)
-        throw_invalid(place, "the support is carried round: it does not let the rig swing; use response",
+        throw_invalid(place,
+                      "the support is carried round: it does not let the rig swing; use response",
                       rig.support().radius);
     for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
         if (rig.displaced(m).weight != 0)
@@ -28,16 +30,18 @@ Rig swinging(std::string_view place, const Rig& rig) {
     return {rig.chain(), std::move(with)};
 }
 
-/// The modes of a rig. Throws InvalidArgument where small offsets grow, or nothing draws them back.
+/// Returns the modes of a rig. Throws InvalidArgument if small offsets grow or have no restoring
+/// force.
 REVCHAIN_LAZY
-RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil, double gravity, Index count,
-                      Progress* progress) {
+RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& pencil,
+                      double gravity, Index count, Progress* progress) {
     if (pencil.idle > 0)
         throw_invalid(place,
                       "lowest links that weigh nothing and move nothing have no motion of "
                       "their own; leave out",
                       pencil.idle);
-    RigModes found = modes(rig, {.count = std::max<Index>(count, 1), .gravity = gravity, .progress = progress});
+    RigModes found =
+        modes(rig, {.count = std::max<Index>(count, 1), .gravity = gravity, .progress = progress});
     double growth = 0;
     for (const OtherMode& mode : found.other) growth = std::max(growth, mode.growth_rate);
     if (growth > 0)
@@ -63,9 +67,11 @@ class WhirlForms : public PencilForms<pencil::SignedPencil<Wide<double>>> {
     using PencilForms::PencilForms;
 
     S momentum(const Offsets& u, const Offsets& v) const {  // times the pace
-        return sum([&](const Element& e, std::size_t m) { return e.spin * (u[m] - u[m + 1]) * (v[m] - v[m + 1]); });
+        return sum([&](const Element& e, std::size_t m) {
+            return e.spin * (u[m] - u[m + 1]) * (v[m] - v[m + 1]);
+        });
     }
-    /// As `OscillatingChain::residual`, of Q(x) y over x^2.
+    /// Returns the bound that `OscillatingChain::residual` defines, for Q(x) y over x^2.
     double residual(const S& x, const Offsets& y) const {
         S carried(0.0), pin(0.0);
         double size = 0, off = 0, squares = 0, count = 16;
@@ -91,7 +97,8 @@ class WhirlForms : public PencilForms<pencil::SignedPencil<Wide<double>>> {
     double energy(const PlaneOffsets& offset, const PlaneOffsets& velocity, const S& pace) const {
         double twice = 0;
         for (const Offsets& y : offset) twice += std::max(0.0, stiffness(y, y).high);
-        for (const Offsets& v : velocity) twice += std::max(0.0, (inertia(v, v) / (pace * pace)).high);
+        for (const Offsets& v : velocity)
+            twice += std::max(0.0, (inertia(v, v) / (pace * pace)).high);
         return twice * (1 + 1e-10);
     }
 };
@@ -115,18 +122,19 @@ std::vector<RoughWhirl> merged(const RigModes& found) {
     std::vector<RoughWhirl> all;
     for (const WhirlModes* sense : {&found.forward, &found.backward})
         for (Index j = 0; j < sense->size(); ++j)
-            all.push_back(
-                {(sense == &found.forward ? 1 : -1) * sense->angular_speed[j], sense->shapes().row(j).transpose()});
-    std::stable_sort(all.begin(), all.end(),
-                     [](const RoughWhirl& x, const RoughWhirl& y) { return std::abs(x.speed) < std::abs(y.speed); });
+            all.push_back({(sense == &found.forward ? 1 : -1) * sense->angular_speed[j],
+                           sense->shapes().row(j).transpose()});
+    std::stable_sort(all.begin(), all.end(), [](const RoughWhirl& x, const RoughWhirl& y) {
+        return std::abs(x.speed) < std::abs(y.speed);
+    });
     return all;
 }
 
-/// Finds the amplitude of each whirl, in double words, and takes it from the start.
+/// Finds the amplitude of each whirl, in double words, and subtracts that whirl from the start.
 REVCHAIN_LAZY
 Superposition split_start(WhirlSwing& result, const RigPencil& rig, const WhirlForms& forms,
-                          const std::vector<RoughWhirl>& rough, PlaneOffsets& rest, PlaneOffsets& rest_speed,
-                          Progress* progress) {
+                          const std::vector<RoughWhirl>& rough, PlaneOffsets& rest,
+                          PlaneOffsets& rest_speed, Progress* progress) {
     using S = Wide<double>;
     const Index count = result.shape.rows(), pins = result.shape.cols();
     const int unit = rig.units.weight_exponent - rig.units.length_exponent;
@@ -140,8 +148,12 @@ Superposition split_start(WhirlSwing& result, const RigPencil& rig, const WhirlF
         shape = pencil::twisted_vector(rig.pencil, x);
         const S part = S(2.0) / x * forms.inertia(shape, shape) - forms.momentum(shape, shape);
         // c = [ (1/x) y M u - y s u - i y M u'/pace ] / part
-        const auto of = [&](const std::vector<S>& u) { return forms.inertia(shape, u) / x - forms.momentum(shape, u); };
-        const auto moved = [&](const std::vector<S>& v) { return forms.inertia(shape, v) / rig.pace; };
+        const auto of = [&](const std::vector<S>& u) {
+            return forms.inertia(shape, u) / x - forms.momentum(shape, u);
+        };
+        const auto moved = [&](const std::vector<S>& v) {
+            return forms.inertia(shape, v) / rig.pace;
+        };
         const S c = (of(rest[0]) + moved(rest_speed[1])) / part;
         const S d = (of(rest[1]) - moved(rest_speed[0])) / part;
         for (std::size_t m = 0; m < shape.size(); ++m) {
@@ -149,7 +161,8 @@ Superposition split_start(WhirlSwing& result, const RigPencil& rig, const WhirlF
             rest_speed[0][m] = rest_speed[0][m] + n * d * shape[m];
             rest_speed[1][m] = rest_speed[1][m] - n * c * shape[m];
         }
-        for (Index m = 0; m < pins; ++m) result.shape(k, m) = shape[static_cast<std::size_t>(m)].high;
+        for (Index m = 0; m < pins; ++m)
+            result.shape(k, m) = shape[static_cast<std::size_t>(m)].high;
         result.angular_speed[k] = n.high;
         result.amplitude[k] = {c.high, d.high};
         result.energy[k] = std::ldexp(0.5 * ((c * c + d * d) * part / x).high, unit);
@@ -178,14 +191,17 @@ Swing swing(const Rig& given, const SwingOptions& options) {
         asked.gravity = options.gravity, asked.progress = options.progress;
         return modes(rig, asked).forward;
     };
-    const Index all = stable_modes(place, rig, pencil, options.gravity, 1, nullptr).forward.available;
+    const Index all =
+        stable_modes(place, rig, pencil, options.gravity, 1, nullptr).forward.available;
     const auto elements = pencil::positive_elements<false>(pencil.pencil);
     if (!pencil.stiffness_positive || !pencil.mass_not_negative || !elements)
-        throw_invalid(place, "weights cancel but for their last digits, or a link without mass stands");
+        throw_invalid(place,
+                      "weights cancel but for their last digits, or a link without mass stands");
     using S = DoubleDouble;
     AssembledChain<S> assembled{{}, pencil.units};
     for (const auto& e : elements->elements)
-        assembled.pencil.elements.push_back({S(e.stiffness), S(e.lower), S(e.upper), S(e.cross), S(e.turning),
+        assembled.pencil.elements.push_back({S(e.stiffness), S(e.lower), S(e.upper), S(e.cross),
+                                             S(e.turning),
                                              S((e.lower + e.cross) + (e.cross + e.upper))});
     assembled.pencil.entry_error = elements->entry_error;
     const OscillatingChain system(std::move(assembled));
@@ -208,8 +224,8 @@ WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
                       "pins without inertia beside flywheels with momentum: give each some; "
                       "there are",
                       pencil.massless.size);
-    const RigModes found =
-        stable_modes(place, rig, pencil, options.gravity, options.count.value_or(all_modes), options.progress);
+    const RigModes found = stable_modes(place, rig, pencil, options.gravity,
+                                        options.count.value_or(all_modes), options.progress);
     const Index all = found.forward.available + found.backward.available;
     const Index count = checked_count(place, options.count, all);
 
@@ -222,9 +238,10 @@ WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
     PlaneOffsets rest = in_double_words(from, all_pins);
     PlaneOffsets rest_speed = in_double_words(speed, all_pins);
     const WhirlForms forms(pencil.pencil);
-    const Superposition whirls = split_start(result, pencil, forms, merged(found), rest, rest_speed, options.progress);
+    const Superposition whirls =
+        split_start(result, pencil, forms, merged(found), rest, rest_speed, options.progress);
 
-    // The energy bounds what is left where every link hangs in tension.
+    // If every link is in tension, the energy bounds what is left.
     LeftOut left{std::numeric_limits<double>::infinity(), Vector<double>::Ones(pins),
                  pencil.units.weight_exponent - pencil.units.length_exponent};
     if (pencil.stiffness_positive) {

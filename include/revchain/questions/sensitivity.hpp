@@ -11,27 +11,29 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of
-/// the centre of gravity, and the sum of a s^2 over the links above. In a bound: upper limits of
-/// the three, and the root of the sum.
+/// Describes how a mode moves one link: the slope s (lower less upper pin, over the length), the
+/// offset of the centre of gravity, and the sum of a s^2 over the links above. In a bound, the
+/// members are upper limits, and the third is the root of the sum.
 template <class N>
 struct Movement {
     N slope, centre, above;
 };
 
-/// The five derivatives of y^T (M - lambda K) y, by `Datum`, with the offsets of the pins fixed.
+/// Returns the five derivatives of y^T (M - lambda K) y, in the order of `Datum`, with the offsets
+/// of the pins fixed.
 template <class S>
-std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda, const Movement<S>& y) {
+std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda,
+                                    const Movement<S>& y) {
     const auto& [W, a, h, rho, below] = link;
     const S square = y.slope * y.slope, mixed = y.slope * y.centre, turning = rho * rho * square;
     const S pull = lambda * square;
     const S doubled = h * mixed + turning;
     return {(y.centre * y.centre + turning) - lambda * (h * square + y.above),
-            ((h + h) * W / a + below) * pull - (doubled + doubled) * W / a, W * ((mixed + mixed) - pull),
-            (rho + rho) * W * square, link.pull() * pull};
+            ((h + h) * W / a + below) * pull - (doubled + doubled) * W / a,
+            W * ((mixed + mixed) - pull), (rho + rho) * W * square, link.pull() * pull};
 }
 
-/// Bounds of |x^T (dM - lambda dK) y|; all numbers are sizes.
+/// Returns bounds of |x^T (dM - lambda dK) y|; all arguments are absolute values.
 template <class M>
 std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const Movement<M>& x,
                                const Movement<M>& y) {
@@ -40,18 +42,19 @@ std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const
     const M turning = rho * rho * square;
     return {x.centre * y.centre + turning + lambda * (h * square + x.above * y.above),
             (M(2) * W * h / a + below) * lambda * square + (h * mixed + M(2) * turning) * W / a,
-            W * (mixed + lambda * square), M(2) * W * rho * square, (W * h / a + below) * lambda * square};
+            W * (mixed + lambda * square), M(2) * W * rho * square,
+            (W * h / a + below) * lambda * square};
 }
 
-/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and
-/// e the tangent of the angle to the exact shape x,
+/// Sets the derivatives of one mode's height and their error bounds. With w any vector as long as y
+/// in the norm of K, and e the tangent of the angle between y and the exact shape x,
 ///     |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|).
 /// The energy of w bounds its slopes, offsets and sums of slopes: s^2 <= 1/kappa, y^2 <= sum of 1/k
 /// up to the support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
 template <Real T>
-void set_derivatives(Sensitivity<T>& result, Index j,
-                     const std::vector<ScaledLink<Wide<T>>>& links, const ChainUnits& units,
-                     const WideMode<T>& mode, const Narrow<Wide<T>>& entry_error) {
+void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLink<Wide<T>>>& links,
+                     const ChainUnits& units, const WideMode<T>& mode,
+                     const Narrow<Wide<T>>& entry_error) {
     using std::abs, std::ldexp, std::sqrt;
     using S = Wide<T>;
     using M = Narrow<S>;
@@ -70,8 +73,9 @@ void set_derivatives(Sensitivity<T>& result, Index j,
         const Movement<S> y{slope, upper + link.centroid * slope, above};
         const auto value = energy_derivatives(link, mode.height, y);
 
-        const ScaledLink<M> sizes{size_of(link.weight), size_of(link.length), size_of(link.centroid),
-                                  size_of(link.radius), size_of(link.below)};
+        const ScaledLink<M> sizes{size_of(link.weight), size_of(link.length),
+                                  size_of(link.centroid), size_of(link.radius),
+                                  size_of(link.below)};
         const M kappa = size_of(link.pull()) * sizes.length, root = M(1) / sqrt(kappa);
         const M pulled = sizes.weight * sizes.centroid + sizes.length * sizes.below;
         cancelled = std::max(cancelled, pulled / kappa);
@@ -89,7 +93,8 @@ void set_derivatives(Sensitivity<T>& result, Index j,
             const M size = size_of(derivative);
             M bound = e * e * size + (M(1) + e * e) * e * (M(2) * cross[d] + e * square[d]) +
                       rounding * itself[d] + unit * size;
-            if (!(bound <= std::numeric_limits<M>::max())) bound = std::numeric_limits<M>::infinity();
+            if (!(bound <= std::numeric_limits<M>::max()))
+                bound = std::numeric_limits<M>::infinity();
             auto& to = result.by_datum[d];
             to.value(j, m) = ldexp(static_cast<T>(derivative), exponent);
             to.error_bound(j, m) = ldexp(static_cast<T>(bound * M(1.001)), exponent);
@@ -97,7 +102,7 @@ void set_derivatives(Sensitivity<T>& result, Index j,
         above = above + slope * slope * link.length;
         flexibility = flexibility + sizes.length * (sizes.length / kappa);
     }
-    // The length of the lowest link: where nothing hangs, no pin matters.
+    // The length of the lowest link has no effect, because nothing hangs from its lower pin.
     result.by_datum[1].value(j, 0) = result.by_datum[1].error_bound(j, 0) = T(0);
 }
 
@@ -106,7 +111,8 @@ void set_derivatives(Sensitivity<T>& result, Index j,
 template <Real T>
 Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     if (!chain.has_one_weight_unit())
-        detail::throw_invalid("sensitivity", "weights must not be more than 1e123 apart", chain.total_weight());
+        detail::throw_invalid("sensitivity", "weights must not be more than 1e123 apart",
+                              chain.total_weight());
     Sensitivity<T> result;
     result.first = modes.first;
     for (auto& derivatives : result.by_datum)
@@ -116,16 +122,17 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     const detail::Pencils<T> pencils(chain);
     const auto links = detail::scaled_links(chain);
     for (Index j = 0; j < modes.size(); ++j) {
-        detail::look();
+        detail::check_interrupt();
         const T height = modes.conical_height[j];
-        M guess(0.5);  // where the neighbours are known, nearer than they
+        M guess(0.5);  // closer than the neighbours that are known
         for (const Index i : {j - 1, j + 1})
             if (i >= 0 && i < modes.size() && height > T(0)) {
                 const M apart = static_cast<M>(modes.conical_height[i] / height - T(1));
                 guess = std::min(guess, (apart > M(0) ? apart : -apart) * M(0.75));
             }
         if (!(guess > M(0))) guess = M(0.5);
-        const auto mode = detail::wide_mode<T>(pencils, modes.first + j, pencils.scaled(height), guess);
+        const auto mode =
+            detail::wide_mode<T>(pencils, modes.first + j, pencils.scaled(height), guess);
         detail::set_derivatives(result, j, links, chain.units(), mode, pencils.wide().entry_error);
     }
     return result;
@@ -143,7 +150,10 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
         throw_invalid(place, "there must be as many heights as modes, " + std::to_string(k),
                       conical_height.size());
     const auto modes = static_cast<std::size_t>(k);
-    Uncertainty<T> result{Vector<T>::Zero(k), Vector<T>::Zero(k), {}, std::vector<Datum>(modes),
+    Uncertainty<T> result{Vector<T>::Zero(k),
+                          Vector<T>::Zero(k),
+                          {},
+                          std::vector<Datum>(modes),
                           std::vector<Index>(modes)};
     for (auto& share : result.share) share = Table<T>::Zero(k, n);
     for (std::size_t d = 0; d < datum_names.size(); ++d) {
@@ -153,12 +163,14 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
         const auto sound = [&](const T& x) { return isfinite(x) && x >= T(0); };
         const bool correlated = standard.size() == 0;
         if (!correlated && standard.size() != 1 && standard.size() != n)
-            throw_invalid(place, name + " must have one deviation or one for each of the " +
-                                     std::to_string(n) + " links",
+            throw_invalid(place,
+                          name + " must have one deviation or one for each of the " +
+                              std::to_string(n) + " links",
                           standard.size());
         if (correlated && (covariance.rows() != n || covariance.cols() != n))
-            throw_invalid(place, "the covariance of " + name + " must have " + std::to_string(n) +
-                                     " rows and columns",
+            throw_invalid(place,
+                          "the covariance of " + name + " must have " + std::to_string(n) +
+                              " rows and columns",
                           covariance.rows());
         for (const T& x : standard)
             if (!sound(x)) throw_invalid(place, name + " must be finite and not negative", x);
@@ -166,8 +178,10 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
             for (Index m = 0; m <= i; ++m)
                 if (!isfinite(covariance(i, m)) || covariance(i, m) != covariance(m, i) ||
                     (i == m && !sound(covariance(i, i))))
-                    throw_invalid(place, "the covariance of " + name + " must be finite, symmetric "
-                                                                       "and its diagonal not negative",
+                    throw_invalid(place,
+                                  "the covariance of " + name +
+                                      " must be finite, symmetric "
+                                      "and its diagonal not negative",
                                   covariance(i, m));
         const Table<T>& value = sensitivity.by_datum[d].value;
         for (Index j = 0; j < k; ++j)
@@ -187,7 +201,8 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
             for (Index m = 0; m < n; ++m) {
                 T& share = result.share[d](j, m);
                 if (abs(share) > most)
-                    most = abs(share), result.datum[mode] = static_cast<Datum>(d), result.link[mode] = m;
+                    most = abs(share), result.datum[mode] = static_cast<Datum>(d),
+                    result.link[mode] = m;
                 share = variance > T(0) ? share / variance : T(0);
             }
         result.conical_height[j] = variance > T(0) ? sqrt(variance) : T(0);

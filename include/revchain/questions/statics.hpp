@@ -22,11 +22,14 @@ template <Real T>
 void check_string(std::string_view where, const Vector<T>& weight, const Vector<T>& place) {
     using std::isfinite;
     if (place.size() != weight.size() + 2)
-        throw_invalid(where, "places must be two more than weights: both supports and every weight", place.size());
+        throw_invalid(where, "places must be two more than weights: both supports and every weight",
+                      place.size());
     for (Index j = 0; j < weight.size(); ++j) require_positive(where, "weight", weight[j]);
     for (Index j = 0; j < place.size(); ++j)
         if (!isfinite(place[j]) || (j > 0 && !(place[j - 1] < place[j])))
-            throw_invalid(where, "places must be finite and increase, place " + std::to_string(j) + " too", place[j]);
+            throw_invalid(where,
+                          "places must be finite and increase, place " + std::to_string(j) + " too",
+                          place[j]);
 }
 
 }  // namespace detail
@@ -59,7 +62,8 @@ inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape&
         d.ray.row(m) << -weight(outwards), weight(hung);
         from_above = at_upper, carried = link.rest;
         d.reaction.row(m) << -weight(outwards + at_upper), weight(hung + link.rest);
-        moment_x += link.moment * lower + link.rest * upper, moment_z += link.moment * low + link.rest * high;
+        moment_x += link.moment * lower + link.rest * upper,
+            moment_z += link.moment * low + link.rest * high;
         d.centre_of_gravity.row(m) << moment_x / (hung + link.rest), moment_z / (hung + link.rest);
         d.crossing[m] = upper == 0 ? high : high + upper / across * (high - low);
     }
@@ -80,24 +84,29 @@ inline Chain<double> transferred_to_axis(const Chain<double>& chain, const Stead
 
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& weight,
-                                      const std::type_identity_t<Vector<T>>& place, const T& horizontal_tension,
-                                      const T& first_height, const T& last_height) {
+                                      const std::type_identity_t<Vector<T>>& place,
+                                      const T& horizontal_tension, const T& first_height,
+                                      const T& last_height) {
     using std::hypot, std::isfinite;
     constexpr std::string_view where = "funicular_polygon";
     const Index n = weight.size();
     detail::check_string(where, weight, place);
     detail::require_positive(where, "horizontal tension", horizontal_tension);
     if (!(place.cwiseAbs().maxCoeff() <= std::numeric_limits<T>::max() * epsilon<T>()))
-        detail::throw_invalid(where, "places must not be so near the end of the range of numbers", place[n + 1]);
+        detail::throw_invalid(where, "places must not be so near the end of the range of numbers",
+                              place[n + 1]);
     for (const T& height : {first_height, last_height})
-        if (!isfinite(height)) detail::throw_invalid(where, "heights of the supports must be finite", height);
-    FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1), horizontal_tension};
+        if (!isfinite(height))
+            detail::throw_invalid(where, "heights of the supports must be finite", height);
+    FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1),
+                                horizontal_tension};
     using S = Wide<T>;
     const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
     const S end = wide(place[n + 1]), span = end - wide(place[0]), pull = wide(horizontal_tension);
     // Moments about the last support give the load of the first one.
     S lifts = pull * (wide(first_height) - wide(last_height)) / span;
-    for (Index j = 0; j < n; ++j) lifts = lifts + wide(weight[j]) * (end - wide(place[j + 1])) / span;
+    for (Index j = 0; j < n; ++j)
+        lifts = lifts + wide(weight[j]) * (end - wide(place[j + 1])) / span;
     S rise = -lifts, height = wide(first_height);
     polygon.height[0] = first_height;
     for (Index j = 0; j <= n; ++j) {
@@ -109,14 +118,16 @@ FunicularPolygon<T> funicular_polygon(const std::type_identity_t<Vector<T>>& wei
     }
     polygon.height[n + 1] = last_height;
     if (!polygon.height.allFinite() || !polygon.tension.allFinite())
-        detail::throw_invalid(where, "the polygon leaves the range of numbers, with a horizontal tension of",
-                              horizontal_tension);
+        detail::throw_invalid(
+            where, "the polygon leaves the range of numbers, with a horizontal tension of",
+            horizontal_tension);
     return polygon;
 }
 
 template <Real T>
 TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weight,
-                                    const std::type_identity_t<Vector<T>>& place, const T& tension) {
+                                    const std::type_identity_t<Vector<T>>& place,
+                                    const T& tension) {
     using std::isfinite, std::ldexp;
     constexpr std::string_view where = "transverse_modes";
     const Index n = weight.size();
@@ -125,24 +136,29 @@ TransverseModes<T> transverse_modes(const std::type_identity_t<Vector<T>>& weigh
     detail::require_positive(where, "tension", tension);
     // The string hangs as a chain from its last support. A weight 2^(digits + 47) times all others
     // replaces the first support: it stretches the chain evenly and does not move, both to far less
-    // than a rounding. The string has the modes of the chain from the second on, with heights times
-    // `factor`.
+    // than a rounding. Mode k of the string is mode k + 1 of the chain, with the height multiplied
+    // by `factor`.
     const T unit = detail::inverse_power_near(weight.maxCoeff());
     T total(0);
     for (Index j = 0; j < n; ++j) total += weight[j] * unit;
-    const T heavy = ldexp(T(1) / detail::inverse_power_near(total), std::numeric_limits<T>::digits + 47);
+    const T heavy =
+        ldexp(T(1) / detail::inverse_power_near(total), std::numeric_limits<T>::digits + 47);
     std::vector<Link<T>> links{plummet<T>(heavy, place[1] - place[0])};
-    for (Index j = 0; j < n; ++j) links.push_back(plummet<T>(weight[j] * unit, place[j + 2] - place[j + 1]));
+    for (Index j = 0; j < n; ++j)
+        links.push_back(plummet<T>(weight[j] * unit, place[j + 2] - place[j + 1]));
     const Modes<T> found = modes(Chain<T>(links), {.first = 2, .count = all_modes});
     const T factor = heavy / (tension * unit);
     TransverseModes<T> result{found.conical_height, found.error_bound, found.shapes()};
     for (Index k = 0; k < found.size(); ++k) {
         result.conical_height[k] = found.conical_height[k] * factor;
         if (!isfinite(result.conical_height[k]) || result.conical_height[k] == T(0))
-            detail::throw_invalid(where, "the conical heights leave the range of numbers, with a tension of", tension);
+            detail::throw_invalid(
+                where, "the conical heights leave the range of numbers, with a tension of",
+                tension);
         result.error_bound[k] += T(3) * epsilon<T>();
         if (result.shape(k, 1) < T(0)) result.shape.row(k) = -result.shape.row(k);
-        result.shape(k, 0) = result.shape(k, n + 1) = T(0);  // the heavy weight moves less than 2^-digits
+        result.shape(k, 0) = result.shape(k, n + 1) =
+            T(0);  // the heavy weight moves less than 2^-digits
     }
     return result;
 }

@@ -29,16 +29,19 @@ class PencilForms {
     S inertia(const Offsets& x, const Offsets& y) const {
         const S *u = x.data(), *v = y.data();
         return sum([&](const Element& e, std::size_t m) {
-            return u[m] * (e.lower * v[m] + e.cross * v[m + 1]) + u[m + 1] * (e.cross * v[m] + e.upper * v[m + 1]);
+            return u[m] * (e.lower * v[m] + e.cross * v[m + 1]) +
+                   u[m + 1] * (e.cross * v[m] + e.upper * v[m + 1]);
         });
     }
     template <class Offsets>
     S stiffness(const Offsets& x, const Offsets& y) const {
         const S *u = x.data(), *v = y.data();
-        return sum(
-            [&](const Element& e, std::size_t m) { return e.stiffness * (u[m] - u[m + 1]) * (v[m] - v[m + 1]); });
+        return sum([&](const Element& e, std::size_t m) {
+            return e.stiffness * (u[m] - u[m + 1]) * (v[m] - v[m + 1]);
+        });
     }
-    /// |y_m|^2 <= flexibility_m y^T K y, where every stiffness is positive.
+    /// Returns the flexibility_m in |y_m|^2 <= flexibility_m y^T K y. Every stiffness must be
+    /// positive.
     Vector<double> flexibility() const {
         Vector<double> result = Vector<double>::Zero(pencil_.size() + 1);
         for (Index m = pencil_.size(); m-- > 0;)
@@ -51,7 +54,8 @@ class PencilForms {
     template <class F>
     S sum(const F& f) const {
         S total(0.0);
-        for (std::size_t m = 0; m < pencil_.elements.size(); ++m) total = total + f(pencil_.elements[m], m);
+        for (std::size_t m = 0; m < pencil_.elements.size(); ++m)
+            total = total + f(pencil_.elements[m], m);
         return total;
     }
 
@@ -59,31 +63,33 @@ class PencilForms {
     Pencil pencil_;
 };
 
-/// A chain in double-double, whose matrices are never assembled but for `settled`.
+/// A chain in double-double. Its matrices are assembled only in `relaxed`.
 class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>> {
    public:
     using Offsets = Vector<S>;
 
-    explicit OscillatingChain(const Chain<double>& chain) : OscillatingChain(assemble(converted<S>(chain))) {
+    explicit OscillatingChain(const Chain<double>& chain)
+        : OscillatingChain(assemble(converted<S>(chain))) {
         if (!pencil().units.empty())
-            throw_invalid("swing", "weights must not be more than 1e123 apart", chain.total_weight());
+            throw_invalid("swing", "weights must not be more than 1e123 apart",
+                          chain.total_weight());
     }
     explicit OscillatingChain(AssembledChain<S> assembled)
         : PencilForms(std::move(assembled.pencil)), units_(assembled.units) {}
     const ChainUnits& units() const { return units_; }
     Index size() const { return pencil().size(); }
 
-    /// Bound on the norm of (height K - M) y in the inverse of K, over the height.
+    /// Returns a bound on the norm of (height K - M) y in the inverse of K, divided by the height.
     double residual(const S& height, const Offsets& y) const {
         S energy;
         const std::vector<S> offset(y.begin(), y.end());
         const double size = static_cast<double>(residual_size(pencil(), height, offset, &energy));
         return size * std::sqrt(energy.high()) * (1 + 1e-10);
     }
-    /// The offsets of least y^T K y with the same M y: of equilibrium where there is no inertia. By
-    /// (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the
-    /// size of the last correction, many times the one left out.
-    Offsets settled(const Offsets& given, const S& h, double& change) const {
+    /// Returns the offsets with the same M y and the least y^T K y: parts without inertia are in
+    /// equilibrium. (h K + M) y' = M y is solved repeatedly, with h small beside the least conical
+    /// height. `change` is the size of the last correction, many times the one left out.
+    Offsets relaxed(const Offsets& given, const S& h, double& change) const {
         const Index n = size();
         Offsets diagonal = Offsets::Zero(n + 1), off = diagonal, at = diagonal;
         for (Index m = 0; m < n; ++m) {
@@ -113,7 +119,7 @@ class OscillatingChain : public PencilForms<pencil::ElementPencil<DoubleDouble>>
     ChainUnits units_;
 };
 
-/// exp(i angle) of a large angle, reduced in double-double.
+/// Returns exp(i angle) of a large angle, reduced in double-double.
 REVCHAIN_LAZY
 std::complex<double> turned(const DoubleDouble& angle) {
     const DoubleDouble turn(6.283185307179586, 2.4492935982947064e-16);
@@ -122,10 +128,10 @@ std::complex<double> turned(const DoubleDouble& angle) {
     return {c - s * rest.low(), s + c * rest.low()};
 }
 
-/// The modes of a start: offsets are the sum of amplitude shape exp(i speed t), or its real part.
+/// The modes of a start. Offsets are the sum of amplitude shape exp(i speed t), or its real part.
 struct Superposition {
     double rounding;  ///< error of a sum, in 2^-53 of the largest sum of |amplitude shape|
-    double at_once;   ///< error by a residual at time 0, over the residual
+    double at_once;   ///< error that a residual causes at time 0, over the residual
     std::vector<DoubleDouble> speed{};
     std::vector<std::complex<double>> amplitude{};
     std::vector<double> size{};        ///< upper bound of each amplitude's size
@@ -150,10 +156,11 @@ struct LeftOut {
     int exponent;                ///< of 2, the unit of energies
 };
 
-/// Fills in offsets and velocities at each time, complex where they are in both level directions,
-/// the bound of their errors and what is left out.
+/// Fills in offsets and velocities at each time, the bound of their errors, and what is left out.
+/// Offsets are complex if the motion is in both horizontal directions.
 template <class Result, class Options>
-void superpose(Result& result, const Superposition& modes, const LeftOut& rest, const Options& options) {
+void superpose(Result& result, const Superposition& modes, const LeftOut& rest,
+               const Options& options) {
     const std::vector<double>& time = options.time;
     using Number = typename decltype(result.offset)::Scalar;
     constexpr std::size_t planes = sizeof(Number) / sizeof(double);
@@ -192,12 +199,14 @@ void superpose(Result& result, const Superposition& modes, const LeftOut& rest, 
             }
         }
         result.error_bound[i] = bound * (1 + 1e-10);
-        advance(options.progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(times));
+        advance(options.progress,
+                0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(times));
     }
 }
 
-/// Offsets and velocities at the start, with the support's 0 where that was left out and does not
-/// yield. Throws InvalidArgument for these, for times and for gravity that cannot be.
+/// Returns offsets and velocities at the start. The support's entry is 0 if it was left out and the
+/// support does not yield. Throws InvalidArgument for invalid offsets, velocities, times or
+/// gravity.
 template <class Options>
 auto checked_start(std::string_view place, Index links, bool yields, const Options& options) {
     const auto checked = [&](const std::string& name, const auto& given) {
@@ -205,17 +214,19 @@ auto checked_start(std::string_view place, Index links, bool yields, const Optio
         result.setZero(links + 1);
         if (given.size() != 0 && given.size() != links && given.size() != links + 1)
             throw_invalid(place,
-                          name + " must have a number for each of the " + std::to_string(links + 1) +
-                              " pins, the support's last or left out",
+                          name + " must have a number for each of the " +
+                              std::to_string(links + 1) + " pins, the support's last or left out",
                           given.size());
         for (const auto& x : given)
-            if (!std::isfinite(std::abs(x))) throw_invalid(place, name + " must be finite", std::abs(x));
+            if (!std::isfinite(std::abs(x)))
+                throw_invalid(place, name + " must be finite", std::abs(x));
         result.head(given.size()) = given;
         if (!yields && std::abs(result[links]) != 0)
             throw_invalid(place, name + " of the support must be 0", std::abs(result[links]));
         return result;
     };
-    const std::array start{checked("offset", options.offset), checked("velocity", options.velocity)};
+    const std::array start{checked("offset", options.offset),
+                           checked("velocity", options.velocity)};
     require_positive(place, "gravity", options.gravity);
     for (const double t : options.time)
         if (!std::isfinite(t)) throw_invalid(place, "times must be finite", t);
@@ -229,11 +240,13 @@ Index checked_count(std::string_view place, const std::optional<Index>& asked, I
     throw_invalid(place, "count must be from 0 to " + std::to_string(all), count);
 }
 
-/// The swing from a start by the modes asked for, of `all` there are. The links and, if that
-/// yields, the support are the elements of `system`; `found(first, count)` has heights and shapes.
+/// Returns the swing from a start by the requested modes; `all` is the number of modes. The
+/// elements of `system` are the links and, if it yields, the support. `found(first, count)` returns
+/// heights and shapes.
 template <class Result, class Options, class Found>
 Result superposed(std::string_view place, const OscillatingChain& system, const Options& options,
-                  const Vector<double>& from, const Vector<double>& speed, Index all, const Found& found) {
+                  const Vector<double>& from, const Vector<double>& speed, Index all,
+                  const Found& found) {
     using S = DoubleDouble;
     using Offsets = Vector<S>;
     const Index count = checked_count(place, options.count, all);
@@ -243,12 +256,12 @@ Result superposed(std::string_view place, const OscillatingChain& system, const 
     result.start = from;
     Offsets rest = Offsets::Zero(all_pins), rest_speed = rest;
     rest.head(pins) = from.cast<S>(), rest_speed.head(pins) = speed.cast<S>();
-    double unsettled = 0, unsettled_speed = 0;
+    double left_over = 0, left_over_speed = 0;
     if (all < system.size()) {
         const double least = all == 0 ? 1 : std::ldexp(found(all, 1).conical_height[0], -length);
         const S h(1e-8 * least);
-        rest = system.settled(rest, h, unsettled);
-        rest_speed = system.settled(rest_speed, h, unsettled_speed);
+        rest = system.relaxed(rest, h, left_over);
+        rest_speed = system.relaxed(rest_speed, h, left_over_speed);
         for (Index m = 0; m < pins; ++m) result.start[m] = rest[m].high();
         const double moved = (result.start - from).cwiseAbs().maxCoeff();
         result.projected = moved > 0x1p-50 * from.cwiseAbs().maxCoeff();
@@ -280,7 +293,7 @@ Result superposed(std::string_view place, const OscillatingChain& system, const 
     }
 
     const auto root = [](const S& x) { return std::sqrt(std::max(0.0, x.high())); };
-    const double left = root(system.stiffness(rest, rest)) + unsettled;
+    const double left = root(system.stiffness(rest, rest)) + left_over;
     const double left_speed = root(system.inertia(rest_speed, rest_speed) / gravity);
     const double size = std::hypot(left, left_speed) * (1 + 1e-10);
     superpose(result, parts, LeftOut{size, system.flexibility(), weight - length}, options);

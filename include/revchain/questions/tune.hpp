@@ -12,7 +12,8 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The chain with any value of the datum, and on which side of the height wanted its mode is.
+/// Makes the chain with any value of the datum, and finds on which side of the wanted height its
+/// mode is.
 class Tuning {
    public:
     Tuning(const Chain<double>& chain, const TuneOptions& options, const Wide<double>& wanted)
@@ -24,18 +25,18 @@ class Tuning {
         link = with_datum(link, options_.datum, x);
         return Chain<double>(links);
     }
-    /// The number of heights that exceed the one wanted; absent where that is not proved.
+    /// The number of heights that exceed the wanted one; absent if it is not proved.
     std::optional<Index> above(double x) const {
         const Pencils<double> pencils(with(x));
         const auto count = pencils.certified_count<1>({pencils.scaled(wanted_)});
         return count[0].proved ? std::optional<Index>(count[0].above) : std::nullopt;
     }
-    /// 1 where the mode's height exceeds the one wanted, -1 where not, 0 where that is not proved.
+    /// Returns 1 if the mode's height exceeds the wanted one, -1 if not, 0 if neither is proved.
     int side(double x) const {
         const auto count = above(x);
         return !count ? 0 : *count >= options_.mode ? 1 : -1;
     }
-    /// The mode's height; 0 where the chain has no such mode.
+    /// The mode's height; 0 if the chain has no such mode.
     double height(double x) const {
         const Chain<double> chain = with(x);
         if (chain.mode_count() < options_.mode) return 0;
@@ -60,30 +61,31 @@ class Tuning {
     Wide<double> wanted_;
 };
 
-struct Enclosed {
+struct TunedValue {
     double value, error_bound;
 };
 
-/// The value where the mode passes the height wanted, by proved counts on both sides.
+/// Returns the value at which the mode has the wanted height, between proved counts on both sides.
 REVCHAIN_LAZY
-Enclosed enclosed(const Tuning& tuning, double from, double to, int low_side) {
+TunedValue enclosed(const Tuning& tuning, double from, double to, int low_side) {
     const auto [low, high] = halved(from, to, [&](double x) { return -low_side * tuning.side(x); });
     const double value = low + (high - low) / 2;
     return {value, std::max(value - low, high - value)};
 }
 
-/// Whether some mode passes the height wanted within a millionth of a candidate: proved counts on
-/// either side differ by one.
-struct Candidate {
+/// `explained` is true if some mode passes the wanted height within a millionth of a candidate,
+/// that is, if proved counts on either side differ by one.
+struct TuneCandidate {
     bool explained = false;
-    std::optional<Enclosed> crossing{};  ///< of the mode asked for
+    std::optional<TunedValue> crossing{};  ///< of the mode asked for
 };
 
 REVCHAIN_LAZY
-Candidate classified(const Tuning& tuning, double x, double low, double high) {
+TuneCandidate classified(const Tuning& tuning, double x, double low, double high) {
     const double size = std::max(std::abs(x), (high - low) * 0x1p-60);
     for (double margin = 0x1p-52; margin < 2e-6; margin *= 8) {
-        const double left = std::max(low, x - margin * size), right = std::min(high, x + margin * size);
+        const double left = std::max(low, x - margin * size),
+                     right = std::min(high, x + margin * size);
         const auto before = tuning.above(left), after = tuning.above(right);
         if (!before || !after || *before == *after) continue;
         if (std::abs(*before - *after) != 1) return {};
@@ -93,22 +95,23 @@ Candidate classified(const Tuning& tuning, double x, double low, double high) {
     return {};
 }
 
-/// The first weight from `from` towards `to` at which the mode has the height wanted. With c the
-/// bound of `weight_influence`, none lies within a logarithmic step of |ln(height/wanted)|/c. Where
-/// Newton's step is at most 5 per cent, a point just beyond it is tried, and the interval bisected.
-/// `proved`: whether the search went all the way.
-struct Search {
-    std::optional<Enclosed> found{};
+/// The first weight from `from` towards `to` at which the mode has the wanted height. No such
+/// weight lies within a logarithmic step of |ln(height/wanted)|/c, c the bound of
+/// `weight_influence`. If Newton's step is below 5 per cent (after 60 rounds, below a factor e), a
+/// point just beyond it is tried and the interval is bisected. `proved` is true if the search
+/// covered the whole range.
+struct TuneSearch {
+    std::optional<TunedValue> found{};
     bool proved = false;
 };
 
 REVCHAIN_LAZY
-Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
+TuneSearch search(const Tuning& tuning, double from, double to, Tuned& seen) {
     const int longest = 400 + static_cast<int>(20000 / tuning.chain().size());
     const double direction = to > from ? 1 : -1;
     double at = from;
     for (int round = 0; round < longest; ++round) {
-        look();
+        check_interrupt();
         const double height = tuning.height(at), away = std::log(height / tuning.wanted());
         seen.lowest_height = std::min(seen.lowest_height, height);
         seen.highest_height = std::max(seen.highest_height, height);
@@ -135,11 +138,12 @@ Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
                 if (step < whole && !(step > 1e-15)) return {};
                 next = step < whole ? at * std::exp(direction * step) : to;
                 const auto [low, high] = std::minmax(at, next);
-                const double c = weight_influence(tuning.chain(), tuning.options().link, low, high, least);
+                const double c =
+                    weight_influence(tuning.chain(), tuning.options().link, low, high, least);
                 if (step * c <= std::abs(away) * (1 - 1e-6)) break;
             }
         } else {
-            next = at * (direction > 0 ? 2 : 0.5);  // no such mode: from here on until there is weight
+            next = at * (direction > 0 ? 2 : 0.5);  // no such mode: step by a factor 2
             if ((next - to) * direction >= 0) next = to;
         }
         at = next;
@@ -158,21 +162,24 @@ Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     if (options.mode < 1 || options.mode > size)
         throw_invalid(place, "mode must be from 1 to " + std::to_string(size), options.mode);
     if (options.link < 0 || options.link >= size)
-        throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1), options.link);
+        throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(size - 1),
+                      options.link);
     if (!chain.has_one_weight_unit())
         throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
     using S = Wide<double>;
     S wanted(options.conical_height.value_or(0));
     if (options.angular_speed) {
-        require_positive(place, "angular speed", *options.angular_speed, "gravity", options.gravity);
+        require_positive(place, "angular speed", *options.angular_speed, "gravity",
+                         options.gravity);
         wanted = S(options.gravity) / S(*options.angular_speed) / S(*options.angular_speed);
     }
     require_positive(place, "conical height", wanted.high);
     Tuned result;
-    const auto range = tune_range(place, chain, options.link, options.datum, options.low, options.high);
+    const auto range =
+        tune_range(place, chain, options.link, options.datum, options.low, options.high);
     result.present = range.present, result.low = range.low, result.high = range.high;
     const Tuning tuning(chain, options, wanted);
-    std::vector<Enclosed> found;
+    std::vector<TunedValue> found;
     const auto distance = [&](double x) {
         const bool by_ratio = options.datum == Datum::weight;
         return std::abs(by_ratio ? std::log(x / range.start) : x - range.start);
@@ -180,27 +187,30 @@ Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     bool proved = true;
     if (options.datum == Datum::weight) {
         for (const double end : {range.high, range.low}) {
-            const Search one = search(tuning, range.start, end, result);
+            const TuneSearch one = search(tuning, range.start, end, result);
             if (one.found) found.push_back(*one.found);
             proved = proved && one.proved;
         }
     } else {
         for (const double x : tune_candidates(chain, options.link, options.datum, wanted)) {
             if (!(x >= range.low && x <= range.high)) continue;
-            const Candidate candidate = classified(tuning, x, range.low, range.high);
+            const TuneCandidate candidate = classified(tuning, x, range.low, range.high);
             if (candidate.crossing) found.push_back(*candidate.crossing);
             proved = proved && candidate.explained;
         }
         const int low_side = tuning.side(range.low), high_side = tuning.side(range.high);
-        proved = proved && low_side != 0 && high_side != 0 && (low_side != high_side) == (found.size() % 2 == 1);
+        proved = proved && low_side != 0 && high_side != 0 &&
+                 (low_side != high_side) == (found.size() % 2 == 1);
         result.complete = proved;
     }
     if (!found.empty()) {
-        std::sort(found.begin(), found.end(), [](const Enclosed& x, const Enclosed& y) { return x.value < y.value; });
-        for (const Enclosed& one : found) result.values.push_back(one.value);
-        const auto nearest = std::min_element(found.begin(), found.end(), [&](const Enclosed& x, const Enclosed& y) {
-            return distance(x.value) < distance(y.value);
-        });
+        std::sort(found.begin(), found.end(),
+                  [](const TunedValue& x, const TunedValue& y) { return x.value < y.value; });
+        for (const TunedValue& one : found) result.values.push_back(one.value);
+        const auto nearest = std::min_element(found.begin(), found.end(),
+                                              [&](const TunedValue& x, const TunedValue& y) {
+                                                  return distance(x.value) < distance(y.value);
+                                              });
         result.status = TuneStatus::found;
         result.value = nearest->value, result.error_bound = nearest->error_bound;
         result.chain = tuning.with(nearest->value);

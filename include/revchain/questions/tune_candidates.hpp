@@ -6,8 +6,8 @@
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/questions/sensitivity.hpp"
 
-/// For `tune`: a link with another value of a datum, the range it may have, and the values at which
-/// the chain has a given conical height of any mode.
+/// Functions for `tune`: a link with another value of a datum, the range of the datum, and the
+/// values at which the chain has a given conical height of any mode.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 REVCHAIN_LAZY
@@ -24,7 +24,7 @@ double datum_of(const Link<double>& link, Datum datum) {
     }
 }
 
-/// The link with another value of a datum, all others held as `Datum` says.
+/// Returns the link with another value of a datum; the other data are held as `Datum` says.
 REVCHAIN_LAZY
 Link<double> with_datum(Link<double> link, Datum datum, double x) {
     using S = Wide<double>;
@@ -53,14 +53,16 @@ Link<double> with_datum(Link<double> link, Datum datum, double x) {
     return link;
 }
 
-/// Bound of |d ln(height)/d ln(weight)| of the link at index `link`, while its weight W is between
-/// `low` and `high` and the height at least `least`: the larger of the shares that the weight can
-/// have in y^T M y and in y^T K y (their sum where a centroid is above the pin). With
-/// w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W included,
-/// and W/kappa monotone in W, both follow from the ends. At most 1 where all centroids are at or
-/// below their pins, since W dM <= M and W dK <= K. Cost O(N).
+/// Returns a bound of |d ln(height)/d ln(weight)| for the link at index `link`. It holds while its
+/// weight W is between `low` and `high` and the height is at least `least`. The bound is the larger
+/// of the shares that the weight can have in y^T M y and in y^T K y, or their sum if a centroid of this
+/// link or one above is above its pin. Both follow from the ends, because w^2 <= sum of a^2/kappa and s^2 <= 1/kappa
+/// times y^T K y, with kappa = W_r h_r + a_r S_r, W included, and W/kappa is monotone in W. The
+/// bound is at most 1 if all centroids are at or below their pins, since W dM <= M and W dK <= K.
+/// Cost O(N).
 REVCHAIN_LAZY
-double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
+double weight_influence(const Chain<double>& chain, Index link, double low, double high,
+                        double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {
@@ -86,12 +88,12 @@ double weight_influence(const Chain<double>& chain, Index link, double low, doub
     return (all_hang ? std::min(1.0, std::max(moves, bears)) : moves + bears) * (1 + 1e-9);
 }
 
-/// `start`: the present value, or the nearest end where that is 0 or outside.
+/// The range of a datum. `start` is the present value, or the nearest end if that is 0 or outside.
 struct TuneRange {
     double present, start, low, high;
 };
 
-/// The range that a datum may have so that the link still hangs, within what is asked.
+/// Returns the range of a datum in which the link still hangs, within the requested limits.
 REVCHAIN_LAZY
 TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index number, Datum datum,
                      const std::optional<double>& low, const std::optional<double>& high) {
@@ -105,34 +107,48 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
         range.low = std::min(0.0, present), range.high = std::max(link.length, present);
     if (low) range.low = *low;
     if (high) range.high = *high;
-    const auto refuse = [&](const std::string& rule, double value) { throw_invalid(place, "between: " + rule, value); };
+    const auto refuse = [&](const std::string& rule, double value) {
+        throw_invalid(place, "between: " + rule, value);
+    };
     if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high))
-        refuse("its high end must exceed its low end " + in_digits(range.low) + ", both finite", range.high);
+        refuse("its high end must exceed its low end " + in_digits(range.low) + ", both finite",
+               range.high);
     if (datum != Datum::centroid && range.low < 0)
         refuse("its low end must not be negative for this quantity", range.low);
     if (datum != Datum::centroid && datum != Datum::radius_of_gyration && !(range.low > 0))
         refuse("its low end must be positive for this quantity", range.low);
-    // A link hangs where W h + a S > 0; not nearer to that limit than a part in 1e6.
+    // A link hangs if W h + a S > 0. The range ends a part in 1e6 before that limit.
     constexpr double inside = 1e-6;
     const double W = link.weight, a = link.length, h = link.centroid;
     if (datum == Datum::centroid && W > 0)
         range.low = std::max(range.low, below > 0 ? -a * below / W * (1 - inside) : a * inside);
-    if (datum == Datum::weight && h < 0) range.high = std::min(range.high, -a * below / h * (1 - inside));
-    if (datum == Datum::length && h < 0) range.low = std::max(range.low, -W * h / below * (1 + inside));
-    if (!(range.low < range.high)) refuse("the link would stand, not hang, up to", range.high);
+    if (datum == Datum::weight && h < 0)
+        range.high = std::min(range.high, -a * below / h * (1 - inside));
+    if (datum == Datum::length && h < 0)
+        range.low = std::max(range.low, -W * h / below * (1 + inside));
+    // Links above whose centroids are above their pins need a weight below them.
+    for (Index m = number + 1; datum == Datum::weight && m < chain.size(); ++m) {
+        const Link<double> above = chain.link(m);
+        if (above.centroid >= 0) continue;
+        const double needed = -above.weight * above.centroid / above.length * (1 + inside);
+        const Wide<double> others = chain.weight_below(m) - Wide<double>(W);
+        range.low = std::max(range.low, needed - static_cast<double>(others));
+    }
+    if (!(range.low < range.high)) refuse("a link would stand, not hang, up to", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }
 
-/// All values of a datum other than the weight at which `height` is a conical height of the chain,
-/// of any mode, unsorted. The parts below and above the link act as springs D and E at its pins,
-/// the dynamic stiffnesses at that height. With v the upper pin's offset and s the slope, twice the
-/// energy is
+/// Returns all values of a datum other than the weight at which `height` is a conical height of the
+/// chain, for any mode, unsorted. The parts below and above the link act as springs D and E at its
+/// pins, the dynamic stiffnesses at that height. With v the upper pin's offset and s the slope,
+/// twice the energy is
 ///     D (v + a s)^2 + E v^2 + lambda (W h + a S) s^2 - W (v + h s)^2 - W rho^2 s^2.
-/// It must be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a
-/// and in h. At the support v = 0. Cost O(N).
+/// This form must be singular. That condition is linear in rho^2 and in a common factor of a, h and
+/// rho, and quadratic in a and in h. At the support v = 0. Cost O(N).
 REVCHAIN_LAZY
-std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum, const Wide<double>& height) {
+std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Datum datum,
+                                    const Wide<double>& height) {
     using S = Wide<double>;
     const Pencils<double> pencils(chain);
     const auto& elements = pencils.wide().elements;
@@ -147,7 +163,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
     for (std::size_t m = n; m-- > at + 1;) {
         const auto& e = elements[m];
         const S stiffness = lambda * e.stiffness;
-        E = m + 1 == n ? stiffness - e.lower : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
+        E = m + 1 == n ? stiffness - e.lower
+                       : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
     }
     const ScaledLink<S> link = scaled_links(chain)[at];
     const auto& [W, a, h, rho, below] = link;
@@ -173,7 +190,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
             if (top)
                 quadratic(-W, lambda * W, a * a * D + turning);
             else
-                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda), a * a * D * (W - E) - A * turning);
+                quadratic(W * (D + E), -W * (S(2.0) * a * D + A * lambda),
+                          a * a * D * (W - E) - A * turning);
             break;
         }
         case Datum::length: {
@@ -181,7 +199,8 @@ std::vector<double> tune_candidates(const Chain<double>& chain, Index number, Da
             if (top)
                 quadratic(D, lambda * below, own);
             else
-                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h, A * own - W * W * h * h);
+                quadratic(D * (E - W), A * lambda * below + S(2.0) * D * W * h,
+                          A * own - W * W * h * h);
             break;
         }
         default: {  // the factor

@@ -4,8 +4,8 @@
 #include "revchain/numeric/interval.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// Intervals side by side, one in each lane of two packs: like those of numbers
-/// (numeric/interval.hpp), without branches. In a lane where nothing is known the ends are NaN.
+/// Intervals side by side, one in each lane of two packs, as for numbers (numeric/interval.hpp) but
+/// without branches. The ends are NaN in a lane where nothing is known.
 namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
@@ -23,7 +23,7 @@ template <IsPack V>
 [[gnu::always_inline]] inline V up(const V& x) {
     return x + margin(x);
 }
-/// 0, or NaN where x is not finite.
+/// Returns 0, or NaN where x is not finite.
 template <IsPack V>
 [[gnu::always_inline]] inline V unknown(const V& x) {
     return x - x;
@@ -43,12 +43,14 @@ template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator*(const Interval<V>& x, const Interval<V>& y) {
     const V a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high;
     const V open = detail::unknown((a + b) + (c + d));
-    return {detail::down(min(min(a, b), min(c, d)) + open), detail::up(max(max(a, b), max(c, d)) + open)};
+    return {detail::down(min(min(a, b), min(c, d)) + open),
+            detail::up(max(max(a, b), max(c, d)) + open)};
 }
-/// NaN unless y is positive.
+/// Returns the quotient; NaN unless y is positive.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> operator/(const Interval<V>& x, const Interval<V>& y) {
-    const V zero(0), open = if_less(zero, y.low, zero, V(std::numeric_limits<Lane<V>>::quiet_NaN()));
+    const V zero(0),
+        open = if_less(zero, y.low, zero, V(std::numeric_limits<Lane<V>>::quiet_NaN()));
     return {detail::down(x.low / if_less(x.low, zero, y.low, y.high) + open),
             detail::up(x.high / if_less(x.high, zero, y.high, y.low) + open)};
 }
@@ -58,7 +60,7 @@ template <IsPack V>
     const V least = if_less(zero, x.low, a, if_less(x.high, zero, b, zero));
     return {max(detail::down(least), zero) + open, detail::up(max(a, b) + open)};
 }
-/// The root of a positive number.
+/// Returns the root of a positive number.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> sqrt(const Interval<V>& x) {
     return {detail::down(root(x.low)), detail::up(root(x.high))};
@@ -70,7 +72,8 @@ template <IsPack V>
 }
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> hull(const Interval<V>& x, const Interval<V>& y) {
-    return {min(x.low, y.low) + detail::unknown(x.low + y.low), max(x.high, y.high) + detail::unknown(x.high + y.high)};
+    return {min(x.low, y.low) + detail::unknown(x.low + y.low),
+            max(x.high, y.high) + detail::unknown(x.high + y.high)};
 }
 
 }  // namespace revchain

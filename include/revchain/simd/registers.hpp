@@ -17,8 +17,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 template <class T>
 using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
-// Registers of `width` numbers and the operations that vector types do not offer. No function
-// returns a vector: GCC warns that how it does so depends on the processor.
+// Registers of `width` numbers, and the operations that vector types do not offer. No function
+// returns a vector: GCC warns that the way of returning depends on the processor.
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
 
 // GCC 12 compiles a comparison of 64 bytes, and a fused operation, to one instruction for each
@@ -32,7 +32,7 @@ using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_
 #endif
 #endif
 
-/// x with the same bits, as another type of the same size.
+/// Returns x with the same bits, as another type of the same size.
 #define REVCHAIN_BITS_AS(type, x) reinterpret_cast<type>(x)
 
 /// One register of `Width` numbers: a vector type of GCC and Clang.
@@ -40,14 +40,17 @@ template <class T, std::size_t Width>
 struct RegisterOf {
     static constexpr std::size_t width = Width;
     // NOLINTBEGIN(modernize-use-using)
-    // GCC 12 aligns those of template parameters to 16 bytes unless told otherwise, and then
-    // assumes their natural alignment.
+    // GCC 12 aligns vector types of template parameters to 16 bytes unless an attribute says
+    // otherwise, and then assumes their natural alignment.
     typedef T Numbers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
-    typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
+    typedef T InMemory
+        __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     using Integer = IntegerLike<T>;
     using Natural = std::make_unsigned_t<Integer>;
-    typedef Integer Integers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
-    typedef Natural Naturals __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
+    typedef Integer Integers
+        __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
+    typedef Natural Naturals
+        __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     // NOLINTEND(modernize-use-using)
 
     [[gnu::always_inline]] static void fill(Numbers& to, const T& x) {
@@ -63,7 +66,7 @@ struct RegisterOf {
         to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction in GCC 12
 #endif
     }
-    /// `detail::unfused`
+    /// Copies as `detail::unfused` does.
     [[gnu::always_inline]] static void copy_unfused(Numbers& to, const Numbers& from) {
 #if defined(__clang__)
         to = from;
@@ -74,8 +77,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x, const Numbers& y,
-                                                         const Numbers& p) {
+    [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x,
+                                                         const Numbers& y, const Numbers& p) {
 #if defined(REVCHAIN_FUSED_INSTRUCTIONS)
         if constexpr (is_double && bytes == 64)
             to = __builtin_ia32_vfmaddpd512_mask(x, y, -p, all_lanes, as_it_is);
@@ -94,7 +97,7 @@ struct RegisterOf {
 #endif
         for (std::size_t i = 0; i < width; ++i) to[i] = std::sqrt(x[i]);
     }
-    // Answers have all bits set (yes) or none.
+    // Results are truth values: all bits set (true) or none.
     [[gnu::always_inline]] static void less(Integers& to, const Numbers& x, const Numbers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
@@ -114,8 +117,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static void equal(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            from_mask(
-                to, __builtin_ia32_pcmpeqq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
+            from_mask(to, __builtin_ia32_pcmpeqq512_mask(REVCHAIN_BITS_AS(Longs, x),
+                                                         REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x == y;
@@ -123,14 +126,14 @@ struct RegisterOf {
     [[gnu::always_inline]] static void greater(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            from_mask(
-                to, __builtin_ia32_pcmpgtq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
+            from_mask(to, __builtin_ia32_pcmpgtq512_mask(REVCHAIN_BITS_AS(Longs, x),
+                                                         REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x > y;
     }
-    [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y, const Numbers& a,
-                                               const Numbers& b) {
+    [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y,
+                                               const Numbers& a, const Numbers& b) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
             to = __builtin_ia32_blendmpd_512_mask(b, a, mask_less(x, y));
@@ -141,8 +144,9 @@ struct RegisterOf {
 
    private:
     static constexpr std::size_t bytes = Width * sizeof(T);
-    static constexpr bool is_double = std::is_same_v<T, double>, has_masks = is_double && bytes == 64;
-    static constexpr int all_lanes = -1, as_it_is = 4;  // rounding
+    static constexpr bool is_double = std::is_same_v<T, double>,
+                          has_masks = is_double && bytes == 64;
+    static constexpr int all_lanes = -1, as_it_is = 4;  // rounding mode
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
     // NOLINTBEGIN(modernize-use-using)
     typedef long long Longs __attribute__((vector_size(64), aligned(64)));
@@ -163,7 +167,7 @@ struct RegisterOf {
 
 #define REVCHAIN_BITS_AS(type, x) std::bit_cast<type>(x)
 
-/// One number in place of a register, whatever `Width` is.
+/// One number instead of a register, whatever `Width` is.
 template <class T, std::size_t Width>
 struct RegisterOf {
     static constexpr std::size_t width = 1;

@@ -53,8 +53,9 @@ class ScaledBessel {
     double far_out(double z) const {
         const TwoDoubles phase = TwoDoubles(z) - two_word_pi * (0.5 * order_ + 0.25) - far_.lag(z);
         const double cosine = std::cos(phase.high) - phase.low * std::sin(phase.high);
-        const double scale = order_ < 100 ? std::tgamma(order_ + 1) / std::pow(0.5 * z, order_)
-                                          : std::exp(std::lgamma(order_ + 1) - order_ * std::log(0.5 * z));
+        const double scale = order_ < 100
+                                 ? std::tgamma(order_ + 1) / std::pow(0.5 * z, order_)
+                                 : std::exp(std::lgamma(order_ + 1) - order_ * std::log(0.5 * z));
         return scale * std::sqrt(2 * far_.density(z) / (two_word_pi.high * z)) * cosine;
     }
 

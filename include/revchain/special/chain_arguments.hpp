@@ -24,7 +24,7 @@ inline void check_place(std::string_view where, double x, double length) {
 template <class F>
 Vector<double> for_numbers(Index count, const F& f) {
     return Vector<double>::NullaryExpr(count, [&](Index i) {
-        revchain::detail::look();
+        revchain::detail::check_interrupt();
         return f(i + 1);
     });
 }

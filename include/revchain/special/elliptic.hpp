@@ -43,7 +43,8 @@ class EllipticModulus {
     EllipticModulus complement() const { return {complement_, modulus_}; }
 
    private:
-    EllipticModulus(double modulus, double complement) : modulus_(modulus), complement_(complement) {}
+    EllipticModulus(double modulus, double complement)
+        : modulus_(modulus), complement_(complement) {}
     static void check(std::string_view name, double value) {
         if (!(value >= 0 && value <= 1))
             detail::throw_invalid("analytic::EllipticModulus",

@@ -12,14 +12,16 @@ inline constexpr std::string_view governor_motion = "analytic::GovernorMotion";
 
 [[noreturn]] inline void throw_apart(double angle_rate) {
     throw_invalid(governor_motion,
-                  "angular speed, sqrt(gravity / pendulum length), angle rate and angle must be within a factor of "
+                  "angular speed, sqrt(gravity / pendulum length), angle rate and angle must be "
+                  "within a factor of "
                   "1e150 of each other or 0; angle rate",
                   angle_rate);
 }
 
 }  // namespace detail
 
-/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, so that all numbers are about 1.
+/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, so that all numbers are
+/// about 1.
 struct GovernorMotion::Quartic {
     double s, c, w, n;  ///< sine and cosine of theta/2, theta', axis
     double off;         ///< n^2 (cos theta - lambda/l)
@@ -36,11 +38,14 @@ struct GovernorMotion::Quartic {
             std::swap(s, c);
             if (c < 0) s = -s, c = -c;
         }
-        // G - n^2 in two words: it alone distinguishes pendulum lengths near the conical height.
+        // G - n^2 is computed in two words, because it alone distinguishes pendulum lengths near
+        // the conical height.
         using Two = DoubleWord<double>;
-        const Two speed(given.angular_speed), held = (Two(1.0) - Two(given.axial_inertia)) * speed * speed;
-        const double excess = static_cast<double>((Two(std::abs(given.gravity)) / Two(given.pendulum_length) - held) /
-                                                  Two(pace) / Two(pace));
+        const Two speed(given.angular_speed),
+            held = (Two(1.0) - Two(given.axial_inertia)) * speed * speed;
+        const double excess =
+            static_cast<double>((Two(std::abs(given.gravity)) / Two(given.pendulum_length) - held) /
+                                Two(pace) / Two(pace));
         const bool near_by = std::abs(excess) < 0.5 * n2;  // chooses the form without differences
         const double cosine = (c - s) * (c + s);
         off = near_by ? -(excess + 2 * n2 * s * s) : n2 * cosine - G;
@@ -57,8 +62,8 @@ struct GovernorMotion::Quartic {
 
 inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angle) {
     constexpr std::string_view place = detail::governor_motion;
-    detail::require_finite(place, "angular speed", given.angular_speed, "gravity", given.gravity, "angle", given.angle,
-                           "angle rate", given.angle_rate);
+    detail::require_finite(place, "angular speed", given.angular_speed, "gravity", given.gravity,
+                           "angle", given.angle, "angle rate", given.angle_rate);
     detail::require_positive(place, "pendulum length", given.pendulum_length);
     if (!(given.axial_inertia >= 0 && given.axial_inertia <= 1))
         detail::throw_invalid(place, "axial inertia must lie between 0 and 1", given.axial_inertia);
@@ -70,7 +75,8 @@ inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angl
     if (pace == 0) return;
     upside_down_ = given.gravity < 0;
     const Quartic q(given, pull, turning, pace);
-    bottom_ = (upside_down_ ? q.f : q.e) * pace * pace, top_ = (upside_down_ ? q.e : q.f) * pace * pace;
+    bottom_ = (upside_down_ ? q.f : q.e) * pace * pace,
+    top_ = (upside_down_ ? q.e : q.f) * pace * pace;
     if (q.w == 0 && (q.s == 0 || q.c == 0 || q.R == 0)) return;
     choose_form(q, pace, given.angle_rate);
     if (!std::isfinite(phase_) || !std::isfinite(rate_) || !std::isfinite((*this)(0).angle_rate))
@@ -91,8 +97,10 @@ inline void GovernorMotion::set_phase(double sn, double cn) {
 inline void GovernorMotion::choose_form(const Quartic& q, double pace, double angle_rate) {
     // Sets the functions from kappa^2 : kappa'^2; returns K.
     const auto set_functions = [&](double kappa, double complement) {
-        if (!(kappa >= 0 && complement >= 0 && kappa + complement > 0)) detail::throw_apart(angle_rate);
-        functions_ = JacobiFunctions(EllipticModulus::of_ratio(std::sqrt(kappa), std::sqrt(complement)));
+        if (!(kappa >= 0 && complement >= 0 && kappa + complement > 0))
+            detail::throw_apart(angle_rate);
+        functions_ =
+            JacobiFunctions(EllipticModulus::of_ratio(std::sqrt(kappa), std::sqrt(complement)));
         return functions_.complete().K;
     };
     const auto [s, c, w, n, off, e, f, b, R, plus, minus] = q;
@@ -135,7 +143,9 @@ inline void GovernorMotion::choose_form(const Quartic& q, double pace, double an
 }
 
 inline void GovernorMotion::set_range(double minus) {
-    const auto at = [&](double opposite, double adjacent) { return unfolded({opposite, adjacent, 0, 0}); };
+    const auto at = [&](double opposite, double adjacent) {
+        return unfolded({opposite, adjacent, 0, 0});
+    };
     double first = at(-opposite_, adjacent_), last = at(opposite_, adjacent_);
     if (form_ == Form::dn)
         first = at(std::copysign(std::sqrt(std::max(0.0, -minus)), opposite_), adjacent_);
@@ -184,7 +194,8 @@ inline GovernorState GovernorMotion::operator()(double time) const {
     const double u = phase_ + rate_ * time;
     require_finite(u);
     const Half half = half_at(u);
-    const double scale = form_ == Form::growing ? half.opposite * half.adjacent : opposite_ * adjacent_;
+    const double scale =
+        form_ == Form::growing ? half.opposite * half.adjacent : opposite_ * adjacent_;
     const double whole = std::hypot(half.opposite, half.adjacent);
     const double rate = 2 * half.rate * (scale / whole / whole);
     const GovernorState state{unfolded(half), upside_down_ ? -rate : rate};

@@ -53,10 +53,11 @@ inline double tension(double x, double length) {
     return x;
 }
 
-/// Energy of the steady whirl of a chain whose free end is `amplitude` off the axis, to the second
-/// order in it, over the chain's weight per length: (1/(2 lambda)) int y^2 dx =
-/// amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. It depends on no length, and is half the angular
-/// momentum times the angular speed. Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9).
+/// Energy of the steady whirl of a chain whose free end is `amplitude` off the axis, divided by the
+/// chain's weight per length. To the second order in the amplitude it is (1/(2 lambda)) int y^2 dx
+/// = amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. It does not depend on the chain's length, and is
+/// half the angular momentum times the angular speed. Accuracy: 4e-16 (1 + j/4) relative. Derived
+/// from §4 (4), (9).
 inline double kinetic_energy(Index mode, double amplitude) {
     constexpr std::string_view where = "analytic::heavy_chain::kinetic_energy";
     detail::check(where, "mode", mode, 1.0);
@@ -92,7 +93,8 @@ inline Vector<double> revolutions_per_second(Index count, double length,
                                              double gravity = conical_pendulum::standard_gravity) {
     detail::check("analytic::heavy_chain::revolutions_per_second", "count", count, length);
     const double pendulum = conical_pendulum::revolutions_per_second(length, gravity);
-    return detail::for_numbers(count, [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
+    return detail::for_numbers(count,
+                               [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
 }
 
 }  // namespace revchain::analytic::heavy_chain

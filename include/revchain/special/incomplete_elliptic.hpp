@@ -20,7 +20,8 @@ inline double carlson_rf(double x, double y, double z) {
     const double dx = mean - x, dy = mean - y;
     const double spread = std::max({std::abs(dx), std::abs(dy), std::abs(mean - z)});
     while (shrunk * spread > carlson_spread * mean) {
-        const double a = std::sqrt(x), b = std::sqrt(y), c = std::sqrt(z), lambda = a * b + c * (a + b);
+        const double a = std::sqrt(x), b = std::sqrt(y), c = std::sqrt(z),
+                     lambda = a * b + c * (a + b);
         for (double* each : {&x, &y, &z, &mean}) *each = 0.25 * (*each + lambda);
         shrunk *= 0.25;
     }
@@ -52,29 +53,35 @@ inline double carlson_rj(double x, double y, double z, double p) {
         for (double* each : {&x, &y, &z, &p, &mean}) *each = 0.25 * (*each + lambda);
         shrunk *= 0.25, delta *= 1.0 / 64;
     }
-    const double X = dx * shrunk / mean, Y = dy * shrunk / mean, Z = dz * shrunk / mean, P = -0.5 * (X + Y + Z);
-    const double xyz = X * Y * Z, e2 = X * Y + Z * (X + Y) - 3 * P * P, e3 = xyz + 2 * P * (e2 + 2 * P * P);
+    const double X = dx * shrunk / mean, Y = dy * shrunk / mean, Z = dz * shrunk / mean,
+                 P = -0.5 * (X + Y + Z);
+    const double xyz = X * Y * Z, e2 = X * Y + Z * (X + Y) - 3 * P * P,
+                 e3 = xyz + 2 * P * (e2 + 2 * P * P);
     const double e4 = (2 * xyz + P * (e2 + 3 * P * P)) * P, e5 = xyz * P * P;
     return 6 * sum + shrunk / (mean * std::sqrt(mean)) *
-                         (1 + e2 * (9 * e2 / 88 - 3.0 / 14 - 9 * e3 / 52) + e3 / 6 - 3 * e4 / 22 + 3 * e5 / 26);
+                         (1 + e2 * (9 * e2 / 88 - 3.0 / 14 - 9 * e3 / 52) + e3 / 6 - 3 * e4 / 22 +
+                          3 * e5 / 26);
 }
 
 /// An amplitude as a number of half turns and an angle between -pi/2 and pi/2.
 struct Amplitude {
     double sine, cosine, delta, half_turns;
 
-    Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
+    Amplitude(double angle, const EllipticModulus& modulus)
+        : half_turns(std::nearbyint(angle / std::numbers::pi)) {
         // Two words, because the cosine is a difference near an odd number of quarter turns. Beyond
         // 2^60 half turns the rest is below the last digit of the amplitude.
         DoubleDouble within(0);
         if (std::abs(half_turns) < 0x1p60)
-            within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
+            within =
+                DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
         const double s = std::sin(within.high()), c = std::cos(within.high());
         sine = s + within.low() * c, cosine = c - within.low() * s;
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
         keep_within();
     }
-    /// Near a quarter turn the sign of cn is right; that of the rounded amplitude may not be.
+    /// Near a quarter turn the sign of cn is right, but the rounded amplitude may have the wrong
+    /// one.
     explicit Amplitude(const JacobiValues& f)
         : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
@@ -97,22 +104,25 @@ struct IncompleteIntegrals {
     double F, E, D;
 };
 
-/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds.
-/// For kappa = 1, F and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless
-/// the amplitude is finite.
+/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5
+/// microseconds. For kappa = 1, F and D are infinite at a quarter turn and beyond. Throws
+/// InvalidArgument unless the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
     detail::require_finite("analytic::incomplete_integrals", "amplitude", amplitude);
     const detail::Amplitude a(amplitude, modulus);
     const double k2 = modulus.modulus() * modulus.modulus();
     const double c2 = modulus.complementary_modulus() * modulus.complementary_modulus();
     const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta;
-    IncompleteIntegrals result{s * detail::carlson_rf(x, y, 1), 0, s * s * s * detail::carlson_rj(x, y, 1, 1) / 3};
+    IncompleteIntegrals result{s * detail::carlson_rf(x, y, 1), 0,
+                               s * s * s * detail::carlson_rj(x, y, 1, 1) / 3};
     // not F - kappa^2 D, which is a difference of nearly equal numbers
-    result.E = c2 * (result.F + k2 * s * s * s * detail::carlson_rj(x, 1, y, y) / 3) + k2 * s * a.cosine / a.delta;
+    result.E = c2 * (result.F + k2 * s * s * s * detail::carlson_rj(x, 1, y, y) / 3) +
+               k2 * s * a.cosine / a.delta;
     if (a.half_turns != 0) {
         const CompleteIntegrals whole = complete_integrals(modulus);
         const double quarters = 2 * a.half_turns;
-        result.F += quarters * whole.K, result.E += quarters * whole.E, result.D += quarters * whole.D;
+        result.F += quarters * whole.K, result.E += quarters * whole.E,
+            result.D += quarters * whole.D;
     }
     return result;
 }
@@ -124,7 +134,8 @@ inline void check_characteristic(std::string_view place, double n) {
 }
 
 inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus) {
-    const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta, F = s * carlson_rf(x, y, 1);
+    const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta,
+                 F = s * carlson_rf(x, y, 1);
     const double c = modulus.complementary_modulus();
     const auto of_positive = [&](double characteristic, double rest) {
         return F + characteristic / 3 * (s * s * s) * carlson_rj(x, y, 1, x + rest * s * s);
@@ -139,7 +150,9 @@ inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus
         within = share * c2 / (1 + g) * of_positive(ratio, c2 / (1 + g)) + k2 / (k2 + g) * F +
                  std::sqrt(share / (1 + g)) * std::atan(tangent);
     }
-    return a.half_turns == 0 || c == 0 ? within : within + 2 * a.half_turns * complete_integral(c, 1 - n, 1, 1);
+    return a.half_turns == 0 || c == 0
+               ? within
+               : within + 2 * a.half_turns * complete_integral(c, 1 - n, 1, 1);
 }
 
 }  // namespace detail
@@ -149,7 +162,8 @@ inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus
 inline double complete_pi(double n, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::complete_pi", n);
     const double c = modulus.complementary_modulus();
-    return c == 0 ? std::numeric_limits<double>::infinity() : detail::complete_integral(c, 1 - n, 1, 1);
+    return c == 0 ? std::numeric_limits<double>::infinity()
+                  : detail::complete_integral(c, 1 - n, 1, 1);
 }
 
 /// The integral of the third kind up to an amplitude, or up to the amplitude of an argument u.

@@ -27,12 +27,14 @@ class JacobiFunctions {
           hyperbolic_(modulus.modulus() > modulus.complementary_modulus()) {
         const CompleteIntegrals other = complete_integrals(modulus.complement());
         const double c = modulus.complementary_modulus();
-        q_ = std::exp(-std::numbers::pi * (hyperbolic_ ? complete_.K / other.K : other.K / complete_.K));
+        q_ = std::exp(-std::numbers::pi *
+                      (hyperbolic_ ? complete_.K / other.K : other.K / complete_.K));
         rate_ = 0.5 * std::numbers::pi / (hyperbolic_ ? other.K : complete_.K);
         drift_ = hyperbolic_ ? c * c * other.D / other.K : complete_.E / complete_.K;
         const Theta constant = theta(2 * q_);
         sn_scale_ = constant.third / (hyperbolic_ ? constant.fourth : constant.second);
-        cn_scale_ = hyperbolic_ ? constant.second / constant.fourth : constant.fourth / constant.second;
+        cn_scale_ =
+            hyperbolic_ ? constant.second / constant.fourth : constant.fourth / constant.second;
         dn_scale_ = (hyperbolic_ ? constant.second : constant.fourth) / constant.third;
     }
 
@@ -67,15 +69,17 @@ class JacobiFunctions {
         const double w2 = w * w - 2 * q2, w3 = w * (w2 - q2);
         const double u1 = w + q, u2 = w2 + q * u1, u3 = w3 + q * u2;  // q^n sin (2n+1)z / sin z
         const double v1 = w - q, v2 = w2 - q * v1, v3 = w3 - q * v2;  // q^n cos (2n+1)z / cos z
-        return {1 - q * u1 + (q4 * u2 - q9 * u3), 1 + q * v1 + (q4 * v2 + q9 * v3), 1 + w + (q2 * w2 + q2 * q4 * w3),
-                1 - w + (q2 * w2 - q2 * q4 * w3), w};
+        return {1 - q * u1 + (q4 * u2 - q9 * u3), 1 + q * v1 + (q4 * v2 + q9 * v3),
+                1 + w + (q2 * w2 + q2 * q4 * w3), 1 - w + (q2 * w2 - q2 * q4 * w3), w};
     }
 
     /// 0 <= u <= K.
     JacobiValues circular(double u) const {
         const double z = rate_ * u, s = std::sin(z), c = std::cos(z), q = q_, q2 = q * q;
         const Theta t = theta(2 * q * (c - s) * (c + s));
-        const double slope = 8 * q * s * c * (1 - 2 * q2 * t.w + 3 * q2 * q2 * q2 * (t.w * t.w - q2));  // of t.fourth
+        const double slope =
+            8 * q * s * c *
+            (1 - 2 * q2 * t.w + 3 * q2 * q2 * q2 * (t.w * t.w - q2));  // of t.fourth
         return {0, sn_scale_ * s * t.first / t.fourth, cn_scale_ * c * t.second / t.fourth,
                 dn_scale_ * t.third / t.fourth, drift_ * u + rate_ * slope / t.fourth};
     }
@@ -96,9 +100,11 @@ class JacobiFunctions {
         const Theta t = theta(4 * square - 2 * q);
         const double q3 = q * q * q, sine = 2 * square * tangent;  // q sinh 2x
         const double slope =
-            4 * q * sine * (1 + q3 * (2 * t.w - q) + q3 * q3 * q * q * (3 * t.w * t.w - 2 * q * (t.w + q)));
-        return {0, sn_scale_ * tangent * t.first / t.second, cn_scale_ * secant * t.fourth / t.second,
-                dn_scale_ * secant * t.third / t.second, drift_ * u + rate_ * (tangent + slope / t.second)};
+            4 * q * sine *
+            (1 + q3 * (2 * t.w - q) + q3 * q3 * q * q * (3 * t.w * t.w - 2 * q * (t.w + q)));
+        return {0, sn_scale_ * tangent * t.first / t.second,
+                cn_scale_ * secant * t.fourth / t.second, dn_scale_ * secant * t.third / t.second,
+                drift_ * u + rate_ * (tangent + slope / t.second)};
     }
 
     EllipticModulus modulus_;

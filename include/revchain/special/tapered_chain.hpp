@@ -5,14 +5,15 @@
 #include "revchain/special/chain_arguments.hpp"
 
 /// The chain of Greenhill (1908) §4 with line density proportional to x^p, x the distance from the
-/// free end, at small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z),
-/// z = 2 sqrt((p+1) x/lambda). Exponent 0 is the uniform chain, 1 one that thickens upwards; from 0
-/// down to -1 the mass gathers at the free end.
-/// Errors as in special/heavy_chain.hpp, and for an exponent not above -1 or above 1e4. Accuracies
-/// hold for exponents from -0.99 to 100.
+/// free end, at small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z), z =
+/// 2 sqrt((p+1) x/lambda). Exponent 0 is the uniform chain, and exponent 1 a chain that thickens
+/// upwards. From 0 down to -1 the mass gathers at the free end. Functions throw as in
+/// special/heavy_chain.hpp, and for an exponent not above -1 or above 1e4. Accuracies hold for
+/// exponents from -0.99 to 100.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tapered_chain {
 namespace detail {
-inline Index check(std::string_view where, std::string_view name, Index number, double length, double exponent) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length,
+                   double exponent) {
     analytic::detail::check(where, name, number, length);
     if (exponent > -1 && exponent <= 1e4) return number;
     revchain::detail::throw_invalid(where, "exponent must be above -1 and at most 1e4", exponent);
@@ -32,7 +33,7 @@ inline Vector<double> conical_heights(Index count, double length, double exponen
     return analytic::detail::for_numbers(count, height);
 }
 
-/// One mode. Cost: that of its zero, and 0.1 to 0.7 microseconds for each place.
+/// One mode. Cost: that of its zero, and 0.1 to 0.7 microseconds for each point.
 class Mode {
    public:
     Mode(Index mode, double length, double exponent)
@@ -48,7 +49,9 @@ class Mode {
 
     /// Offset Gamma(p+1) (z/2)^-p J_p(z) at x, 1 at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, which exceeds 1 for p < -1/2.
-    double shape(double x) const { return offset_(argument(x, "analytic::tapered_chain::Mode::shape")); }
+    double shape(double x) const {
+        return offset_(argument(x, "analytic::tapered_chain::Mode::shape"));
+    }
 
     /// dy/dx: -Gamma(p+2) (z/2)^-(p+1) J_{p+1}(z) / lambda, -1/lambda at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest slope.

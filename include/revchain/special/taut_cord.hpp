@@ -10,9 +10,9 @@
 /// With z = 2 sqrt((lower + x)/lambda) as in special/tip_mass.hpp, the heights solve
 /// J_0(z_0) Y_0(z_L) = Y_0(z_0) J_0(z_L), or with theta the phase of J_0 + iY_0
 ///     theta(z_L) - theta(z_0) = mode pi.
-/// Every mode has one height, because M(z_L) < M(z_0) in z theta' = 2/(pi M^2). Far out it is that
-/// of a string under the mean tension.
-/// Errors as in special/heavy_chain.hpp, and for a tension below 1e-20 lengths or above 1e250.
+/// Every mode has one height, because M(z_L) < M(z_0) in z theta' = 2/(pi M^2). For large z it is
+/// nearly the height of a string under the mean tension. Functions throw as in
+/// special/heavy_chain.hpp, and for a tension below 1e-20 lengths or above 1e250.
 namespace revchain::inline REVCHAIN_BUILD::analytic::taut_cord {
 namespace detail {
 
@@ -21,7 +21,8 @@ using namespace tip_mass::detail;
 inline Index check(std::string_view where, Index mode, double length, const TwoDoubles& lower) {
     analytic::detail::check(where, "mode", mode, length);
     if (lower.high >= 1e-20 * length && lower.high / length <= 1e250) return mode;
-    revchain::detail::throw_invalid(where, "lower must lie between 1e-20 and 1e250 lengths", lower.high);
+    revchain::detail::throw_invalid(where, "lower must lie between 1e-20 and 1e250 lengths",
+                                    lower.high);
 }
 
 }  // namespace detail
@@ -38,7 +39,8 @@ inline double conical_height(Index mode, double length, const detail::TwoDoubles
 class Mode : private detail::EitherMode {
    public:
     Mode(Index mode, double length, const detail::TwoDoubles& lower)
-        : EitherMode(0, detail::check("analytic::taut_cord::Mode", mode, length, lower), length, lower) {
+        : EitherMode(0, detail::check("analytic::taut_cord::Mode", mode, length, lower), length,
+                     lower) {
         const double node = mode > 1 ? place_of(node_apart(1)) : length;
         largest_ = shape(vertical_points(Vector<double>::Zero(1), node)[0]);
     }
@@ -59,8 +61,7 @@ class Mode : private detail::EitherMode {
     double slope(double x) const {
         const double w = apart_at(x, "analytic::taut_cord::Mode::slope"), z = end_.z + w;
         const double per = 2 / (z * height_) / largest_;
-        if (end_.is_far())
-            return per * far_out(1, z) * std::cos(w - (lag(1, z) - lag(0, end_.z)));
+        if (end_.is_far()) return per * far_out(1, z) * std::cos(w - (lag(1, z) - lag(0, end_.z)));
         if (z >= 45) {
             const double phase = ((place_ + w) - detail::two_word_pi * 0.75 - lag(1, z)).high;
             const double c = std::cos(phase), s = std::sin(phase);

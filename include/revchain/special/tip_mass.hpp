@@ -17,8 +17,8 @@
 /// with theta the phase of J + iY
 ///     theta_0(z_L) - theta_2(z_0) = mode pi.
 /// Every mode has exactly one height: at a fixed z_0/z_L the left side rises from 0 to infinity,
-/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2).
-/// Errors as in special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
+/// because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2). Functions throw as in
+/// special/heavy_chain.hpp, and for a tip that is negative or above 1e250 lengths.
 namespace revchain::inline REVCHAIN_BUILD::analytic::tip_mass {
 namespace detail {
 
@@ -53,8 +53,8 @@ struct OrderZero {
     }
 };
 
-/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the slope
-/// `rate` of their phase theta, and `rough`, theta to about a tenth.
+/// The lower end z_0: J and Y of order 2 with a particle, of order 0 where the end is held; the
+/// slope `rate` of their phase theta, and `rough`, theta to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
 
@@ -91,7 +91,8 @@ TwoDoubles phase_zero(double low, double high, double w, const F& value_and_rate
 }
 
 /// theta_0(z_0 + apart) - theta(z_0) - i pi, and theta_0' there.
-inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
+inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart,
+                           Index i) {
     const double z = place.high, turns = static_cast<double>(i), pi = std::numbers::pi;
     if (end.is_far())
         return {(apart - two_word_pi * (turns - end.order / 2)).high +
@@ -105,7 +106,8 @@ inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const T
     return {value + pi * whole, at.rate};
 }
 
-inline Index check(std::string_view where, std::string_view name, Index number, double length, double tip) {
+inline Index check(std::string_view where, std::string_view name, Index number, double length,
+                   double tip) {
     analytic::detail::check(where, name, number, length);
     if (tip >= 0 && tip / length <= 1e250) return number;
     revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
@@ -169,7 +171,8 @@ struct Ends {
     }
 };
 
-/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a length.
+/// One mode of a cord with either lower end, of that order; `lower` is the tension there as a
+/// length.
 class EitherMode {
    protected:
     EitherMode(int order, Index mode, double length, const TwoDoubles& lower)
@@ -195,7 +198,8 @@ class EitherMode {
         return phase_zero(0, high, start, off).high;
     }
     double place_of(double apart) const {
-        return length_ * (apart / apart_.high) * ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
+        return length_ * (apart / apart_.high) *
+               ((apart + 2 * end_.z) / (apart_.high + 2 * end_.z));
     }
 
     Index mode_;
@@ -223,7 +227,8 @@ inline Vector<double> conical_heights(Index count, double length, double tip) {
 class Mode : private detail::EitherMode {
    public:
     Mode(Index mode, double length, double tip)
-        : EitherMode(2, detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), length, tip) {
+        : EitherMode(2, detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip),
+                     length, tip) {
         if (end_.is_far()) return;
         const detail::TwoDoubles quarter = ldexp(place_ * place_, -2);
         const detail::TwoDoubles scale = detail::two_word_pi * quarter;
@@ -250,8 +255,8 @@ class Mode : private detail::EitherMode {
     double slope(double x) const {
         const double w = apart_at(x, "analytic::tip_mass::Mode::slope"), z = end_.z + w;
         if (end_.is_far())
-            return -far_out(1, z) * (end_.z / z) *
-                   std::cos(w - (lag(1, z) - lag(2, end_.z))) / height_;
+            return -far_out(1, z) * (end_.z / z) * std::cos(w - (lag(1, z) - lag(2, end_.z))) /
+                   height_;
         return z > 0 ? -cylinder(1, w) / (0.5 * z) / height_ : -1 / height_;
     }
 
@@ -262,7 +267,7 @@ class Mode : private detail::EitherMode {
         Vector<double> points(mode_ - 1);
         double high = apart_.high;
         for (Index i = mode_ - 1; i >= 1; --i) {
-            revchain::detail::look();
+            revchain::detail::check_interrupt();
             double w = std::max(high - std::numbers::pi, 0.5 * high);
             if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy tip
             high = node_apart_from(i, high, w);

@@ -16,7 +16,7 @@
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// The least |x| that is not 0 in a column with the least x `given`.
+/// Returns the least non-zero |x| of a column. `given` is the least x of that column.
 template <Real T>
 T least_size(const Column<T>& column, const T& given) {
     using std::abs;
@@ -46,7 +46,8 @@ Chain<T> Chain<T>::tapered(Index count, T length, double exponent, T weight) {
                               "the weight of the lowest link is too small for this scalar; use "
                               "fewer links or a smaller exponent",
                               exponent);
-    Chain chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio));
+    Chain chain(count, std::move(links.weight), link, std::move(links.centroid),
+                std::move(links.gyration_ratio));
     chain.taper_ = exponent;
     return chain;
 }
@@ -62,7 +63,8 @@ Wide<T> Chain<T>::weight_below(Index m) const {
 }
 
 template <Real T>
-Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T weight, Link<T> (*make)(T, T)) {
+Chain<T> Chain<T>::repeated(std::string_view place, Index count, T length, T weight,
+                            Link<T> (*make)(T, T)) {
     if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
     detail::require_positive(place, "length", length, "weight", weight);
     const Link<T> one = make(weight / T(count), length / T(count));
@@ -74,7 +76,8 @@ template <class V>
 Column<V> Chain<T>::column(const std::vector<Link<T>>& links, bool equal, V Link<T>::*member) {
     if (equal) return links.front().*member;
     std::vector<V> values(links.size());
-    std::transform(links.begin(), links.end(), values.begin(), [&](const Link<T>& link) { return link.*member; });
+    std::transform(links.begin(), links.end(), values.begin(),
+                   [&](const Link<T>& link) { return link.*member; });
     return values;
 }
 
@@ -82,26 +85,29 @@ template <Real T>
 Chain<T> Chain<T>::as_tapered(double exponent) const {
     using std::abs;
     const Chain cut = tapered(size_, total_length_, exponent, total_weight_);
-    // Where there are no words to spare, the weights found from above carry a rounding of every
-    // link.
+    // Weights are computed from the support down. If `Wide<T>` is T, they collect one rounding
+    // error per link.
     const T ulps = std::is_same_v<Wide<T>, T> ? T(4) + T(2) * T(size_) : T(4);
     const auto near = [&](const T& x, const T& y) {
-        return abs(x - y) <= ulps * epsilon<T>() * abs(y) + ulps * std::numeric_limits<T>::denorm_min();
+        return abs(x - y) <=
+               ulps * epsilon<T>() * abs(y) + ulps * std::numeric_limits<T>::denorm_min();
     };
     for (Index m = 0; m < std::max(distinct_links(), cut.distinct_links()); ++m) {
         const Link<T> x = link(m), y = cut.link(m);
-        if (!(near(x.weight, y.weight) && near(x.length, y.length) && near(x.centroid, y.centroid) &&
+        if (!(near(x.weight, y.weight) && near(x.length, y.length) &&
+              near(x.centroid, y.centroid) &&
               near(static_cast<T>(x.gyration_ratio), static_cast<T>(y.gyration_ratio))))
-            detail::throw_invalid("Chain::as_tapered",
-                                  "links[" + std::to_string(m) + "] is not as Chain::tapered makes it with exponent",
-                                  exponent);
+            detail::throw_invalid(
+                "Chain::as_tapered",
+                "links[" + std::to_string(m) + "] is not as Chain::tapered makes it with exponent",
+                exponent);
     }
     Chain chain(*this);
     chain.taper_ = exponent;
     return chain;
 }
 
-/// One vectorised pass over each column. Links are read one by one only if it finds a fault.
+/// Checks each column in one vectorised pass. Links are read one by one only if it finds a fault.
 template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
@@ -110,8 +116,8 @@ void Chain<T>::check() {
     const auto check_stored = [&](const auto& column, std::string_view name) {
         if (!column.is_scalar() && column.stored() != static_cast<std::size_t>(size_))
             detail::throw_invalid("Chain",
-                                  std::string(name) + " must have one number for each of the " + std::to_string(size_) +
-                                      " links or be a single number",
+                                  std::string(name) + " must have one number for each of the " +
+                                      std::to_string(size_) + " links or be a single number",
                                   column.stored());
     };
     check_stored(weight_, "weight"), check_stored(length_, "length");
@@ -119,7 +125,8 @@ void Chain<T>::check() {
 
     std::vector<Wide<T>> partial;
     const detail::Summary<T> weights = detail::summary(weight_, size_, &partial);
-    if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
+    if (!partial.empty())
+        partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
     const detail::Summary<T> lengths = detail::summary(length_, size_);
     const bool same = !centroid_.is_scalar() && centroid_.data() == length_.data();  // plummets
     const detail::Summary<T> centroids = same ? lengths : detail::summary(centroid_, size_);
@@ -134,13 +141,15 @@ void Chain<T>::check() {
         if (size > T(0) && size < least_ratio) least_ratio = size;
         if (size > largest_ratio) largest_ratio = size;
     }
-    if (!(isfinite(weights.sum) && weights.least >= T(0) && weight_[0] > T(0) && isfinite(lengths.sum) &&
-          lengths.least > T(0) && isfinite(centroids.sum) && radii))
+    if (!(isfinite(weights.sum) && weights.least >= T(0) && weight_[0] > T(0) &&
+          isfinite(lengths.sum) && lengths.least > T(0) && isfinite(centroids.sum) && radii))
         check_each_link();
     if (!isfinite(weights.sum))
-        detail::throw_invalid("Chain", "the weights add up to infinity; use a larger unit; each weight", weight_[0]);
+        detail::throw_invalid(
+            "Chain", "the weights add up to infinity; use a larger unit; each weight", weight_[0]);
     if (!isfinite(lengths.sum))
-        detail::throw_invalid("Chain", "the lengths add up to infinity; use a larger unit; each length", length_[0]);
+        detail::throw_invalid(
+            "Chain", "the lengths add up to infinity; use a larger unit; each length", length_[0]);
 
     total_weight_ = static_cast<T>(weights.sum);
     total_length_ = static_cast<T>(lengths.sum);
@@ -154,13 +163,14 @@ void Chain<T>::check() {
                                            detail::in_digits(least_length) + " to " +
                                            detail::in_digits(largest_length_));
     if (largest_ratio / span > span || least_ratio < T(1) / span / span)
-        detail::throw_invalid("Chain",
-                              "a radius of gyration is too far from its link's length for this scalar; "
-                              "(radius of gyration / length)^2",
-                              largest_ratio > T(1) ? largest_ratio : least_ratio);
+        detail::throw_invalid(
+            "Chain",
+            "a radius of gyration is too far from its link's length for this scalar; "
+            "(radius of gyration / length)^2",
+            largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
-    // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of
-    // its own.
+    // Each link has a coordinate of its own if all links have weight and none has all of it in the
+    // upper pin.
     const bool all_hold = weights.least > T(0) && (centroids.least > T(0) || all_turn);
     mode_count_ = all_hold || distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
 }
@@ -174,18 +184,22 @@ void Chain<T>::check_each_link() const {
     for (Index m = 0; m < distinct_links(); ++m) {
         const Link<T> it = link(m);
         detail::require_not_negative(at(m), "weight", it.weight);
-        if (m == 0 && it.weight == T(0)) detail::throw_invalid(at(m), "the lowest link must have weight", it.weight);
+        if (m == 0 && it.weight == T(0))
+            detail::throw_invalid(at(m), "the lowest link must have weight", it.weight);
         detail::require_positive(at(m), "length", it.length);
         detail::require_finite(at(m), "centroid", it.centroid);
         if (!is_normalised(it.gyration_ratio) || it.gyration_ratio < Wide<T>(T(0)))
-            detail::throw_invalid(at(m), "(radius of gyration / length)^2 must be finite and not negative",
+            detail::throw_invalid(at(m),
+                                  "(radius of gyration / length)^2 must be finite and not negative",
                                   static_cast<T>(it.gyration_ratio));
         below = below + Wide<T>(it.weight);
         straight = straight + Wide<T>(it.length);
         if (!isfinite(below))
-            detail::throw_invalid(at(m), "the weights add up to infinity; use a larger unit; its weight", it.weight);
+            detail::throw_invalid(
+                at(m), "the weights add up to infinity; use a larger unit; its weight", it.weight);
         if (!isfinite(straight))
-            detail::throw_invalid(at(m), "the lengths add up to infinity; use a larger unit; its length", it.length);
+            detail::throw_invalid(
+                at(m), "the lengths add up to infinity; use a larger unit; its length", it.length);
     }
 }
 
@@ -195,28 +209,29 @@ void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const 
     using std::ldexp;
     if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
     Wide<T> below(T(0));
-    for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
+    for (Index m = 0; m < distinct_links(); ++m) {  // if the lowest of equal links hangs, all do
         if (m % detail::segment_size == 0) below = weight_below(m);
-        if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
+        if (!(centroid_[m] > T(0))) {  // scaled by the larger of W and S
             int exponent = 0;
             frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);
-            const Wide<T> share =
-                Wide<T>(ldexp(weight_[m], -exponent)) * detail::in_lengths<T>(centroid_[m], length_[m]) +
-                ldexp(below, -exponent);
+            const Wide<T> share = Wide<T>(ldexp(weight_[m], -exponent)) *
+                                      detail::in_lengths<T>(centroid_[m], length_[m]) +
+                                  ldexp(below, -exponent);
             if (!(share > Wide<T>(T(0))))
-                detail::throw_invalid(
-                    "Chain: links[" + std::to_string(m) + "]",
-                    "it would stand, not hang; lower its centroid or put more weight below it: weight x centroid + "
-                    "length x (weight below) must be positive",
-                    ldexp(detail::times_length(share, length_[m]), exponent));
+                detail::throw_invalid("Chain: links[" + std::to_string(m) + "]",
+                                      "it would stand, not hang; lower its centroid or put more "
+                                      "weight below it: weight x centroid + "
+                                      "length x (weight below) must be positive",
+                                      ldexp(detail::times_length(share, length_[m]), exponent));
         }
         below = below + Wide<T>(weight_[m]);
     }
 }
 
-/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from the support
-/// down. `free` is true if the current pin can move without inertia. A massless thread between two
-/// rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
+/// Returns the nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), counted link by link from
+/// the support down. `free` is true if the current pin can move without inertia. A massless thread
+/// between two rods costs no mode, because the rods' own inertia holds its pins. A massless thread
+/// above a plummet costs one.
 template <Real T>
 Index Chain<T>::inertialess_coordinates() const {
     bool free = false;  // the support does not move
@@ -233,7 +248,7 @@ Index Chain<T>::inertialess_coordinates() const {
         } else if (it.centroid == it.length) {
             nullity += free ? 1 : 0;  // only the lower pin is held
             free = false;
-        }  // else one combination of the pins is held: what was free stays so
+        }  // else one combination of the pins is held, and `free` does not change
     }
     return nullity + (free ? 1 : 0);
 }

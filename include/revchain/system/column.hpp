@@ -14,20 +14,21 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// A quantity of every link: one number each, or a single number for all links, stored once.
+/// A quantity of all links: one number for each link, or a single number stored once for all.
 /// Copies share the numbers, which never change.
 template <class V>
 class Column {
    public:
-    Column(V value) : single_(std::move(value)) {}                       // NOLINT(google-explicit-constructor)
-    Column(std::vector<V> values) : count_(values.size()), stride_(1) {  // NOLINT(google-explicit-constructor)
+    Column(V value) : single_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+    Column(std::vector<V> values)
+        : count_(values.size()), stride_(1) {  // NOLINT(google-explicit-constructor)
         owned_ = std::make_shared<const std::vector<V>>(std::move(values));
         numbers_ = owned_->data();
     }
 
-    /// A column that refers to the caller's numbers. They must stay where they are, unchanged, while
-    /// this column, a chain made of it, or a copy is used. For a million links, copying them takes
-    /// half as long as the ten slowest modes.
+    /// A column that refers to the caller's numbers. The caller must not move or change them while
+    /// this column, a copy, or a chain made of it is used. For a million links, copying them takes
+    /// half as long as computing the ten slowest modes.
     static Column borrowed(const V* numbers, std::size_t count) {
         Column column{V{}};
         column.numbers_ = numbers, column.count_ = count, column.stride_ = 1;
@@ -39,7 +40,8 @@ class Column {
     const V* data() const { return is_scalar() ? &single_ : numbers_; }
     const V& operator[](Index m) const { return data()[m * stride_]; }
     friend bool operator==(const Column& x, const Column& y) {
-        return x.stride_ == y.stride_ && std::equal(x.data(), x.data() + x.stored(), y.data(), y.data() + y.stored());
+        return x.stride_ == y.stride_ &&
+               std::equal(x.data(), x.data() + x.stored(), y.data(), y.data() + y.stored());
     }
 
    private:
@@ -55,7 +57,8 @@ namespace detail {
 /// The number of links in a segment. Columns are summed by segments.
 inline constexpr Index segment_size = 256;
 
-/// Sum, least number and largest size of some numbers. The sum is not finite where one is not.
+/// Sum, least number and largest size of some numbers. The sum is not finite if one of the numbers
+/// is not.
 template <Real T>
 struct Summary {
     Wide<T> sum{T(0)};
@@ -63,19 +66,20 @@ struct Summary {
     T most{};
 };
 
-/// Lanes summed side by side: compilers make SIMD code of the loops (0.5 ns a number with SSE2).
+/// The number of lanes summed side by side. Compilers make SIMD code of the loops (0.5 ns a number
+/// with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
 
-/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12
-/// operations of `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For
-/// double words the rounding errors of the 20 sums in lanes and tree are summed, with an error of at
-/// most 19 u times 20 u of the sum of sizes.
+/// Returns the summary of `count` numbers, from 1 number to a whole segment. The relative error of
+/// a sum of non-negative numbers is at most 12 operations of `Wide<T>` if that is a double word
+/// (measured: 0.27), else 20. For double words the rounding errors of the 20 sums in lanes and tree
+/// are added up too. That sum has an error of at most 19 u times 20 u of the sum of sizes.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
     constexpr bool compensated = is_double_word<Wide<T>>;
     using S = std::conditional_t<compensated, T, Wide<T>>;
     return simd([&](auto) REVCHAIN_INLINED {
-        S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
+        S sum[sum_lanes]{}, error[sum_lanes]{};  // compilers vectorise plain arrays in one loop
         T least[sum_lanes], most[sum_lanes]{};
         std::fill_n(least, sum_lanes, x[0]);
         const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
@@ -118,24 +122,26 @@ Summary<T> summary(const T* x, Index count) {
     });
 }
 
-/// count times x: one operation, whatever the unit of x.
+/// Returns count times x with the error of one operation, whatever the unit of x.
 template <Real T>
 Wide<T> times(const T& x, Index count) {
     const Wide<T> number(static_cast<Narrow<Wide<T>>>(count));
     return Product<Wide<T>>::of(Wide<T>(x)).times(number).value();
 }
 
-/// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives
-/// the sums of the numbers below each segment and, last, of all, with errors of one more operation.
+/// Returns the summary of a column over `size` links; a single number is multiplied by `size`. If
+/// `below` is given, it receives the sum of the numbers below each segment and, last, the sum of
+/// all. Their errors are one operation larger.
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;
-    if (column.is_scalar()) return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
+    if (column.is_scalar())
+        return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
     T least = column[0], most{};
     CompensatedSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
-        look();
+        check_interrupt();
         if (below != nullptr) below->push_back(sum.value());
         const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
         sum.add(segment.sum);

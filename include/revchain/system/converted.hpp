@@ -5,7 +5,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A number of one or two words as another scalar, rounded where that is narrower.
+/// Converts a number of one or two words to another scalar, rounded if that is narrower.
 template <class To, class From>
 To from_words(const From& x) {
     if constexpr (is_double_word<From> && is_double_word<To>)
@@ -16,7 +16,8 @@ To from_words(const From& x) {
         return To(x);
 }
 
-/// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.
+/// Converts a column to another scalar. Throws InvalidArgument if a non-zero number becomes 0 or a
+/// finite number becomes infinite.
 template <class To, class From>
 Column<To> converted(std::string_view name, const Column<From>& column) {
     using std::isfinite;
@@ -26,25 +27,27 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
         const From& x = column.data()[m];
         values.push_back(from_words<To>(x));
         if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
-            throw_invalid("Chain",
-                          "links[" + std::to_string(m) + "]: " + std::string(name) +
-                              " must lie in the range of the precision; use a wider one, or another unit",
-                          static_cast<double>(x));
+            throw_invalid(
+                "Chain",
+                "links[" + std::to_string(m) + "]: " + std::string(name) +
+                    " must lie in the range of the precision; use a wider one, or another unit",
+                static_cast<double>(x));
     }
     if (column.is_scalar()) return Column<To>(values[0]);
     return values;
 }
 
-/// The chain in another scalar: the same numbers where that is wider, else rounded. Cost O(N).
-/// Throws InvalidArgument where a number leaves the range of `To`.
+/// Converts a chain to another scalar. The numbers are unchanged if that is wider, else rounded.
+/// Cost O(N). Throws InvalidArgument if a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    // in this order, so that the error names the first
+    // in this order, so that the error names the first column at fault
     const auto weight = converted<To>("weight", chain.weight());
     const auto length = converted<To>("length", chain.length());
     const auto centroid = converted<To>("centroid", chain.centroid());
-    return Chain<To>(chain.size(), weight, length, centroid,
-                     converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
+    return Chain<To>(
+        chain.size(), weight, length, centroid,
+        converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
 }
 
 }  // namespace revchain::detail

@@ -3,13 +3,14 @@
 
 #include "revchain/chain.hpp"
 
-/// Chains made from others: a weight attached, a thread put in between, two links clamped together.
-/// Joined bodies are computed in two words; weight and centroid are then rounded once. Conical
-/// heights are those of the exact body within 3 ulp, measured (tests/cpp/system/edit.cpp). Cost O(N).
+/// Functions that make a chain from another one: they attach a weight, insert a thread, or clamp
+/// two links together. Joined bodies are computed in two words; weight and centroid are then
+/// rounded once. Conical heights differ from those of the exact body by at most 3 ulp, measured
+/// (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
-/// A rigid body of a link; centroid and squared radius of gyration over the link's length.
+/// A rigid body of a link, with lengths in units of the link's length.
 template <Real T>
 struct Body {
     T weight{};
@@ -17,8 +18,8 @@ struct Body {
     Wide<T> gyration_ratio{};
 };
 
-/// Two bodies of one link of this length, rigidly joined: their moments and that of their distance,
-/// all positive, about the common centroid.
+/// Returns two bodies, rigidly joined, as one link of this length. Its moment of inertia about the
+/// common centroid is the sum of the bodies' moments and a term of their distance, all positive.
 template <Real T>
 Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
     using std::frexp, std::ldexp;
@@ -30,7 +31,8 @@ Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
     const S w1(ldexp(one.weight, -exponent)), w2(ldexp(other.weight, -exponent)), both = w1 + w2;
     const S share = w2 / both, rest = w1 / both, apart = other.centroid - one.centroid;
     const S centroid = one.centroid + share * apart;
-    const S gyration = rest * one.gyration_ratio + share * other.gyration_ratio + share * rest * apart * apart;
+    const S gyration =
+        rest * one.gyration_ratio + share * other.gyration_ratio + share * rest * apart * apart;
     return {weight, length, times_length<T>(centroid, length), gyration};
 }
 
@@ -49,45 +51,53 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 
 }  // namespace detail
 
-/// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free
-/// end, else the pin that links number `pin` and `pin` + 1 share. The body turns with that link.
+/// Returns the chain with a body fixed to the link above `pin`, its centre of gravity in that pin.
+/// Pin 0 is the free end; links number `pin` and `pin` + 1 share any other pin. The body turns with
+/// that link.
 /// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not
-/// positive, a negative radius of gyration, and where the result is not a valid chain.
+/// positive, a negative radius of gyration, and if the result is not a valid chain.
 template <Real T>
-Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, const T& radius_of_gyration = T(0)) {
+Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0,
+                     const T& radius_of_gyration = T(0)) {
     constexpr std::string_view place = "with_weight";
     detail::require_positive(place, "weight", weight);
     if (pin < 0 || pin >= chain.size())
-        detail::throw_invalid(place, "pin must be from 0, the free end, to " + std::to_string(chain.size() - 1), pin);
+        detail::throw_invalid(
+            place, "pin must be from 0, the free end, to " + std::to_string(chain.size() - 1), pin);
     auto links = detail::links_of(chain);
     Link<T>& link = links[static_cast<std::size_t>(pin)];
-    const Wide<T> gyration = detail::gyration_from_radius<T>(place, link.length, radius_of_gyration);
+    const Wide<T> gyration =
+        detail::gyration_from_radius<T>(place, link.length, radius_of_gyration);
     link = detail::joined<T>(link.length, detail::body(link), {weight, Wide<T>(T(1)), gyration});
     return Chain<T>(links);
 }
 
-/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, and below
-/// the next one or, where `pin` is the number of links, the support.
-/// Throws InvalidArgument for other pins and a length not positive.
+/// Returns the chain with a massless thread inserted above link number `pin`, counted from 1. The
+/// thread is below the next link or, if `pin` is the number of links, below the support.
+/// Throws InvalidArgument for other pins and for a length that is not positive.
 template <Real T>
 Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     constexpr std::string_view place = "with_thread";
     detail::require_positive(place, "length", length);
     if (pin < 1 || pin > chain.size())
-        detail::throw_invalid(place, "pin must be from 1 to " + std::to_string(chain.size()) + ", the support", pin);
+        detail::throw_invalid(
+            place, "pin must be from 1 to " + std::to_string(chain.size()) + ", the support", pin);
     auto links = detail::links_of(chain);
     links.insert(links.begin() + pin, plummet<T>(T(0), length));
     return Chain<T>(links);
 }
 
-/// The chain with the links at index `link` and `link` + 1 locked in line: one rigid link instead of
-/// two. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// Returns the chain with the links at index `link` and `link` + 1 locked in line as one rigid
+/// link. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <=
+/// lambda(k).
 /// Throws InvalidArgument for an index outside 0 ... N - 2.
 template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {
     if (link < 0 || link + 1 >= chain.size())
         detail::throw_invalid(
-            "clamped", "link must be from 0 to " + std::to_string(chain.size() - 2) + ", the next to highest", link);
+            "clamped",
+            "link must be from 0 to " + std::to_string(chain.size() - 2) + ", the next to highest",
+            link);
     auto links = detail::links_of(chain);
     const auto at = static_cast<std::size_t>(link);
     const Link<T> lower = links[at], upper = links[at + 1];
@@ -97,7 +107,8 @@ Chain<T> clamped(const Chain<T>& chain, Index link) {
     const S upper_ratio = detail::in_lengths<T>(upper.length, length);
     const detail::Body<T> above{upper.weight, detail::in_lengths<T>(upper.centroid, length),
                                 upper.gyration_ratio * (upper_ratio * upper_ratio)};
-    const detail::Body<T> below{lower.weight, upper_ratio + detail::in_lengths<T>(lower.centroid, length),
+    const detail::Body<T> below{lower.weight,
+                                upper_ratio + detail::in_lengths<T>(lower.centroid, length),
                                 lower.gyration_ratio * (ratio * ratio)};
     links[at + 1] = detail::joined<T>(length, above, below);
     links.erase(links.begin() + link);

@@ -11,16 +11,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD {
 
-/// The weight of a chain per unit of length as a function of the distance s from its free end, as
-/// polynomials.
+/// The weight per unit of length of a chain, as piecewise polynomials of the distance s from its
+/// free end.
 ///
 /// Method: pieces are halved until a polynomial of degree 12 through Chebyshev points gives the
-/// function to its rounding: between these points, at the ends and at the points of a grid of 1021
-/// over the whole length. A piece narrower than 2^-45 s is not halved but gets the mean of the
-/// function, from the place of a single jump or from 64 values. A jump or a corner costs about fifty
-/// pieces. At the free end a piece of 2^-40 of the length holds a power law c s^p.
-/// A feature at least 1/1000 of the length wide is always found, its ends to rounding. A narrower one
-/// may lie between the points of the grid, and is then not stored.
+/// function to its rounding. The two are compared between these points, at the ends, and on a grid
+/// of 1021 points over the whole length. A piece narrower than 2^-45 s is not halved. It gets the
+/// mean of the function, from the position of a single jump or from 64 values. A jump or a corner
+/// costs about fifty pieces. At the free end a piece of 2^-40 of the length holds a power law c
+/// s^p.
+/// A feature at least 1/1000 of the length wide is always found, and its ends are accurate to
+/// rounding. A narrower feature may lie between the grid points and is then not stored.
 /// Accuracy: 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp);
 /// `error` estimates the error of the integral.
 /// Cost: 1200 values of a smooth function, 1500 more for a jump, at most 2 million.
@@ -28,39 +29,47 @@ class LineDensity {
    public:
     static constexpr int degree = 12;
     using Coefficients = std::array<double, degree + 1>;  ///< those of powers, the constant first
-    static constexpr double rounding = 8e-15;             // below what functions of a dozen operations give
+    static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
     static constexpr int least_halvings = 2, max_at_tip = 40;
     static constexpr double narrowest = 0x1p-45;  // of pieces, over the distance from the free end
     static constexpr std::size_t max_pieces = 20'000;
     static constexpr int grid = 1021;  // a prime: some of evenly spaced beads lie on the grid
     static constexpr double most_doubt = 1e-6;  // of the total weight
 
-    /// The density between two places, as a polynomial or, at the free end, as a power of s.
+    /// The density between two points, as a polynomial or, at the free end, as a power of s.
     struct Piece {
         double middle, half;
         Coefficients factor;  ///< of powers of (s - middle)/half
-        double power = 0;     ///< not 0: this much of a power law, factor[0] its value at the right end
-        double below = 0;     ///< weight of the chain below the piece
-        double doubt = 0;     ///< estimated error of the weight of the piece
+        double power =
+            0;  ///< if not 0: exponent of a power law, with factor[0] its value at the right end
+        double below = 0;  ///< weight of the chain below the piece
+        double doubt = 0;  ///< estimated error of the weight of the piece
     };
 
-    /// Throws InvalidArgument where the function is not positive and finite, for a length that is
-    /// not, a function that is rough at too many points, or an integral not known to `most_doubt`.
-    LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
+    /// Throws InvalidArgument if the function or the length is not positive and finite, if the
+    /// function is rough at too many points, or if its integral is not known to `most_doubt`.
+    LineDensity(const std::function<double(double)>& weight_per_length, double length)
+        : length_(length) {
         detail::require_positive("LineDensity", "length", length);
         Given given{weight_per_length, {}, 0};
-        for (int i = 0; i < grid; ++i) given.on_grid[static_cast<std::size_t>(i)] = given(on_grid(i));
+        for (int i = 0; i < grid; ++i)
+            given.on_grid[static_cast<std::size_t>(i)] = given(on_grid(i));
         given.largest = *std::max_element(given.on_grid.begin(), given.on_grid.end());
         divide(given, 0, length, 0);
-        std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
+        std::sort(pieces_.begin(), pieces_.end(),
+                  [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
         sum_up();
-        const auto worst = std::max_element(pieces_.begin(), pieces_.end(),
-                                            [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
-        if (!(error(length) <= most_doubt)) throw_rough("has an integral that cannot be resolved", worst->middle);
+        const auto worst =
+            std::max_element(pieces_.begin(), pieces_.end(),
+                             [](const Piece& x, const Piece& y) { return x.doubt < y.doubt; });
+        if (!(error(length) <= most_doubt))
+            throw_rough("has an integral that cannot be resolved", worst->middle);
     }
-    /// From the pieces of another one; `below` is computed. Throws InvalidArgument for pieces that are
-    /// not contiguous from 0 to `length`, or where the density is not positive and finite.
-    LineDensity(double length, std::vector<Piece> pieces) : length_(length), pieces_(std::move(pieces)) {
+    /// Makes a density from the pieces of another one; `below` is computed. Throws InvalidArgument
+    /// if the pieces are not contiguous from 0 to `length`, or if the density is not positive and
+    /// finite.
+    LineDensity(double length, std::vector<Piece> pieces)
+        : length_(length), pieces_(std::move(pieces)) {
         detail::require_positive("LineDensity", "length", length);
         check_pieces();
         sum_up();
@@ -68,7 +77,7 @@ class LineDensity {
 
     double length() const { return length_; }
     double total() const { return total_; }
-    /// Estimated relative error of the weight below a point: the largest at or above s.
+    /// Estimated relative error of the weight below a point, the largest over points at or above s.
     double error(double s) const {
         double doubt = 0, largest = 0;
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -79,24 +88,28 @@ class LineDensity {
         return largest;
     }
     double mean() const { return total_ / length_; }
-    /// Relative error of that weight by the rounding of the places of jumps, the largest likewise.
+    /// Relative error that the rounded positions of jumps cause in the weight below a point, the
+    /// largest over points at or above s.
     double rounding_at_jumps(double s) const {
         double moved = 0, largest = 0;
         for (std::size_t i = 1; i < pieces_.size(); ++i) {
             const double at = end(pieces_[i - 1]);
-            const double jump = polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
+            const double jump =
+                polynomial(pieces_[i].factor, -1) - polynomial(pieces_[i - 1].factor, 1);
             moved += std::abs(jump) * at * epsilon<double>();
-            largest = std::max(largest, moved / std::max(pieces_[i].below, weight_below(std::min(s, length_))));
+            largest = std::max(
+                largest, moved / std::max(pieces_[i].below, weight_below(std::min(s, length_))));
         }
         return largest;
     }
     const std::vector<Piece>& pieces() const { return pieces_; }
 
-    /// The end of the piece that holds s; infinity beyond the chain.
+    /// The end of the piece that contains s; infinity beyond the chain.
     double end_of_piece(double s) const {
         return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
     }
-    /// Coefficients of the density about s in powers of (distance from s): the piece to its right.
+    /// Coefficients of the density in powers of the distance from s, on the piece to the right of
+    /// s.
     Coefficients about(double s) const {
         if (nudged(s) >= length_) return {mean()};
         const Piece& piece = piece_at(s);
@@ -114,15 +127,16 @@ class LineDensity {
         if (nudged(s) >= length_) return total_ + mean() * (s - length_);
         if (s == 0) return 0;
         const Piece& piece = piece_at(s);
-        if (piece.power != 0) return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
-        // near the free end the weight must be right relative to itself
+        if (piece.power != 0)
+            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
+        // near the free end the weight needs a small relative error
         if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
     /// The point below which the density is a power of s instead of a polynomial; mostly 0.
     double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
-    /// First moment of the chain below s about the free end, over weight below times s, as if the
-    /// density were a power of s: to first order near the free end.
+    /// First moment of the chain below s about the free end, divided by s times the weight below s.
+    /// The density is taken as a power of s, which is right to first order near the free end.
     double first_moment(double s) const {
         const double power = about(s)[0] * s / weight_below(s) - 1;
         return (power + 1) / (power + 2);
@@ -136,39 +150,48 @@ class LineDensity {
             const double begin = piece.middle - piece.half;
             if (!(piece.half > 0 && std::abs(begin - at) <= gap))
                 detail::throw_invalid(
-                    "LineDensity", "a piece must begin where the one before ends, at " + detail::in_digits(at), begin);
+                    "LineDensity",
+                    "a piece must begin where the one before ends, at " + detail::in_digits(at),
+                    begin);
             double size = 0;
             for (const double c : piece.factor) size += std::abs(c);
             bool positive = size > 0 && std::isfinite(size);
             if (piece.power != 0)
-                positive &= at == 0 && piece.factor[0] > 0 && piece.power > -1 && std::isfinite(piece.power);
+                positive &= at == 0 && piece.factor[0] > 0 && piece.power > -1 &&
+                            std::isfinite(piece.power);
             for (int i = 0; piece.power == 0 && i <= degree; ++i) {
-                const double value = polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
+                const double value =
+                    polynomial(piece.factor, std::cos(std::numbers::pi * i / degree));
                 positive &= value >= -10 * rounding * size;
             }
             at = end(piece);
             if (!positive)
-                detail::throw_invalid("LineDensity", "weight per length must be positive and finite from " +
-                                                         detail::in_digits(begin) + " to " + detail::in_digits(at));
+                detail::throw_invalid(
+                    "LineDensity", "weight per length must be positive and finite from " +
+                                       detail::in_digits(begin) + " to " + detail::in_digits(at));
         }
         if (!(std::abs(at - length_) <= gap))
-            detail::throw_invalid("LineDensity", "the pieces must end at the length " + detail::in_digits(length_), at);
+            detail::throw_invalid("LineDensity",
+                                  "the pieces must end at the length " + detail::in_digits(length_),
+                                  at);
     }
     void sum_up() {
         if (pieces_.front().power == 0) at_tip_ = about(0);
         for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);
         for (Piece& piece : pieces_) {
             piece.below = total_;
-            total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
+            total_ += piece.power == 0 ? weight_within(piece, 1)
+                                       : piece.factor[0] * 2 * piece.half / (piece.power + 1);
         }
     }
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
-    /// The end of a piece, also if rounded, belongs to the next piece, so that paths continue.
+    /// Moves s up a little, so that the end of a piece, even if rounded, belongs to the next piece.
     static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
-        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
-                                            [](double x, const Piece& piece) { return x < end(piece); });
+        const auto after =
+            std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
+                             [](double x, const Piece& piece) { return x < end(piece); });
         return after == pieces_.end() ? pieces_.back() : *after;
     }
     static double polynomial(const Coefficients& factor, double t) {
@@ -197,15 +220,18 @@ class LineDensity {
             const double value = function(s);
             if (!(value > 0 && std::isfinite(value)))
                 detail::throw_invalid(
-                    "LineDensity", "weight per length must be positive and finite; at " + detail::in_digits(s), value);
+                    "LineDensity",
+                    "weight per length must be positive and finite; at " + detail::in_digits(s),
+                    value);
             return value;
         }
     };
     double on_grid(int i) const { return length_ * (i + 0.5) / grid; }
 
     [[noreturn]] static void throw_rough(const std::string& how, double s) {
-        detail::throw_invalid("LineDensity", "weight per length " + how +
-                                                 " (use a chain of many short links instead of a cord); near s",
+        detail::throw_invalid("LineDensity",
+                              "weight per length " + how +
+                                  " (use a chain of many short links instead of a cord); near s",
                               s);
     }
 
@@ -214,9 +240,11 @@ class LineDensity {
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
         Coefficients sample{}, chebyshev{};
         const auto cosine = [](std::size_t k, std::size_t i) {
-            return std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
+            return std::cos(std::numbers::pi * static_cast<double>(k) *
+                            (static_cast<double>(i) + 0.5) / count);
         };
-        for (std::size_t i = 0; i < count; ++i) sample[i] = f(piece.middle + piece.half * cosine(1, i));
+        for (std::size_t i = 0; i < count; ++i)
+            sample[i] = f(piece.middle + piece.half * cosine(1, i));
         double largest = *std::max_element(sample.begin(), sample.end());
         double least = *std::min_element(sample.begin(), sample.end());
         for (std::size_t k = 0; k < count; ++k) {
@@ -232,13 +260,15 @@ class LineDensity {
         const double by_place = epsilon<double>() * high / (high - low) * (largest - least);
         double tolerance = rounding * largest + 2 * by_place;
         const double tail = largest_of(count - 2, count), before = largest_of(count - 6, count - 2);
-        // Coefficients that have ceased to fall are what is left of the roundings of larger terms.
+        // Coefficients that no longer fall are rounding errors of larger terms.
         if (tail > tolerance && tail > 0.03 * before && before <= 8 * epsilon<double>() * f.largest)
             tolerance = std::max(tolerance, 8 * epsilon<double>() * f.largest);
-        // At the free end, where little hangs below, the density must be right relative to itself.
-        bool good = halvings >= least_halvings && tail <= tolerance && (low > 0 || least > 0.02 * largest);
+        // At the free end, where little hangs below, the density needs a small relative error.
+        bool good =
+            halvings >= least_halvings && tail <= tolerance && (low > 0 || least > 0.02 * largest);
         if (good) {
-            for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
+            for (std::size_t k = count;
+                 k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
                 chebyshev[k] = 0;
             piece.factor = in_powers(chebyshev);
             good = agrees(f, low, high, piece, 10 * rounding * largest, 10 * tolerance);
@@ -255,10 +285,12 @@ class LineDensity {
             piece.power = std::log2(f(high) / f(high / 2));
             if (!(piece.power > -1))
                 detail::throw_invalid("LineDensity",
-                                      "the weight near the free end must be finite; weight per length goes like s^p, p",
+                                      "the weight near the free end must be finite; weight per "
+                                      "length goes like s^p, p",
                                       piece.power);
             if (piece.power == 0) piece.power = 1e-30;
-            const double turned = std::abs(std::log2(f(high / 2) / f(high / 4)) - piece.power), grown = piece.power + 1;
+            const double turned = std::abs(std::log2(f(high / 2) / f(high / 4)) - piece.power),
+                         grown = piece.power + 1;
             piece.doubt = 8 * turned * piece.factor[0] * high / (grown * grown);
         } else if (!good && !is_jump(f, low, high, piece)) {
             constexpr int parts = 64;
@@ -273,7 +305,8 @@ class LineDensity {
         pieces_.push_back(piece);
     }
 
-    /// Whether the function jumps once within a narrow piece: then the piece has its mean, exactly.
+    /// Returns true if the function jumps once within a narrow piece; the piece then gets the exact
+    /// mean.
     static bool is_jump(const Given& f, double low, double high, Piece& piece) {
         const double first = std::nextafter(low, high), last = std::nextafter(high, low);
         const double lower = f(first), upper = f(last), jump = std::abs(upper - lower);
@@ -285,10 +318,11 @@ class LineDensity {
         return true;
     }
 
-    /// Whether a polynomial gives the function within a tolerance: between its Chebyshev points, at
-    /// the ends and on the grid. Sets its doubt: the error of the integral by the values between or,
-    /// where one differs by more than the rounding, by the largest difference.
-    bool agrees(const Given& f, double low, double high, Piece& piece, double rounded, double tolerance) const {
+    /// Returns true if a polynomial gives the function within a tolerance between its Chebyshev
+    /// points, at the ends and on the grid. Sets `doubt`, the error of the integral, from the
+    /// values between or, if one differs by more than the rounding, from the largest difference.
+    bool agrees(const Given& f, double low, double high, Piece& piece, double rounded,
+                double tolerance) const {
         const auto off = [&](double s, double value) {
             return polynomial(piece.factor, (s - piece.middle) / piece.half) - value;
         };
@@ -314,7 +348,8 @@ class LineDensity {
         return true;
     }
 
-    /// Coefficients of powers from those of Chebyshev polynomials: stable enough, because they fall.
+    /// Converts coefficients of Chebyshev polynomials to those of powers; stable, because they
+    /// fall.
     static Coefficients in_powers(const Coefficients& chebyshev) {
         Coefficients sum{chebyshev[0]}, before{1}, now{0, 1};
         for (std::size_t k = 1; k <= degree; ++k) {

@@ -15,10 +15,10 @@ template <Real T>
 struct Link {
     T weight{};    ///< W >= 0 (0: a massless thread or wire)
     T length{};    ///< a > 0, pin to pin
-    T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
-    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity: not the pendulum
-    /// length l = h + rho^2/h, because h = 0 is allowed; a ratio, so that no unit of length takes it
-    /// out of the range of T; with twice the digits, so that the given numbers are met to 1e-31.
+    T centroid{};  ///< h, centre of gravity from the UPPER pin towards the lower pin; any sign
+    /// (rho/a)^2 >= 0, with rho the radius of gyration about the centre of gravity. The pendulum
+    /// length l = h + rho^2/h is not stored, because h = 0 is allowed. A ratio stays in the range
+    /// of T in any unit of length. Twice the digits reproduce the given numbers to 1e-31.
     Wide<T> gyration_ratio{T(0)};
 
     friend bool operator==(const Link&, const Link&) = default;
@@ -29,13 +29,13 @@ enum class Posture { hangs = 1, stands = -1 };
 
 namespace detail {
 
-/// x / length in twice the digits, whatever their unit.
+/// Returns x / length in twice the digits, for any unit of length.
 template <Real T>
 Wide<T> in_lengths(const Wide<T>& x, const T& length) {
     return Product<Wide<T>>::of(x).over(Wide<T>(length)).value();
 }
 
-/// x lengths, rounded once, whatever the unit.
+/// Returns x times `length`, rounded once, for any unit.
 template <Real T>
 T times_length(const Wide<T>& x, const T& length) {
     using std::ldexp;
@@ -43,21 +43,23 @@ T times_length(const Wide<T>& x, const T& length) {
     return ldexp(static_cast<T>(product.fraction), product.exponent);
 }
 
-/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. With larger ones
-/// products leave the range of T.
+/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. Products of larger
+/// ratios leave the range of T.
 template <Real T>
 T length_span() {
     using std::ldexp;
     return ldexp(T(1), std::numeric_limits<T>::max_exponent / 4);
 }
 
-/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are too far apart.
+/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument if rho and a are too far apart.
 template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());
     if (!(ratio <= largest && Wide<T>(T(1)) <= ratio * largest))
-        throw_invalid(place, "radius of gyration and length are too far apart for this scalar, with a length of " +
-                                 in_digits(length));
+        throw_invalid(
+            place,
+            "radius of gyration and length are too far apart for this scalar, with a length of " +
+                in_digits(length));
     return ratio;
 }
 
@@ -80,8 +82,9 @@ template <Real T>
 struct CompoundPendulum {
     T weight{};
     T length{};
-    T centroid{};                           ///< h
-    std::optional<T> pendulum_length{};     ///< l, of the equivalent simple pendulum about the upper pin; sign of h
+    T centroid{};  ///< h
+    std::optional<T>
+        pendulum_length{};  ///< l, of the equivalent simple pendulum about the upper pin; sign of h
     std::optional<T> radius_of_gyration{};  ///< rho >= 0, about the centre of gravity
 };
 
@@ -100,17 +103,20 @@ Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
 /// (rho/a)^2 from rho^2 = h (l - h), §8 (1). Throws InvalidArgument for an imaginary rho, and for
 /// h = 0, where l does not determine rho.
 template <Real T>
-Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid, T pendulum_length) {
+Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid,
+                                      T pendulum_length) {
     require_finite(place, "centroid", centroid, "pendulum length", pendulum_length);
     if (centroid == T(0))
-        throw_invalid(place, "a centroid at the upper pin has no pendulum length; give the radius of "
-                             "gyration instead");
+        throw_invalid(place,
+                      "a centroid at the upper pin has no pendulum length; give the radius of "
+                      "gyration instead");
     require_positive(place, "length", length);
     if (centroid > T(0) ? pendulum_length < centroid : centroid < pendulum_length)
-        throw_invalid(place, "imaginary radius of gyration: centroid (pendulum length - centroid) must "
-                             "not be negative, with centroid " +
-                                 in_digits(centroid) + " and pendulum length " +
-                                 in_digits(pendulum_length));
+        throw_invalid(place,
+                      "imaginary radius of gyration: centroid (pendulum length - centroid) must "
+                      "not be negative, with centroid " +
+                          in_digits(centroid) + " and pendulum length " +
+                          in_digits(pendulum_length));
     if (pendulum_length == centroid) return Wide<T>(T(0));
     const Wide<T> beyond = Wide<T>(pendulum_length) - Wide<T>(centroid);  // exact
     return in_reach(place, in_lengths<T>(centroid, length) * in_lengths(beyond, length), length);
@@ -127,11 +133,13 @@ template <Real T>
 Link<T> compound_pendulum(const CompoundPendulum<T>& body) {
     constexpr std::string_view place = "compound_pendulum";
     if (body.pendulum_length.has_value() == body.radius_of_gyration.has_value())
-        detail::throw_invalid(place, "give either pendulum_length or radius_of_gyration (not both)");
+        detail::throw_invalid(place,
+                              "give either pendulum_length or radius_of_gyration (not both)");
     return {body.weight, body.length, body.centroid,
             body.radius_of_gyration
                 ? detail::gyration_from_radius<T>(place, body.length, *body.radius_of_gyration)
-                : detail::gyration_from_pendulum_length<T>(place, body.length, body.centroid, *body.pendulum_length)};
+                : detail::gyration_from_pendulum_length<T>(place, body.length, body.centroid,
+                                                           *body.pendulum_length)};
 }
 
 /// rho, radius of gyration about the centre of gravity.

@@ -11,14 +11,18 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-inline void require_yielding(std::string_view place, const std::string& name, const Support& support) {
+inline void require_yielding(std::string_view place, const std::string& name,
+                             const Support& support) {
     if (support.is_firm() && support.carriage_weight > 0)
-        throw_invalid(place, name + " must have a stiffness: what moves sideways needs a support that yields; weight",
-                      support.carriage_weight);
+        throw_invalid(
+            place,
+            name +
+                " must have a stiffness: what moves sideways needs a support that yields; weight",
+            support.carriage_weight);
 }
 
-inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
-                                double gravity) {
+inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration,
+                                double spin, double gravity) {
     require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
     require_finite(place, "spin", spin);
     require_positive(place, "gravity", gravity);
@@ -28,18 +32,24 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
     const S moment = ldexp(S(part * radius * radius), heavy + 2 * far);
     const S momentum = moment * spin / S(gravity);
     if (!isfinite(moment) || !isfinite(momentum))
-        throw_invalid(place, "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
-                      radius_of_gyration);
+        throw_invalid(
+            place,
+            "weight x radius of gyration^2 x spin / gravity must be finite; radius of gyration",
+            radius_of_gyration);
     return {momentum, moment};
 }
 
 }  // namespace detail
 
-inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin, double gravity) {
-    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
+inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                              double gravity) {
+    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity)
+                .momentum,
+            0};
 }
 
-inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin, double gravity) {
+inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                double gravity) {
     return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
 }
 
@@ -47,7 +57,8 @@ inline void Rig::check() const {
     const auto as_long = [&](std::size_t stored, std::string_view name) {
         if (stored != 0 && stored != static_cast<std::size_t>(size()))
             detail::throw_invalid("Rig",
-                                  std::string(name) + " must be empty or have one entry for each of the " +
+                                  std::string(name) +
+                                      " must be empty or have one entry for each of the " +
                                       std::to_string(size()) + " links",
                                   stored);
     };
@@ -55,9 +66,10 @@ inline void Rig::check() const {
     as_long(with_.displaced.size(), "displaced");
     const Support& support = with_.support;
     if (!(support.stiffness.high > 0))
-        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness.high);
-    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
-                                 support.radius);
+        detail::throw_invalid("Rig", "the stiffness of the support must be positive",
+                              support.stiffness.high);
+    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight,
+                                 "radius of the support", support.radius);
     detail::require_yielding("Rig", "the support", support);
     if (with_.flywheels.empty() && with_.displaced.empty()) return;
     const auto check_link = [&](Index m, std::string_view place) {
@@ -74,7 +86,7 @@ inline void Rig::check() const {
     Index m = 0;
     try {
         for (; m < size(); ++m) check_link(m, "Rig");
-    } catch (const InvalidArgument&) {  // once more, with the place
+    } catch (const InvalidArgument&) {  // checked again, to name the link
         check_link(m, "Rig: links[" + std::to_string(m) + "]");
         throw;
     }

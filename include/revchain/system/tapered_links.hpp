@@ -16,29 +16,31 @@ struct TaperedLinks {
     std::vector<Wide<T>> gyration_ratio;
 };
 
-/// Whether adding `term` to `sum` no longer matters.
+/// Returns true if `term` is too small to matter in `sum`.
 template <class S>
 bool is_lost(const S& term, const S& sum) {
     using std::abs;
-    return static_cast<Narrow<S>>(abs(term)) <= operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
+    return static_cast<Narrow<S>>(abs(term)) <=
+           operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
 }
 
-/// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then n doublings, which leave the relative
-/// error of the first and multiply that of the second by 2^n.
+/// Returns e^-x - 1 and e^-x for x >= 0. Taylor's series of x/2^n is followed by n doublings. They
+/// keep the relative error of the first number and multiply that of the second by 2^n.
 template <class S>
 std::pair<S, S> decay(S x) {
     using std::ldexp;
     int doublings = 0;
     for (; x > S(0.25); ++doublings) x = ldexp(x, -1);
     S term = -x, fall = term;
-    for (double n = 2; n < 40 && !is_lost(term, fall); ++n) fall = fall + (term = -(term * x) / S(n));
+    for (double n = 2; n < 40 && !is_lost(term, fall); ++n)
+        fall = fall + (term = -(term * x) / S(n));
     S rest = S(1) + fall;
     for (; doublings > 0; --doublings) fall = fall * (S(2) + fall), rest = rest * rest;
     return {fall, rest};
 }
 
-/// Mean and variance of t for the density (1 + u t)^exponent over -1 < t < 1, 0 < u <= 1/3, by the
-/// binomial series. All even terms that matter have one sign, and so have all odd ones.
+/// Returns the mean and variance of t for the density (1 + u t)^exponent over -1 < t < 1, 0 < u <=
+/// 1/3, by the binomial series. All even terms that matter have one sign, and so have all odd ones.
 template <class S>
 std::pair<S, S> mean_and_variance(double exponent, const S& u) {
     S term(1), whole(2), first(0), second = S(2) / S(3);
@@ -56,11 +58,12 @@ std::pair<S, S> mean_and_variance(double exponent, const S& u) {
     return {mean, second / whole - mean * mean};
 }
 
-/// Cuts a cord whose line density is as x^exponent, x from its free end, into `count` straight links
-/// of length `link`. With q = exponent + 1 and u = 1/(2m + 1), the weight below a pin falls from one
-/// to the next by ((1-u)/(1+u))^q, from the support down; no difference of neighbours is taken.
+/// Cuts a cord with line density proportional to x^exponent, x from its free end, into `count`
+/// straight links of length `link`. With q = exponent + 1 and u = 1/(2m + 1), each weight below a
+/// pin is ((1-u)/(1+u))^q times that below the next higher pin. Weights are computed from the
+/// support down, without differences of neighbours.
 /// Accuracy: weights and centroids 0.51 ulp, gyration ratios 3e-28, in double up to a million links
-/// (tests/cpp/system/tapered.cpp); where `Wide<T>` is T the weights are off by as many ulps as there
+/// (tests/cpp/system/tapered.cpp). If `Wide<T>` is T, the weights are off by as many ulps as there
 /// are links. Cost: 0.5 to 2 microseconds a link.
 template <Real T>
 TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const T& weight) {
@@ -71,10 +74,11 @@ TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const
     const S q = S(exponent) + S(1);
     S hung(weight);
     for (std::size_t m = n - 1; m > 0; --m) {
-        if (m % 64 == 0) look();
+        if (m % 64 == 0) check_interrupt();
         const S u = S(1) / S(2 * static_cast<double>(m) + 1), u2 = u * u;
         S power = u, area = u;  // artanh u
-        for (double odd = 3; odd < 200 && !is_lost(power, area); odd += 2) area = area + (power = power * u2) / S(odd);
+        for (double odd = 3; odd < 200 && !is_lost(power, area); odd += 2)
+            area = area + (power = power * u2) / S(odd);
         const auto [fall, rest] = decay<S>(S(2) * q * area);
         const auto [mean, variance] = mean_and_variance<S>(exponent, u);
         links.weight[m] = static_cast<T>(-(hung * fall));

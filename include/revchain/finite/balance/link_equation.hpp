@@ -25,7 +25,7 @@ bool is_positive(const Interval<T>& x) {
     return x.positive();
 }
 
-/// Length times cross, exactly 0 for a plummet, where a product of intervals would be wider.
+/// Returns length times cross, exactly 0 for a plummet: a product of intervals would be wider.
 template <class S>
 S turning_of(const Link<S>& link) {
     return is_zero(link.cross) ? link.cross : link.length * link.cross;
@@ -34,11 +34,11 @@ S turning_of(const Link<S>& link) {
 using detail::down;
 using detail::up;
 
-/// Largest t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
+/// The largest value of t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
 inline constexpr double steepest_half_bend = 0.2862167011199732;
 
-/// Encloses the sine of the inclination of tangent t, and its derivatives by t, over an interval of
-/// t. Each is extreme at an end or where the next derivative is 0.
+/// Encloses the sine of the inclination of tangent t, and its derivatives by t, for t in an
+/// interval. Each has its extremes at an end of the interval or where the next derivative is 0.
 template <class T>
 struct Sine {
     Interval<T> value, slope, half_bend;  // s, (1+t^2)^-3/2, t (1+t^2)^-5/2 = -s''/3
@@ -46,8 +46,8 @@ struct Sine {
     explicit Sine(const Interval<T>& t) {
         using std::abs;
         const Interval<T> one(T(1));
-        const auto at = [&](const T& x) {  // sine and cosine
-            if (is_horizontal(x)) {        // 1 to the last digit of T; its square might overflow
+        const auto at = [&](const T& x) {  // returns sine and cosine
+            if (is_horizontal(x)) {        // the sine is 1 to the last digit; x^2 may overflow
                 const Interval<T> sine(down(T(1)), T(1));
                 return std::pair(x < T(0) ? -sine : sine, one / Interval<T>(abs(x)));
             }
@@ -81,7 +81,8 @@ Interval<T> sine_at(const Interval<T>& tangent) {
     return Sine<T>(tangent).value;
 }
 
-/// Newton's method for the tangent under the load R, from a side from which it does not overshoot.
+/// Returns the tangent under the load R by Newton's method. It starts at t, on a side from which
+/// the method does not overshoot.
 template <class S>
 S tangent_from(S t, const S& stiffness, const S& turning, const S& R) {
     using std::abs;
@@ -94,7 +95,8 @@ S tangent_from(S t, const S& stiffness, const S& turning, const S& R) {
     return t;
 }
 
-/// The tangent under the load R, if stiffness + min(0, turning) > 0: the load grows with it.
+/// Returns the tangent under the load R. It requires stiffness + min(0, turning) > 0, so that the
+/// load increases with the tangent.
 template <class S>
 S tangent_of(const S& stiffness, const S& turning, const S& R) {
     if (is_zero(turning)) return R / stiffness;
@@ -102,7 +104,7 @@ S tangent_of(const S& stiffness, const S& turning, const S& R) {
     return tangent_from(S(R / slope), stiffness, turning, R);
 }
 
-/// The first of t, t + step, t + 3 step, t + 7 step, ... that passes a test; NaN if `tries` fail.
+/// Returns the first of t, t + step, t + 3 step, t + 7 step, ... to pass a test; NaN after `tries`.
 template <class T, class Test>
 T first_passing(T t, T step, int tries, const Test& passes) {
     for (int round = 0; round < tries; ++round, step = step * T(2)) {
@@ -111,27 +113,34 @@ T first_passing(T t, T step, int tries, const Test& passes) {
     }
     return std::numeric_limits<T>::quiet_NaN();
 }
-/// The first step away from a tangent that Newton's method found.
+/// Returns the first step away from a tangent that Newton's method found.
 template <class T>
 T rounding_step(const T& t) {
     using std::abs;
     return T(2) * epsilon<T>() * abs(t) + std::numeric_limits<T>::denorm_min();
 }
 
-/// Encloses the tangents under the loads R, for any width of the stiffness; NaN if none is found.
+/// Encloses the tangents under the loads R, for a stiffness of any width; NaN if no bound is found.
 template <Real T>
-Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
+Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning,
+                       const Interval<T>& R) {
     if (is_zero(turning)) return R / stiffness;
     const bool wide = stiffness.width() > T(16) * epsilon<T>() * stiffness.low;
     const auto near = [&](const T& load, const T& steepest) {
         return tangent_of(wide ? steepest : stiffness.middle(), turning.middle(), load);
     };
     const T low = near(R.low, R.low < T(0) ? stiffness.low : stiffness.high);
-    const T high = !wide && R.low == R.high ? low : near(R.high, R.high < T(0) ? stiffness.high : stiffness.low);
-    const auto load = [&](const T& t) { return stiffness * Interval<T>(t) + turning * sine_at(Interval<T>(t)); };
+    const T high = !wide && R.low == R.high
+                       ? low
+                       : near(R.high, R.high < T(0) ? stiffness.high : stiffness.low);
+    const auto load = [&](const T& t) {
+        return stiffness * Interval<T>(t) + turning * sine_at(Interval<T>(t));
+    };
     constexpr int tries = 41;
-    return {first_passing(low, T(-rounding_step(low)), tries, [&](const T& t) { return load(t).high <= R.low; }),
-            first_passing(high, rounding_step(high), tries, [&](const T& t) { return load(t).low >= R.high; })};
+    return {first_passing(low, T(-rounding_step(low)), tries,
+                          [&](const T& t) { return load(t).high <= R.low; }),
+            first_passing(high, rounding_step(high), tries,
+                          [&](const T& t) { return load(t).low >= R.high; })};
 }
 
 }  // namespace revchain::finite

@@ -14,7 +14,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 ///     R = H_below + moment y_below,  lambda pull t + length cross s = R,
 ///     y = y_below - length s,        H = R + rest y.
 /// H, the sum of weights times offsets of centroids, is lambda times the sideways pull at the upper
-/// pin. R is its moment about that pin over the height of the link, if the link hung vertically.
+/// pin. R is the moment of these forces about that pin over the height of the vertical link.
 template <class S>
 struct Link {
     S length;  ///< a
@@ -28,13 +28,13 @@ struct Link {
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
 
-/// Links with every number enclosed by an interval.
+/// Links whose numbers are all enclosed by intervals.
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
-/// The arithmetic of shapes: two doubles.
+/// The arithmetic in which shapes are computed: two doubles a number.
 using Fine = Wide<double>;
-/// The arithmetic of proofs that double leaves undecided.
+/// The arithmetic of proofs that fail in double.
 using Far = DoubleDouble;
 using Span = Interval<Far>;
 
@@ -43,22 +43,67 @@ double as_double(const S& x) {
     return static_cast<double>(x);
 }
 
-/// Links in units of 2^length_exponent and 2^weight_exponent.
+/// The upper end of a chain: its topmost pin is on the axis, as known at compile time.
+struct OnAxis {
+    static constexpr bool is_symmetric() { return true; }
+    static constexpr bool yields() { return false; }
+
+    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
+    template <class F>
+    const F& miss(const F& y, const F&) const {
+        return y;
+    }
+    /// Puts the topmost pin, the last of `offset`, on its support if the position needs no load.
+    template <class S>
+    void place(std::vector<S>& offset) const {
+        offset.back() = S(0);
+    }
+};
+
+/// The links of a chain, in units of 2^length_exponent and 2^weight_exponent, and what a list of
+/// shapes asks of them. `RiggedLinks` has the same functions for a rig.
 template <class S>
 struct Links {
     std::vector<Link<S>> links;
     ChainUnits units;
+
+    static OnAxis upper_end() { return {}; }
+    /// The postures of links where all hang, or stand as in the rig.
+    std::vector<Posture> postures() const {
+        return std::vector<Posture>(links.size(), Posture::hangs);
+    }
+    /// Whether shapes with all links standing exist; without a spring nothing would bear the load.
+    static bool may_all_stand() { return false; }
+    /// Whether the tangent of link m falls as its load grows.
+    static bool turned(std::size_t) { return false; }
+    /// The links whose balance is swept, in intervals.
+    template <class T>
+    EnclosedLinks<T> links_for_sweep() const;
+    /// The weight that hangs on each upper pin.
+    std::vector<double> hung() const {
+        std::vector<double> weights;
+        double total = 0;
+        for (const Link<S>& link : links)
+            weights.push_back(total += as_double(link.moment + link.rest));
+        return weights;
+    }
+    /// The weight of the chain itself.
+    double weight() const { return hung().back(); }
+    /// Adds the parts of the support to the numbers of a shape.
+    template <class Shape, class Found>
+    void add_support(Shape&, const S&, const Found&) const {}
 };
 
-/// The links of a chain, for T = double each number to 1e-28 unless W h + a S cancels.
-/// Throws InvalidArgument if weights differ by a factor of more than 1e123.
+/// Returns the links of a chain. For T = double each number has a relative error of 1e-28 unless W
+/// h + a S cancels. Throws InvalidArgument if weights differ by a factor of more than 1e123.
 template <Real T>
 Links<Wide<T>> links_of(const Chain<T>& chain) {
     using std::ldexp;
     using S = Wide<T>;
     using E = Narrow<S>;
     if (!chain.has_one_weight_unit())
-        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
+        detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
+                              chain.total_weight());
     Links<S> result;
     result.units = chain.units();
     result.links.reserve(static_cast<std::size_t>(chain.size()));
@@ -71,7 +116,8 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
         const S a(E(ldexp(link.length, -result.units.length_exponent)));
         const S h(E(ldexp(link.centroid, -result.units.length_exponent)));
         const S p = h / a, q = (a - h) / a, moment = p * weight;
-        result.links.push_back({a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
+        result.links.push_back(
+            {a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
         below = below + S(link.weight);
     }
     return result;
@@ -90,7 +136,8 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
-/// Encloses in T a number known in S but for its last digits; a point if a narrower T holds it.
+/// Encloses in T a number whose last digits in S are uncertain. Returns a point if T is narrower
+/// than S and holds the number exactly.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);
@@ -108,15 +155,20 @@ template <class T, class S>
 EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
+template <class S>
+template <class T>
+EnclosedLinks<T> Links<S>::links_for_sweep() const {
+    return enclosed<T>(links);
+}
 
-/// Whether the inclination of this tangent has sine 1 and cosine 1/|tangent| to every digit.
+/// Returns true if a tangent's inclination has sine 1 and cosine 1/|tangent| to every digit.
 template <class S>
 bool is_horizontal(const S& tangent) {
     using std::abs;
     return abs(tangent) > S(1e100);
 }
 
-/// Cosine of the inclination of a tangent, even if the square of the tangent overflows.
+/// Returns the cosine of the inclination of a tangent, even if the square of the tangent overflows.
 template <class S>
 S cosine_at(const S& tangent) {
     using std::abs;

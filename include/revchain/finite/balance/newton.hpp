@@ -10,9 +10,9 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 template <class S>
 struct Balanced {
     std::vector<S> offset;
-    std::vector<Posture> posture;  ///< of each link; empty where all hang
-    bool converged = false;        ///< Newton's method reached the last digits of S
-    std::vector<S> tangent{};      ///< of links, if too near the horizontal for offsets; or empty
+    std::vector<Posture> posture;  ///< of each link; empty if all hang
+    bool converged = false;        ///< whether Newton's method reached the last digits of S
+    std::vector<S> tangent{};      ///< of links, if offsets fail near the horizontal; else empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
     void mirror() {
@@ -21,7 +21,7 @@ struct Balanced {
     }
 };
 
-/// cos d from sin d = difference/length; accurate near a right angle.
+/// Returns cos d from sin d = difference/length. It is accurate near a right angle.
 template <class S>
 S cosine_of(const S& length, const S& difference, bool stands = false) {
     using std::sqrt;
@@ -43,10 +43,11 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
     return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
 }
 
-/// Solves a symmetric tridiagonal system: `x` is the right side, then the solution. `upper[m]`
-/// couples rows m and m + 1; the last is not used. The diagonal becomes the pivots.
+/// Solves a symmetric tridiagonal system. `x` is the right side on entry, the solution on return.
+/// `upper[m]` couples rows m and m + 1; its last entry is not used. Pivots overwrite the diagonal.
 REVCHAIN_LAZY
-void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
+void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper,
+                       std::vector<double>& x) {
     for (std::size_t m = 0; m < x.size(); ++m) {
         if (m > 0) {
             const double share = upper[m - 1] / diagonal[m - 1];
@@ -58,12 +59,12 @@ void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>&
         x[m] = (x[m] - (m + 1 < x.size() ? upper[m] * x[m + 1] : 0.0)) / diagonal[m];
 }
 
-/// Newton's method on all pins at once, from offsets near a steady shape with the given postures.
-/// The forces at the pins are computed in S; their derivative, the tridiagonal tangent stiffness
-/// lambda k sec^3 [1 -1; -1 1] - M of the elements, in double. Tips of 1e-100 and almost horizontal
-/// links keep their relative accuracy. Cost O(N) a step.
-/// Iterations that free the height (finite/branch) and the one of the proof stay apart: one loop for
-/// all took 26 lines more than it saved.
+/// Returns the steady shape near the offsets `start` with the given postures, by Newton's method on
+/// all pins at once. The forces at the pins are computed in S. Their derivative is computed in
+/// double: the tridiagonal tangent stiffness lambda k sec^3 [1 -1; -1 1] - M of the elements. Tips
+/// of 1e-100 and almost horizontal links keep their relative accuracy. Each step costs O(N).
+/// Iterations that free the height (finite/branch) and the one of the proof stay separate: one loop
+/// for all took 26 lines more than it saved.
 template <class S, class End = OnAxis>
 Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start,
                     std::vector<Posture> posture = {}, const End& support = {}) {
@@ -77,36 +78,41 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: forces, then steps
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
-        S from_below(0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
+        S from_below(
+            0);  // lambda sigma tan d + a X sin d, less centrifugal force, of the link below
         double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
             if (!(abs(d) < link.length)) return result;
-            const S cosine = cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
-            const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
-                    at_upper = link.rest * y[m + 1];
-            // lambda times the force of the link on its lower pin; on the upper pin it is opposite
+            const S cosine = cosine_of(link.length, d, result.stands(m)),
+                    tangent = d / (link.length * cosine);
+            const S pull = height * link.pull * tangent, turn = link.cross * d,
+                    at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            // lambda times the force of the link on its lower pin, opposite on its upper pin
             change[m] = -as_double(from_below + (pull + turn - at_lower));
             const double c = as_double(cosine), a = as_double(link.length);
-            const double stiffness = as_double(height * link.pull) / (a * c * c * c) + as_double(link.cross);
+            const double stiffness =
+                as_double(height * link.pull) / (a * c * c * c) + as_double(link.cross);
             diagonal[m] = below_stiffness - below_mass + stiffness - as_double(link.moment);
             upper[m] = -stiffness;
             from_below = -(pull + turn) - at_upper;
             below_stiffness = stiffness, below_mass = as_double(link.rest);
         }
-        if constexpr (is_held<End>) {
+        if constexpr (is_support<End>) {
             if (support.yields()) {
-                change[n] =
-                    -as_double(from_below + support.stiffness * (y[n] - support.radius) - support.carriage * y[n]);
-                diagonal[n] = below_stiffness - below_mass + as_double(support.stiffness - support.carriage);
+                change[n] = -as_double(from_below + support.stiffness * (y[n] - support.radius) -
+                                       support.carriage * y[n]);
+                diagonal[n] =
+                    below_stiffness - below_mass + as_double(support.stiffness - support.carriage);
             }
         }
         solve_tridiagonal(diagonal, upper, change);
         double largest = 0;
         for (std::size_t m = 0; m < rows; ++m) {
             const double share = as_double(abs(y[m]));
-            largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
+            largest =
+                std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
             y[m] = y[m] + S(change[m]);
         }
         if (!(largest < std::numeric_limits<double>::infinity())) return result;

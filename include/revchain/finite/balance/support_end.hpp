@@ -8,32 +8,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The upper end of a chain: its topmost pin is on the axis, as known at compile time.
-struct OnAxis {
-    static constexpr bool is_symmetric() { return true; }
-    static constexpr bool yields() { return false; }
-
-    /// Distance of the topmost pin at offset y, with lambda times the pull `sum`, from its support.
-    template <class F>
-    const F& miss(const F& y, const F&) const {
-        return y;
-    }
-    /// Puts the topmost pin, the last of `offset`, on its support if the position needs no load.
-    template <class S>
-    void place(std::vector<S>& offset) const {
-        offset.back() = S(0);
-    }
-};
-
 /// The upper end of a rig. A spring of stiffness E holds the topmost pin, in a carriage of weight
 /// W, to a point at radius b that turns with the rig; a firm support holds it there:
 ///     y = b + (H + W y)/(lambda E),
 /// with H/lambda the pull of the chain. Unless b = 0 there is no straight shape and no symmetry.
 template <class S>
-struct Held {
+struct SupportEnd {
     S radius;        ///< b, of any sign; a double
     S compliance;    ///< 1/(lambda E); 0 if firm
-    S stiffness;     ///< lambda E, if it yields
+    S stiffness;     ///< lambda E, if the support yields
     S carriage;      ///< W; a double, 0 if firm
     bool symmetric;  ///< b = 0
     bool firm;
@@ -52,29 +35,14 @@ struct Held {
 };
 
 template <class End>
-inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
-
-/// The sweep of a chain asks these functions for its support, for the posture in which all links
-/// hang, and whether all links may stand (never: nothing would bear the load). See `RiggedLinks`.
-REVCHAIN_LAZY
-OnAxis support_of(const Links<Fine>&) { return {}; }
-REVCHAIN_LAZY
-std::vector<Posture> posture_of(const Links<Fine>& chain) {
-    return std::vector<Posture>(chain.links.size(), Posture::hangs);
-}
-REVCHAIN_LAZY
-bool may_all_stand(const Links<Fine>&) { return false; }
-template <class T>
-EnclosedLinks<T> swept_links(const Links<Fine>& chain) {
-    return enclosed<T>(chain.links);
-}
+inline constexpr bool is_support = !std::is_same_v<End, OnAxis>;
 
 template <class T>
 OnAxis enclosed(const OnAxis& end) {
     return end;
 }
 template <class T, class S>
-Held<Interval<T>> enclosed(const Held<S>& end) {
+SupportEnd<Interval<T>> enclosed(const SupportEnd<S>& end) {
     const T b = static_cast<T>(end.radius), W = static_cast<T>(end.carriage);
     return {b, enclosed<T>(end.compliance), enclosed<T>(end.stiffness), W, end.symmetric, end.firm};
 }

@@ -6,20 +6,20 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Result of the upward sweep: the offset of the topmost pin and H, lambda times the pull across.
+/// The result of the upward sweep: offset of the topmost pin and H, lambda times the pull across.
 template <class F>
 struct SweepEnd {
     F offset{}, sum{};
-    bool reached = true;  ///< false where no inclination of some link carries its load
+    bool reached = true;  ///< false if some link has no inclination that carries its load
 };
 
-/// The upward sweep of Greenhill (1908) §8 (4), (12): every link in balance, from the tangent t of
-/// the lowest one. `S` are numbers or intervals, `F` these or Taylor series. `rules` holds what
-/// differs:
+/// Returns the end of the upward sweep of Greenhill (1908) §8 (4), (12): every link in balance,
+/// from the tangent t of the lowest one. `S` are numbers or intervals; `F` are these or Taylor
+/// series. `rules` holds what differs between sweeps:
 ///   propagate(m, R, t)  sets t to the tangent of link m under the load R; false if there is none;
-///   sine(m, t)       the sine of the inclination of link m;
-///   upright(t)       lambda pull t: the load of the lowest link without its term in the sine;
-///   tighten(f)       f, or a narrower enclosure;
+///   sine(m, t)       returns the sine of the inclination of link m;
+///   upright(t)       returns lambda pull t, the load of the lowest link without its sine term;
+///   tighten(f)       returns f, or a narrower enclosure;
 ///   pass(m, t, y)    receives the tangent of link m and the offset of its lower pin.
 template <class S, class F, class Rules>
 SweepEnd<F> sweep_up(const std::vector<Link<S>>& links, F t, Rules& rules) {
@@ -47,7 +47,7 @@ SweepEnd<F> sweep_up(const std::vector<Link<S>>& links, F t, Rules& rules) {
     return end;
 }
 
-/// The sweep in numbers or intervals, for hanging links.
+/// The rules of a sweep in numbers or intervals, for hanging links.
 template <class S>
 struct PlainSweep {
     const std::vector<Link<S>>& links;
@@ -67,8 +67,8 @@ struct PlainSweep {
     }
 };
 
-/// Offsets of all pins, free end first, of links in balance from the tangent of the lowest link up.
-/// The last, of the support, is 0 for a steady shape.
+/// Returns the offsets of all pins, free end first, of links in balance above a lowest link of the
+/// given tangent. The last offset, at the support, is 0 for a steady shape.
 template <class S>
 std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S& lowest_tangent) {
     std::vector<S> y;
@@ -78,19 +78,20 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
     return y;
 }
 
-/// Distance of the topmost pin from its `support`, for a tangent of the lowest link or an interval
-/// of them. Puts the tangents of all links into `tangents`.
+/// Returns the distance of the topmost pin from its `support`, for a tangent of the lowest link or
+/// an interval of tangents. Puts the tangents of all links into `tangents`.
 template <class S, class End = OnAxis>
-S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lowest, const End& support = {},
-                 std::vector<S>* tangents = nullptr) {
+S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lowest,
+                 const End& support = {}, std::vector<S>* tangents = nullptr) {
     PlainSweep<S> rules{links, height, tangents};
     const SweepEnd<S> end = sweep_up(links, lowest, rules);
     return support.miss(end.offset, end.sum);
 }
 
-/// The sign of `support_offset` at one tangent; 0 if rounding leaves it undecided.
+/// Returns the sign of `support_offset` at one tangent; 0 if rounding leaves it undecided.
 template <Real T, class End = OnAxis>
-int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t, const End& support = {}) {
+int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t,
+            const End& support = {}) {
     return support_offset(links, height, Interval<T>(t), support).sign();
 }
 

@@ -11,35 +11,36 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// First and second derivatives of a function of D numbers: enclosures over a cell of them, and
-/// slopes at its centre. T is a number or a pack with one cell in each lane.
+/// First and second derivatives of a function of D numbers, enclosed over a cell, and slopes at the
+/// cell's centre. T is a number or a pack with one cell in each lane.
 template <class T, std::size_t D>
-struct Derivatives {
+struct CellDerivatives {
     static constexpr std::size_t pairs = D * (D + 1) / 2;
     std::array<Interval<T>, D> slope, centre_slope;
-    std::array<Interval<T>, pairs> bend;  ///< for (0, 0), ..., (0, D - 1), (1, 1), ...
+    std::array<Interval<T>, pairs> bend;  ///< for pairs (0, 0), ..., (0, D - 1), (1, 1), ...
 
     template <class Operation>
-    [[gnu::always_inline]] void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
+    [[gnu::always_inline]] void combine(const CellDerivatives& f, const CellDerivatives& g,
+                                        const Operation& of) {
         for (std::size_t n = 0; n < 2 * D + pairs; ++n) part(*this, n) = of(part(f, n), part(g, n));
     }
 
    private:
-    /// Part n. One loop over all parts compiles in 2/3 of the time of three loops.
-    template <class Any>
+    template <class Any>  // part n; one loop compiles in 2/3 of the time of three loops
     [[gnu::always_inline]] static auto& part(Any& f, std::size_t n) {
         return n < D ? f.slope[n] : n < 2 * D ? f.centre_slope[n - D] : f.bend[n - 2 * D];
     }
 };
 
-/// The function too: its enclosure over the cell, and its value at the centre.
+/// A function with its derivatives: its enclosure over the cell and its value at the centre.
 template <class T, std::size_t D>
-struct Taylor : Derivatives<T, D> {
+struct Taylor : CellDerivatives<T, D> {
     using I = Interval<T>;
     I value, centre_value;
 
     template <class Operation>
-    [[gnu::always_inline]] static Taylor combined(const Taylor& f, const Taylor& g, const Operation& of) {
+    [[gnu::always_inline]] static Taylor combined(const Taylor& f, const Taylor& g,
+                                                  const Operation& of) {
         Taylor r;
         r.value = of(f.value, g.value), r.centre_value = of(f.centre_value, g.centre_value);
         r.combine(f, g, of);
@@ -59,11 +60,13 @@ struct Taylor : Derivatives<T, D> {
     [[gnu::always_inline]] friend Taylor operator*(const I& k, const Taylor& f) {
         return combined(f, f, [&](const I& x, const I&) REVCHAIN_INLINED { return k * x; });
     }
-    [[gnu::always_inline]] friend Taylor operator/(const Taylor& f, const I& k) { return (I(T(1)) / k) * f; }
+    [[gnu::always_inline]] friend Taylor operator/(const Taylor& f, const I& k) {
+        return (I(T(1)) / k) * f;
+    }
 };
 
-/// Calls `each(k, i, j)` for all i <= j, k the index in `Taylor::bend`. Without forced inlining the
-/// proof of a diagram takes 1.15 times as long (GCC 12, -O3).
+/// Calls `each(k, i, j)` for all i <= j, with k the index in `Taylor::bend`. Without forced
+/// inlining a diagram's proof takes 1.15 times as long (GCC 12, -O3).
 template <std::size_t D, class Each>
 [[gnu::always_inline]] inline void each_pair(const Each& each) {
     std::size_t k = 0;
@@ -104,7 +107,7 @@ class Cell {
         x.slope[0] = x.centre_slope[0] = Interval<T>(T(1));
         return x;
     }
-    /// `f` enclosed more narrowly by Taylor's formula of first and second order about the centre.
+    /// Returns `given`, narrowed by Taylor's formula of first and second order about the centre.
     [[gnu::always_inline]] Taylor<T, D> centred(const Taylor<T, D>& given) const {
         Taylor<T, D> f = given;
         auto slope = f.centre_slope;
@@ -135,19 +138,22 @@ template <class T, std::size_t D>
     s.value = over.value, s.centre_value = centre.value;
     for (std::size_t i = 0; i < D; ++i)
         s.slope[i] = over.slope * t.slope[i], s.centre_slope[i] = centre.slope * t.centre_slope[i];
-    each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j)
-                     REVCHAIN_INLINED { s.bend[k] = over.slope * t.bend[k] - bend * product(t.slope, i, j); });
+    each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
+        s.bend[k] = over.slope * t.bend[k] - bend * product(t.slope, i, j);
+    });
     return s;
 }
 
-/// Sets the derivatives of the tangent t under the load R from its enclosure and its value at the
-/// centre. Returns false if the load may not grow with t.
+/// Sets the derivatives of the tangent t under the load R, from the enclosure of t and its value at
+/// the centre. Returns false if the load may not increase with t.
 template <Real T>
-bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Taylor<T, 1>& R, Taylor<T, 1>& t) {
+bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Taylor<T, 1>& R,
+            Taylor<T, 1>& t) {
     Interval<T> growth = stiffness, centre_growth = stiffness, bend(T(0));
     if (!is_zero(turning)) {
         const Sine<T> over(t.value), centre(t.centre_value);
-        growth = growth + turning * over.slope, centre_growth = centre_growth + turning * centre.slope;
+        growth = growth + turning * over.slope,
+        centre_growth = centre_growth + turning * centre.slope;
         bend = Interval<T>(T(3)) * turning * over.half_bend;
     }
     t.slope[0] = R.slope[0] / growth, t.centre_slope[0] = R.centre_slope[0] / centre_growth;
@@ -155,43 +161,41 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
     return !growth.may_vanish();
 }
 
-/// Momentum of the flywheels: of each link over its length, and n sqrt(lambda), n the speed.
+/// Kept momentum of each flywheel over its link's length, and n sqrt(lambda), with n the speed.
 template <class S>
 struct KeptMomentum {
     std::vector<S> spin;
-    S speed;
+    S pace;
 };
 
-/// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that
-/// tangent and lambda (D = 2). Each link but the lowest has one inclination under its load.
-///
-/// Plain intervals would grow at each link. The offset y and the sum H are therefore stored
-/// relative to those at the cell's centre, in a frame: (y, H) - (y, H at the centre) = u p + v q.
-/// Here p and q are two solutions of the sweep with s = k R, k a number for each link near ds/dR at
-/// the centre. The sweep conserves areas, so that p_y q_H - q_y p_H = 1, and from one link to the
-/// next, exactly,
+/// The upward sweep over a cell of the tangent t of the lowest link (D = 1), or of x = lambda t and
+/// lambda (D = 2). Each link but the lowest has one inclination under its load. With `spins` (and D
+/// = 2) the pull of link m is pull + n spin[m]. Plain intervals would grow at each link. So the
+/// offset y and the sum H are relative to the cell's centre, in a frame: (y, H) - (y, H at the
+/// centre) = u p + v q. Here p and q solve the sweep with s = k R, k near the link's ds/dR at the
+/// centre. The sweep conserves areas, so p_y q_H - q_y p_H = 1. From one link to the next, exactly,
 ///     u -= a R_q N,   v += a R_p N,   N = s - s at the centre - k (R - R at the centre),
 /// with R_p and R_q the loads of p and q. N is small where links respond almost as at the centre.
-/// R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary initial and
-/// boundary value problems", in: Computational Ordinary Differential Equations (1992), uses such
-/// frames. Plain intervals of the slopes are computed too: they are narrower if links turn far
-/// within the cell. `spins` (with D = 2): the pull of link m is pull + n spin[m].
+/// For frames see R. J. Lohner, "Computation of guaranteed enclosures for the solutions of ordinary
+/// initial and boundary value problems", in: Computational Ordinary Differential Equations (1992).
+/// Plain intervals of slopes are computed too: they are narrower if links turn far within the cell.
 template <class T, std::size_t D, bool spins = false>
 class CellSweep {
     using I = Interval<T>;
 
    public:
     /// Sweeps from the tangent `t` of the lowest link. `height` is lambda over the cell.
-    [[gnu::always_inline]] CellSweep(const EnclosedLinks<Lane<T>>& links, const Cell<T, D>& cell, const I& height,
-                                     const I& centre_height, const Taylor<T, D>& t,
+    [[gnu::always_inline]] CellSweep(const EnclosedLinks<Lane<T>>& links, const Cell<T, D>& cell,
+                                     const I& height, const I& centre_height, const Taylor<T, D>& t,
                                      const KeptMomentum<Interval<Lane<T>>>* kept = nullptr)
         : cell_(cell), height_(height), centre_height_(centre_height), kept_(kept) {
         if constexpr (spins) {
-            const I speed = spread(kept->speed);
-            speed_ = speed / sqrt(height), centre_speed_ = speed / sqrt(centre_height);
+            const I pace = spread(kept->pace);
+            speed_ = pace / sqrt(height), centre_speed_ = pace / sqrt(centre_height);
         }
         start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
-        for (std::size_t m = 1; m < links.size(); ++m) pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
+        for (std::size_t m = 1; m < links.size(); ++m)
+            pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
     [[gnu::always_inline]] Taylor<T, D> offset() const {
         return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_);
@@ -211,8 +215,7 @@ class CellSweep {
         else
             return x;
     }
-    /// The pull of a link, `whole`; first and second derivatives of lambda times it by lambda,
-    /// `growing` and `bend`. Over the cell, and at its centre.
+    /// The pull, `whole`; 1st and 2nd derivative by lambda of lambda times it: `growing`, `bend`.
     struct Pull {
         I whole, centre_whole, growing, centre_growing, bend;
     };
@@ -220,14 +223,15 @@ class CellSweep {
         if constexpr (spins) {
             const I spin = spread(kept_->spin[m]), half(T(0.5)), kept = speed_ * spin,
                     centre_kept = centre_speed_ * spin;
-            return {tension + kept, tension + centre_kept, tension + half * kept, tension + half * centre_kept,
-                    I(T(-0.25)) * kept / height_};
+            return {tension + kept, tension + centre_kept, tension + half * kept,
+                    tension + half * centre_kept, I(T(-0.25)) * kept / height_};
         } else {
             return {tension, tension, tension, tension, I(T(0))};
         }
     }
 
-    [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass, const Taylor<T, D>& t) {
+    [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass,
+                                      const Taylor<T, D>& t) {
         const auto s = cell_.centred(sine_at(t));
         const Pull pull = pull_of(0, link.pull);
         const I weight = D == 1 ? height_ * link.pull : pull.whole;
@@ -237,7 +241,8 @@ class CellSweep {
         if constexpr (spins) {  // pull(lambda) x
             const I fall = I(T(2)) * pull.bend,
                     centre_fall = (pull.centre_growing - pull.centre_whole) / centre_height_;
-            R.centre_value = pull.centre_whole * cell_.centre(0), R.centre_slope[0] = pull.centre_whole;
+            R.centre_value = pull.centre_whole * cell_.centre(0),
+            R.centre_slope[0] = pull.centre_whole;
             R.slope[1] = fall * cell_.range(0), R.centre_slope[1] = centre_fall * cell_.centre(0);
             R.bend[1] = fall, R.bend[2] = I(T(-1.5)) * fall / height_ * cell_.range(0);
             R = cell_.centred(R);
@@ -253,9 +258,11 @@ class CellSweep {
     [[gnu::always_inline]] void pass(std::size_t m, const Link<I>& link, bool is_plummet) {
         const I R_p = p_.sum + link.moment * p_.offset, R_q = q_.sum + link.moment * q_.offset;
         std::array<I, D> R_slope;
-        for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
-        const auto R = narrowed(
-            framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
+        for (std::size_t i = 0; i < D; ++i)
+            R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
+        const auto R = narrowed(framed(R_p, R_q, sum_ + link.moment * offset_,
+                                       centre_sum_ + link.moment * centre_offset_),
+                                R_slope);
         const Pull pull = pull_of(m, link.pull);
         const std::array<I, 2> heights{height_, centre_height_}, loads{R.value, R.centre_value},
             pulls{pull.whole, pull.centre_whole};
@@ -263,7 +270,8 @@ class CellSweep {
         I bend;
         for (std::size_t which = 2; which-- > 0;) {
             const I stiffness = heights[which] * pulls[which], turning = link.length * link.cross;
-            tangent[which] = is_plummet ? loads[which] / stiffness : tangent_of(stiffness, turning, loads[which]);
+            tangent[which] = is_plummet ? loads[which] / stiffness
+                                        : tangent_of(stiffness, turning, loads[which]);
             const Sine<T> s(tangent[which]);
             sine[which] = s.value;
             growth[which] = is_plummet ? stiffness : stiffness + turning * s.slope;
@@ -272,9 +280,9 @@ class CellSweep {
             bend = I(T(-3)) * s.half_bend * (is_plummet ? I(T(1)) : stiffness / growth[which]);
         }
         const I &t = tangent[0], &centre_t = tangent[1], k(along[1].middle());
-        // derivatives of the load less those by lambda, at a fixed t, of lambda pull t: then
-        // s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
-        Derivatives<T, D> load = R, N;
+        // `load`: derivatives of R less those of lambda pull t by lambda at a fixed t; then
+        //     s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
+        CellDerivatives<T, D> load = R, N;
         if constexpr (D == 2) {
             load.slope[1] = load.slope[1] - pull.growing * t;
             load.centre_slope[1] = load.centre_slope[1] - pull.centre_growing * centre_t;
@@ -288,9 +296,11 @@ class CellSweep {
         }
         const I beyond = along[0] - k, centre_beyond = along[1] - k;
         for (std::size_t i = 0; i < D; ++i)
-            N.slope[i] = beyond * load.slope[i], N.centre_slope[i] = centre_beyond * load.centre_slope[i];
-        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j)
-                         REVCHAIN_INLINED { N.bend[n] = beyond * load.bend[n] + bend * product(slope, i, j); });
+            N.slope[i] = beyond * load.slope[i],
+            N.centre_slope[i] = centre_beyond * load.centre_slope[i];
+        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) REVCHAIN_INLINED {
+            N.bend[n] = beyond * load.bend[n] + bend * product(slope, i, j);
+        });
         if constexpr (D == 2) {
             N.slope[1] = N.slope[1] - k * (pull.growing * t);
             N.centre_slope[1] = N.centre_slope[1] - k * (pull.centre_growing * centre_t);
@@ -313,8 +323,7 @@ class CellSweep {
         }
     }
 
-    /// Makes q orthogonal to p, by subtracting a multiple of p, if they are almost parallel.
-    /// `weight` scales offsets.
+    /// If p and q are almost parallel, makes q orthogonal to p. `weight` scales offsets.
     [[gnu::always_inline]] void spread_frame(const T& weight) {
         const T a = weight * p_.offset.middle(), b = p_.sum.middle();
         const T c = weight * q_.offset.middle(), d = q_.sum.middle();
@@ -326,14 +335,16 @@ class CellSweep {
         u_.combine(u_, v_, [&](const I& x, const I& y) REVCHAIN_INLINED { return x + of_p * y; });
     }
 
-    [[gnu::always_inline]] Taylor<T, D> framed(const I& p, const I& q, const I& value, const I& centre_value) const {
+    [[gnu::always_inline]] Taylor<T, D> framed(const I& p, const I& q, const I& value,
+                                               const I& centre_value) const {
         Taylor<T, D> f;
         f.value = value, f.centre_value = centre_value;
         f.combine(u_, v_, [&](const I& x, const I& y) REVCHAIN_INLINED { return p * x + q * y; });
         return f;
     }
 
-    [[gnu::always_inline]] Taylor<T, D> narrowed(const Taylor<T, D>& given, const std::array<I, D>& slope) const {
+    [[gnu::always_inline]] Taylor<T, D> narrowed(const Taylor<T, D>& given,
+                                                 const std::array<I, D>& slope) const {
         Taylor<T, D> f = given;
         for (std::size_t i = 0; i < D; ++i) f.slope[i] = common(f.slope[i], slope[i]);
         return cell_.centred(f);
@@ -344,31 +355,28 @@ class CellSweep {
     const KeptMomentum<Interval<Lane<T>>>* kept_;
     I speed_, centre_speed_;  // n
     Side p_{I(T(1)), I(T(0))}, q_{I(T(0)), I(T(1))};
-    Derivatives<T, D> u_, v_;
-    I offset_, centre_offset_, sum_, centre_sum_;  // of the pin, over the cell and at its centre
+    CellDerivatives<T, D> u_, v_;
+    I offset_, centre_offset_, sum_, centre_sum_;  // at the pin, over the cell and at its centre
     std::array<I, D> offset_slope_, sum_slope_;
 };
 
-/// Distance of the topmost pin from its support over a cell of tangents of the lowest link: 0 for
-/// steady shapes.
+/// Encloses the support's distance from the topmost pin over a cell; it is 0 for steady shapes.
 template <Real T, class End = OnAxis>
-Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height, const Cell<T, 1>& cell,
-                            const End& support = {}) {
+Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height,
+                            const Cell<T, 1>& cell, const End& support = {}) {
     const CellSweep<T, 1> sweep(links, cell, height, height, cell.first());
-    if constexpr (is_held<End>) return cell.centred(support.miss(sweep.offset(), sweep.sum()));
+    if constexpr (is_support<End>) return cell.centred(support.miss(sweep.offset(), sweep.sum()));
     return sweep.offset();
 }
 
-/// The sweep over a cell of x = lambda t, t the tangent of the lowest link, and heights lambda; the
-/// offset of the support is 0 for every steady shape. NaN if a link may have several.
+/// Returns the sweep over a cell with D = 2; NaN if a link may have several inclinations.
 template <class T, bool spins = false>
-[[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(const EnclosedLinks<Lane<T>>& links,
-                                                                const Cell<T, 2>& cell,
-                                                                const KeptMomentum<Interval<Lane<T>>>* kept = nullptr) {
+[[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(
+    const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell,
+    const KeptMomentum<Interval<Lane<T>>>* kept = nullptr) {
     const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {
-        // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
-        return std::array{value, slope, -(value * slope)};
+        return std::array{value, slope, -(value * slope)};  // x/lambda and its slopes
     };
     Taylor<T, 2> t;
     const auto [value, by_x, by_height] = over(cell.range(0), cell.range(1));
@@ -376,10 +384,12 @@ template <class T, bool spins = false>
     t.value = value, t.slope = {by_x, by_height};
     t.centre_value = centre_value, t.centre_slope = {centre_by_x, centre_by_height};
     t.bend = {Interval<T>(T(0)), -square(by_x), Interval<T>(T(2)) * value * square(by_x)};
-    return CellSweep<T, 2, spins>(links, cell, cell.range(1), cell.centre(1), cell.centred(t), kept);
+    return CellSweep<T, 2, spins>(links, cell, cell.range(1), cell.centre(1), cell.centred(t),
+                                  kept);
 }
 template <class T>
-[[gnu::always_inline]] inline Taylor<T, 2> support_offset(const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell) {
+[[gnu::always_inline]] inline Taylor<T, 2> support_offset(const EnclosedLinks<Lane<T>>& links,
+                                                          const Cell<T, 2>& cell) {
     return swept_cell<T>(links, cell).offset();
 }
 

@@ -20,10 +20,14 @@ Branches diagram_of(const System& system, const Options& options, Means means);
 }  // namespace finite
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
-    const auto reject = [&](std::string_view what) { detail::throw_invalid("Branch::shape", what, point); };
-    if (point >= size()) reject("point must be below " + std::to_string(size()) + ", the number of points");
+    const auto reject = [&](std::string_view what) {
+        detail::throw_invalid("Branch::shape", what, point);
+    };
+    if (point >= size())
+        reject("point must be below " + std::to_string(size()) + ", the number of points");
     const finite::BranchPoint& at = trace_.points[point];
-    if (trace_.onset && finite::largest_rise(at.state) == 0) reject("this point is the straight chain");
+    if (trace_.onset && finite::largest_rise(at.state) == 0)
+        reject("this point is the straight chain");
     const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace(at));
     if (!found) reject("the shape at this point did not balance in double-double");
     return *found;
@@ -38,7 +42,7 @@ REVCHAIN_INLINE std::vector<SteadyShape> Branch::shapes_at(double height) const 
 
 namespace finite {
 
-/// Follows the branch from rest, from a tenth of the first critical or a slower given speed.
+/// Follows the branch from rest: from a tenth of the first critical or of a slower given speed.
 template <class Options>
 Branch from_rest(BranchRoot root, double conical_height, const Options& options) {
     Branch result;
@@ -67,11 +71,13 @@ Branch from_vertical(BranchRoot root, double conical_height, const Options& opti
     vertical.state = {std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)};
     vertical.tangent.log_height = 0, vertical.arc = 0;
     append(result, vertical);
-    result.conical_height.front() = root.height;  // no logarithm's rounding
+    result.conical_height.front() = root.height;  // without the rounding of the logarithm
     if (result.size() >= options.max_points) return result;
-    const double steepness = onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
+    const double steepness =
+        onset.rises() ? 0.4 : onset.amplitude_at(conical_height * unit) * onset.steepest;
     if (steepness < 1e-3) {
-        const auto only = near_vertical(*trace_of(result).system, onset, Fine(conical_height * unit));
+        const auto only =
+            near_vertical(*trace_of(result).system, onset, Fine(conical_height * unit));
         result.end = only ? BranchEnd::height : BranchEnd::stuck;
         if (only) append(result, *only), result.conical_height.back() = conical_height;
         return result;
@@ -100,19 +106,24 @@ Branch followed(const System& system, const Options& options) {
     BranchRoot root = BranchRoot::of("branch", system, options);
     if (!root.onset) return from_rest(std::move(root), conical_height, options);
     if (!root.onset->rises() && !(conical_height < root.height))
-        detail::throw_invalid("branch",
-                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
-                                  detail::in_digits(root.height) + ": the height to follow it to must be less",
-                              conical_height);
+        detail::throw_invalid(
+            "branch",
+            "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                detail::in_digits(root.height) + ": the height to follow it to must be less",
+            conical_height);
     return from_vertical(std::move(root), conical_height, options);
 }
 
 }  // namespace finite
 
 REVCHAIN_DEFINE
-Branch branch(const Chain<double>& chain, const BranchOptions& options) { return finite::followed(chain, options); }
+Branch branch(const Chain<double>& chain, const BranchOptions& options) {
+    return finite::followed(chain, options);
+}
 REVCHAIN_DEFINE
-Branch branch(const Rig& rig, const RigBranchOptions& options) { return finite::followed(rig, options); }
+Branch branch(const Rig& rig, const RigBranchOptions& options) {
+    return finite::followed(rig, options);
+}
 
 namespace finite {
 
@@ -123,24 +134,29 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
         detail::throw_invalid(
             "steady_shape",
             "what is given is not met on the branch " +
-                (found.from_rest ? std::string("from rest") : "of mode " + std::to_string(options.mode)) +
+                (found.from_rest ? std::string("from rest")
+                                 : "of mode " + std::to_string(options.mode)) +
                 "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
-                (found.end == BranchEnd::loose    ? "; there the spring at the support no longer holds the whole"
+                (found.end == BranchEnd::loose
+                     ? "; there the spring at the support no longer holds the whole"
                  : found.end != BranchEnd::height ? "; it could not be followed farther"
-                 : options.conical_height || options.angular_speed ? "; the state there did not pass every check"
-                                                                   : "; to look farther give a smaller "
-                                                                     "min_conical_height"));
+                 : options.conical_height || options.angular_speed
+                     ? "; the state there did not pass every check"
+                     : "; to look farther give a smaller "
+                       "min_conical_height"));
     return std::move(found.shapes.front());
 }
 
 }  // namespace finite
 
 REVCHAIN_DEFINE
-ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options, std::size_t max_shapes) {
+ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const OnBranchOptions& options,
+                                std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(chain, options, max_shapes);
 }
 REVCHAIN_DEFINE
-ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options, std::size_t max_shapes) {
+ShapesOnBranch shapes_on_branch(const Rig& rig, const RigOnBranchOptions& options,
+                                std::size_t max_shapes) {
     return finite::search_branch<ShapesOnBranch>(rig, options, max_shapes);
 }
 REVCHAIN_DEFINE
@@ -153,11 +169,13 @@ SteadyShape steady_shape(const Rig& rig, const RigOnBranchOptions& options) {
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options) {
-    return finite::diagram_of<finite::ChainQuestions<detail::UsualMeans>>(chain, options, detail::UsualMeans{});
+    return finite::diagram_of<finite::ChainQuestions<detail::UsualMeans>>(chain, options,
+                                                                          detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Rig& rig, const RigDiagramOptions& options) {
-    return finite::diagram_of<finite::RigQuestions<detail::UsualMeans>>(rig, options, detail::UsualMeans{});
+    return finite::diagram_of<finite::RigQuestions<detail::UsualMeans>>(rig, options,
+                                                                        detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
 Branches branches(const Chain<double>& chain, const DiagramOptions& options, Thorough) {

@@ -9,7 +9,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Inner product of the arc: mean product of the tau plus the product of log lambda.
+/// Returns the inner product of the arc: mean product of the tau plus product of log lambda.
 REVCHAIN_LAZY
 double inner(const BranchState& x, const BranchState& y) {
     double sum = 0;
@@ -36,27 +36,35 @@ double largest_rise(const BranchState& x) {
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
     return largest;
 }
-/// The size of a correction: its length along the arc, or 1/4 of its largest tau.
+/// Returns the larger of a correction's length along the arc and 1/4 of its largest tau.
 REVCHAIN_LAZY
-double size_of(const BranchState& x) { return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4); }
+double size_of(const BranchState& x) {
+    return std::max(std::sqrt(inner(x, x)), largest_rise(x) / 4);
+}
 
-/// Linear solver for the balance of a chain together with one condition. The unknowns are changes d
-/// of the links' reaches a sin delta, and h of log lambda:
+/// A linear solver for the balance of a chain together with one condition. The unknowns are changes
+/// d of the links' reaches a sin delta, changes y of the pins' offsets, and h of log lambda:
 ///     T y + h (change of pull along log lambda) = forces,      sum row d + row_height h = left.
 /// T is the tangent stiffness of the elements, lambda sigma sec^3 delta/a + X between pins, less
-/// the masses on the diagonal. Elements are eliminated from the free end up with forces summed from
-/// there; no matrix is assembled, which keeps the digits of the slowest modes of long chains. The
-/// last pin and log lambda are solved together, as T is singular where a branch folds.
+/// the masses on the diagonal. Elements are eliminated from the free end up, with forces summed
+/// from there. No matrix is assembled, which keeps the digits of the slowest modes of long chains.
+/// The last pin and log lambda are solved together, as T is singular where a branch folds.
 class BorderedChain {
    public:
     explicit BorderedChain(std::size_t size)
-        : size_(size), below_(size), pivot_(size), force_(size), along_height_(size), weight_(size) {}
+        : size_(size),
+          below_(size),
+          pivot_(size),
+          force_(size),
+          along_height_(size),
+          weight_(size) {}
 
-    /// Factors at a shape, from element stiffnesses, masses at lower and upper pins, pull = lambda
-    /// sigma tan delta, and the condition's row and derivative by log lambda.
+    /// Factors the system at a shape, from element stiffnesses, masses at lower and upper pins,
+    /// pull = lambda sigma tan delta, and the condition's row and derivative by log lambda.
     template <class Link>
-    void factor(const std::vector<double>& stiffness, const std::vector<Link>& links, const std::vector<double>& pull,
-                const std::vector<double>& row, double row_height) {
+    void factor(const std::vector<double>& stiffness, const std::vector<Link>& links,
+                const std::vector<double>& pull, const std::vector<double>& row,
+                double row_height) {
         corner_ = row_height;
         double dynamic = 0, eliminated = 0, share = 0;
         for (std::size_t m = 0; m < size_; ++m) {
@@ -88,7 +96,8 @@ class BorderedChain {
         // pivot x + along_height h = force,  weight x + corner h = left
         const double p = pivot_[top], q = along_height_[top], r = weight_[top], g = force_[top];
         double x, h;
-        if (std::abs(p) * std::abs(corner_) + std::abs(q) * std::abs(r) == 0) return degenerate(reach);
+        if (std::abs(p) * std::abs(corner_) + std::abs(q) * std::abs(r) == 0)
+            return degenerate(reach);
         if (std::abs(p) >= std::abs(q)) {
             h = (left - r * (g / p)) / (corner_ - r * (q / p));
             x = (g - q * h) / p;
@@ -120,26 +129,28 @@ class BorderedChain {
     double corner_ = 0;
 };
 
-/// Newton's method in double on a chain and its height, within a plane across a direction.
+/// Newton's method in double on a chain and its height, in a plane across a direction.
 class Corrector {
    public:
     explicit Corrector(BranchLinks<double> links)
         : links_(std::move(links)), border_(links_.size()), half_waves_are_kept_(links_.plain) {
-        for (auto* each : {&growth_, &along_, &stiffness_, &left_, &row_, &reach_}) each->resize(size());
+        for (auto* each : {&growth_, &along_, &stiffness_, &left_, &row_, &reach_})
+            each->resize(size());
         for (const auto& link : links_.links) half_waves_are_kept_ &= !(link.cross < 0);
     }
-    explicit Corrector(std::vector<Link<double>> chain) : Corrector(BranchLinks<double>(std::move(chain))) {}
+    explicit Corrector(std::vector<Link<double>> chain)
+        : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
     const BranchLinks<double>& links() const { return links_; }
-    /// Whether the number of half waves is constant along a branch: in chains with l <= a for all
-    /// links. There a pin on the axis has its neighbours on opposite sides.
+    /// Returns true if the number of half waves is constant along a branch: in chains with l <= a
+    /// for all links. There a pin on the axis has its neighbours on opposite sides.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
         BranchState correction, tangent;
     };
-    /// One step of Newton's method and the direction of the branch, from the same factors: the
-    /// correction is orthogonal to `across`; the tangent has length 1 and points to the same side.
+    /// Returns one step of Newton's method and the direction of the branch, from the same factors.
+    /// The correction is orthogonal to `across`; the tangent has length 1 and is on its side.
     Change step(const BranchState& at, const BranchState& across) {
         const std::size_t n = links_.size();
         const double height = std::exp(at.log_height), share = 1 / as_double(n);
@@ -159,15 +170,16 @@ class Corrector {
         return change;
     }
 
-    /// The state on the branch in the plane through `start` across a direction. None if the first
-    /// step is longer than `farthest`, or longer than `contraction` times the one before.
-    std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
-                                         double contraction = 0.3) {
+    /// Returns the state on the branch in the plane through `start` across a direction. Returns
+    /// none if a step is longer than `farthest`, or longer than `contraction` times the one before.
+    std::optional<BranchPoint> corrected(BranchState start, const BranchState& across,
+                                         double farthest, double contraction = 0.3) {
         double last = 0;
         for (int round = 0; round < 12; ++round) {
             Change change = step(start, across);
             const double size = size_of(change.correction);
-            if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2)) return std::nullopt;
+            if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2))
+                return std::nullopt;
             const bool small = size < 1e-7;
             if (round > 0 && !small && size > contraction * last) return std::nullopt;
             if (round > 5 && !small) return std::nullopt;
@@ -182,7 +194,7 @@ class Corrector {
         return std::nullopt;
     }
 
-    /// One more than the sign changes of the offsets; 0 if rounding leaves a sign undecided.
+    /// Returns 1 + the sign changes of the offsets; 0 if rounding leaves a sign undecided.
     int half_waves(const BranchState& at) const {
         double y = links_.radius, last = 0, reached = std::abs(y);
         int waves = 1;
@@ -197,7 +209,7 @@ class Corrector {
     }
 
    private:
-    /// Residual forces, summed from the free end, and stiffnesses.
+    /// Computes residual forces, summed from the free end, and stiffnesses.
     void balance_at(const BranchState& at, double height) {
         const std::size_t n = links_.size();
         const double speed = links_.speed_at(height);
@@ -209,11 +221,12 @@ class Corrector {
             const double d = link.length * here.sine, upper = y;
             growth_[m] = 1 / (link.length * here.slope);
             along_[m] = pull;
-            if (!links_.spin.empty()) along_[m] = height * links_.growing_pull(m, speed) * here.tangent;
+            if (!links_.spin.empty())
+                along_[m] = height * links_.growing_pull(m, speed) * here.tangent;
             stiffness_[m] = factor / link.length * here.steepening + link.cross;
             left_[m] = -pull - link.cross * d;
             y += d;
-            // moments of the link's own weight; summed below from the free end
+            // moments of the link's own weight, summed from the free end below
             row_[m] = link.moment * y, reach_[m] = link.rest * upper;
         }
         double sum = 0;

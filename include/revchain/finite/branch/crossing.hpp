@@ -6,17 +6,19 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A number at a point of a branch, less the wanted value, and its slope along the arc.
+/// A number at a point of a branch, minus the wanted value, and its slope along the arc.
 struct Measured {
     double value, slope;
 };
 
 struct HeightMeasure {
     double wanted;
-    Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
+    Measured operator()(const BranchPoint& p) const {
+        return {p.state.log_height - wanted, p.tangent.log_height};
+    }
 };
 
-/// tau of the lowest link; with `either` its absolute value.
+/// Measures tau of the lowest link; with `either` its absolute value.
 struct TipInclinationMeasure {
     double wanted;
     bool either;
@@ -41,7 +43,7 @@ struct TipRadiusMeasure {
     }
 };
 
-/// The size of the sideways reaction at the topmost pin.
+/// Measures the size of the sideways reaction at the topmost pin.
 struct TopPullMeasure {
     const BranchLinks<double>* links;
     double wanted;
@@ -64,10 +66,11 @@ struct WithinStep {
     BranchPoint point;
 };
 
-/// The zero of f(measured) between two points of the step at which its signs differ.
+/// Returns the zero of f(measured) between two points of the step at which its signs differ.
 template <class Measure, class F>
-std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
-                                    double at_low, double at_high, double tolerance) {
+std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f,
+                                    double low, double high, double at_low, double at_high,
+                                    double tolerance) {
     std::optional<WithinStep> best;
     const auto value_at = [&](double share) {
         auto point = walk.within(share);
@@ -81,11 +84,11 @@ std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measu
     else
         zero_between(detail::SignChange<double>{{low, at_low}, {high, at_high}}, value_at,
                      {.width = 2e-16, .value = tolerance});
-    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end will do
+    if (!best) value_at(std::abs(at_low) < std::abs(at_high) ? low : high);  // an end suffices
     return best;
 }
 
-/// The extremum of the number in the last step, if its slopes at both ends differ in sign.
+/// Returns the extremum of the number in the last step, if its slopes at both ends differ in sign.
 template <class Measure>
 std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& measure) {
     const Measured a = measure(walk.before()), b = measure(walk.here());
@@ -94,7 +97,8 @@ std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& meas
         walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
 }
 
-/// Points of the last step with the wanted number, in order, around at most one extremum.
+/// Returns the points of the last step with the wanted number, in order, around at most one
+/// extremum.
 template <class Measure>
 std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& measure) {
     std::vector<WithinStep> found;
@@ -108,8 +112,9 @@ std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& meas
     };
     // an extremum matters only if the number may reach the wanted value and return
     const double reach = walk.here().arc - walk.before().arc;
-    const bool may_return = a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
-                                                         reach * std::max(std::abs(a.slope), std::abs(b.slope));
+    const bool may_return =
+        a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
+                                     reach * std::max(std::abs(a.slope), std::abs(b.slope));
     const auto turn = may_return ? turning_of(walk, measure) : std::nullopt;
     if (turn) {
         const double there = measure(turn->point).value;

@@ -11,7 +11,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Answers the questions of a diagram about a chain: lists of shapes, modes, limits of the proof.
+/// Computes the data of a chain that a diagram needs: lists of shapes, modes, limits of the proof.
 template <class Means>
 class ChainQuestions {
    public:
@@ -31,21 +31,26 @@ class ChainQuestions {
         return shapes_by(chain_, {.conical_height = height, .budget = options_.budget}, Means{});
     }
     const Links<Fine>& links_at(double) const { return system->chain; }
-    /// Heights of the modes above one, the slowest first.
+    /// Returns the heights of the modes above a height, the slowest mode first.
     std::vector<double> modes_above(double height) const {
         std::vector<double> found;
         const Index count = count_modes(chain_, {.conical_height = height});
         for (Index mode = 1; mode <= count; ++mode) {
             const double each = detail::one_mode(chain_, mode, false).conical_height;
-            if (each > height) found.push_back(each);  // at its height it has no branch
+            if (each > height) found.push_back(each);  // a mode at `height` has no branch
         }
         return found;
     }
-    bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
-    /// The first mode; above it there is no shape (see steady_shapes).
-    std::optional<double> settled_above() const { return detail::one_mode(chain_, 1, false).conical_height; }
+    bool is_known_at(double height) const {
+        return count_modes(chain_, {.conical_height = height}) == 0;
+    }
+    /// Returns the height of the first mode; above it there is no shape (see steady_shapes).
+    std::optional<double> known_above() const {
+        return detail::one_mode(chain_, 1, false).conical_height;
+    }
     std::string not_provable(double lowest) const {
-        const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
+        const bool single =
+            single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
         return single ? "" : "links hang at several inclinations";
     }
 
@@ -88,33 +93,36 @@ class RigQuestions {
             if (mode.conical_height > height) found.push_back(mode.conical_height);
         return found;
     }
-    /// The first mode, if it is proved that at slower speeds there is one shape, or none with the
-    /// support on the axis: all links hang in tension. In the sines s of the inclinations the
-    /// energy in the turning frame, times lambda, has the second derivative lambda diag(pull a
-    /// sec^3) - M (plus the spring's), which is at least that of the straight chain. That matrix is
-    /// positive definite at rest and regular below the first critical speed.
-    std::optional<double> settled_above() const {
+    /// Returns the height of the first mode if it is proved that slower speeds have one shape, or
+    /// none with the support on the axis. The proof requires that all links hang in tension. In the
+    /// sines s of the inclinations the energy in the turning frame, times lambda, has the second
+    /// derivative lambda diag(pull a sec^3) - M (plus the spring's). It is at least that of the
+    /// straight chain, positive definite at rest and regular below the first critical speed.
+    std::optional<double> known_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;
-        if (!hangs_in_tension(std::ldexp(first, -system->units.length_exponent))) return std::nullopt;
+        if (!hangs_in_tension(std::ldexp(first, -system->units.length_exponent)))
+            return std::nullopt;
         return first * (1 + found_[0].error_bound);
     }
-    bool is_settled_at(double height) const { return settled_above().value_or(height) < height; }
-    /// Why the proof of a diagram down to a height does not cover the rig; empty if it does.
+    bool is_known_at(double height) const { return known_above().value_or(height) < height; }
+    /// Returns why the proof of a diagram down to a height does not cover the rig; else empty.
     std::string not_provable(double lowest) const {
-        if (!settled_above()) return "the proof is for rigs whose links all hang in tension";
+        if (!known_above()) return "the proof is for rigs whose links all hang in tension";
         if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
-        if (!single_valued(swept_links<double>(system->rigged_at(Fine(lowest))), Interval<double>(lowest)))
+        if (!single_valued(system->rigged_at(Fine(lowest)).links_for_sweep<double>(),
+                           Interval<double>(lowest)))
             return "links hang at several inclinations";
         return "";
     }
 
    private:
-    /// Checks the speeds from rest to that of a height; the pulls are linear in the speed.
+    /// Returns true if all links hang in tension up to a height's speed: pulls are linear in speed.
     bool hangs_in_tension(double height) const {
         const Fine fastest = system->links.speed_at(Fine(height));
         for (std::size_t m = 0; m < system->links.bodies(); ++m) {
-            if (rig_.stands(static_cast<Index>(m)) || !enclosed<Far>(system->links.links[m].moment).positive())
+            if (rig_.stands(static_cast<Index>(m)) ||
+                !enclosed<Far>(system->links.links[m].moment).positive())
                 return false;
             for (const Fine& n : {Fine(0.0), fastest})
                 if (!(system->links.pull(m, n) > system->bearing * Fine(1e-20))) return false;
@@ -151,28 +159,31 @@ class Diagram {
                 throw_not_thorough("branches", lowest);
         }
         const bool from_rest = !ask_.system->links.is_symmetric();
-        const auto settled = ask_.settled_above();
+        const auto known = ask_.known_above();
         std::vector<double> heights;
         if (!from_rest) heights = ask_.modes_above(lowest);
-        const double top = settled.value_or(of_length());
+        const double top = known.value_or(of_length());
         log_top_ = std::log(100 * std::max(lowest, top) * unit_);
-        if (!from_rest && settled && heights.empty()) {
-            result_.complete = ask_.is_settled_at(lowest);
+        if (!from_rest && known && heights.empty()) {
+            result_.complete = ask_.is_known_at(lowest);
             result_.remark = "no shape leaves the vertical at this height or above";
             return std::move(result_);
         }
         const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
         for (Index mode = 1; mode <= roots; ++mode) {
             result_.branches.push_back(ask_.followed(mode, lowest));
-            settle(result_.branches.back().end);
+            check_end(result_.branches.back().end);
         }
-        // from the lowest height up: isolated branches are found where they are largest
+        // go from the lowest height up: isolated branches are found where they are largest
         const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
         const int lists = first > lowest ? options_.lists : 1;
-        for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
-        prove(settled);
+        for (int i = 0; i < lists; ++i)
+            check_list(lowest * std::pow(first / lowest, double(i) / lists));
+        prove(known);
         std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
-        const auto before = [](const Branch& x, const Branch& y) { return highest(x) > highest(y); };
+        const auto before = [](const Branch& x, const Branch& y) {
+            return highest(x) > highest(y);
+        };
         std::stable_sort(result_.branches.begin() + roots, result_.branches.end(), before);
         return std::move(result_);
     }
@@ -187,11 +198,11 @@ class Diagram {
     static double highest(const Branch& branch) {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }
-    void settle(BranchEnd end) {
+    void check_end(BranchEnd end) {
         using enum BranchEnd;
         result_.consistent &= end == height || end == closed || end == slow || end == loose;
     }
-    /// The branch through a state, followed on the side of `across` (not orthogonal to it).
+    /// Returns the branch through a state, followed on the side of `across` (not orthogonal to it).
     Branch from_here(const BranchState& at, const BranchState& across, int half_waves) {
         Branch result;
         trace_of(result).system = ask_.system, result.birth = BranchBirth::fold;
@@ -220,8 +231,8 @@ class Diagram {
         at.log_height = std::log(height * unit_);
         return at;
     }
-    /// Checks that every shape at a height is on one branch; follows branches of those on none.
-    void look(double height) {
+    /// Checks that every shape at a height is on one branch. Follows the branches of the others.
+    void check_list(double height) {
         const auto list = ask_.list(height);
         result_.looked_at.push_back(height);
         result_.consistent &= list.complete;
@@ -231,7 +242,9 @@ class Diagram {
             for (const SteadyShape& state : states_at(branch, corrector_, height)) {
                 ++crossings;
                 for (std::size_t j = 0; j < met.size(); ++j)
-                    met[j] += (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() < 1e-9;
+                    met[j] +=
+                        (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() <
+                        1e-9;
             }
         };
         for (const Branch& branch : result_.branches) meet(branch);
@@ -239,12 +252,13 @@ class Diagram {
             if (met[j] > 0) continue;
             BranchState up;
             up.rise.assign(corrector_.size(), 0.0), up.log_height = 1;
-            Branch loop = from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
+            Branch loop =
+                from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
             if (loop.size() < 2) {
                 result_.consistent = false;
                 continue;
             }
-            settle(loop.end);
+            check_end(loop.end);
             meet(loop);
             result_.branches.push_back(std::move(loop));
         }
@@ -252,9 +266,10 @@ class Diagram {
         result_.consistent &= crossings == list.shapes.size() && each_once;
     }
 
-    /// Proves that no loop is missing between the sampled heights; adds loops that it finds.
-    void prove(const std::optional<double>& settled) {
-        result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
+    /// Proves that no loop is missing between the sampled heights. Adds loops that it finds.
+    void prove(const std::optional<double>& known) {
+        result_.remark =
+            "branches and lists of all shapes do not agree, or a list is not proved complete";
         const double lowest = result_.conical_height * unit_;
         const std::string reason = ask_.not_provable(lowest);
         const auto explained = [&] { return reason.empty() ? std::string() : ": " + reason; };
@@ -263,16 +278,17 @@ class Diagram {
             return;
         }
         result_.remark =
-            "every proved list of all shapes is accounted for; isolated loops that lie wholly between two "
+            "every proved list of all shapes is accounted for; isolated loops that lie wholly "
+            "between two "
             "of the heights looked at are not excluded" +
             explained();
         if (!reason.empty()) return;
         if constexpr (detail::is_thorough<Means>)
-            prove_between(lowest, *settled * unit_ * (1 + 1e-9));
+            prove_between(lowest, *known * unit_ * (1 + 1e-9));
         else
             result_.remark += "; revchain::thorough as the last argument asks for a proof";
     }
-    /// Proves that no loop is missing between two heights, and writes what is proved.
+    /// Proves that no loop is missing between two heights, and sets `complete` and `remark`.
     void prove_between(double lowest, double first) {
         DiagramProof proof;
         if (first > lowest) proof = proved_between(lowest, first);
@@ -282,10 +298,10 @@ class Diagram {
         else if (!result_.consistent)
             result_.remark = "a loop was found that lists of all shapes do not agree with";
         else
-            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) + " and " +
-                              detail::in_digits(proof.open_high / unit_);
+            result_.remark += ", between the heights " + detail::in_digits(proof.open_low / unit_) +
+                              " and " + detail::in_digits(proof.open_high / unit_);
     }
-    /// Proves both signs of the lowest link's tangent if the support is off the axis.
+    /// Runs the proof; off the axis, for both signs of the lowest link's tangent.
     DiagramProof proved_between(double lowest, double first) {
         DiagramProof whole;
         for (const int side : {1, -1}) {
@@ -294,8 +310,11 @@ class Diagram {
             if (tight > lowest) whole.leave_open(lowest, std::min(tight, first));
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
-            const auto is_known = [&](const auto& at, const auto& within) { return known(diagram, at, within); };
-            const auto proof = prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
+            const auto is_known = [&](const auto& at, const auto& within) {
+                return known(diagram, at, within);
+            };
+            const auto proof =
+                prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
             if (!proof.complete) whole.leave_open(proof.open_low, proof.open_high);
             if (diagram.is_symmetric()) break;
         }
@@ -310,18 +329,20 @@ class Diagram {
         across.rise.assign(state.rise.size(), 0.0);
         across.rise[0] = std::sqrt(as_double(state.rise.size()));
         Branch found = from_here(state, across, 1);
-        // a branch to the vertical is that of a mode, one to the lowest height is in the list
-        // there, one to slow speeds is the one from rest
-        if (found.end == BranchEnd::vertical || found.end == BranchEnd::height || found.end == BranchEnd::slow)
+        // A branch that reaches the vertical is that of a mode, one that reaches the lowest height
+        // is in the list there, and one that reaches slow speeds is the one from rest.
+        if (found.end == BranchEnd::vertical || found.end == BranchEnd::height ||
+            found.end == BranchEnd::slow)
             return true;
         if (found.end != BranchEnd::closed && found.end != BranchEnd::loose) {
             ++stuck_;
             return false;
         }
         const double top = highest(found);
-        const double bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
+        const double bottom =
+            *std::min_element(found.conical_height.begin(), found.conical_height.end());
         result_.branches.push_back(std::move(found));
-        look(std::sqrt(top * bottom));  // checks that branches and list agree
+        check_list(std::sqrt(top * bottom));  // checks that branches and list agree
         return true;
     }
 
@@ -336,7 +357,8 @@ class Diagram {
 template <class Questions, class System, class Options, class Means>
 Branches diagram_of(const System& system, const Options& options, Means) {
     const double lowest = lowest_height("branches", options);
-    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    if (options.lists < 1)
+        detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     return Diagram<Questions, Options, Means>(system, lowest, options).run();
 }
 

@@ -13,10 +13,11 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// The branch near the vertical, to leading order in its amplitude A, for a mode phi at height
 /// lambda_k:
-///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
-/// sigma is the effective pull; the lower sum includes its derivative by log lambda and the spring
-/// at a support as one more link. With standing links or links that lean against their loads the
-/// curvature may be negative: the branch then begins towards slower speeds.
+///     y = A phi,   lambda = lambda_k/(1 + A^2 c),   c = sum sigma d^4/a^3 / (2 sum sigma d^2/a),
+/// where d is the link's difference of phi and sigma the effective pull. The lower sum includes the
+/// derivative of sigma by log lambda and the spring at a support as one more link. With standing
+/// links, or links that lean against their loads, c may be negative: the branch begins towards
+/// slower speeds.
 struct BranchOnset {
     std::vector<double> reach;  ///< a sin delta of each link over A
     double height = 0;          ///< lambda_k
@@ -42,7 +43,7 @@ struct BranchOnset {
         }
         curvature = fourth / (2 * second);
     }
-    /// Whether the branch begins above the height of the mode.
+    /// Returns true if the branch begins above the height of the mode.
     bool rises() const { return curvature < 0; }
     double amplitude_at(double conical_height) const {
         return std::sqrt((height - conical_height) / (conical_height * curvature));
@@ -54,7 +55,7 @@ struct BranchOnset {
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
-    /// The point of a state near the vertical, with tangent and arc to second order.
+    /// Returns the point of a state near the vertical, with tangent and arc to second order.
     BranchPoint point(BranchState state, double amplitude) const {
         BranchPoint result{state, std::move(state), 0, half_waves};
         result.tangent.log_height = -2 * curvature * amplitude * amplitude;
@@ -64,7 +65,7 @@ struct BranchOnset {
     BranchPoint point(const BranchLinks<double>& links, double amplitude) const {
         return point(state(links, amplitude), amplitude);
     }
-    /// A point of the branch with largest inclination about `steepness`, or less if that fails.
+    /// Returns a point of the branch with largest inclination about `steepness`, or less.
     std::optional<BranchPoint> start(Corrector& corrector, double steepness) const {
         for (; steepness > 1e-7; steepness /= 4) {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
@@ -80,8 +81,9 @@ struct BranchOnset {
     }
 };
 
-/// The amplitude at a conical height, to leading order; 0 if there is no such state. Close to the
-/// mode's height, that is computed in double-double (1e-24 relative) from a state inclined by 1e-6.
+/// Returns the amplitude at a conical height, to leading order; 0 if there is no such state. If the
+/// mode's height is close, it is recomputed in double-double (1e-24 relative) from a state inclined
+/// by 1e-6.
 REVCHAIN_LAZY
 double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
     const double narrow = as_double(height);
@@ -91,15 +93,17 @@ double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const 
     const BranchPoint at = onset.point(rounded(system.links), small);
     const auto found = polished(system.links, at.state, GivenPlace(at));
     Fine critical(onset.height);
-    if (found.shape.converged) critical = found.height + found.height * Fine(small * small * onset.curvature);
+    if (found.shape.converged)
+        critical = found.height + found.height * Fine(small * small * onset.curvature);
     const double gap = as_double((critical - height) / height);
     return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
 
-/// The state at a height so close to the mode's that double hardly resolves it: from the law of the
-/// onset, balanced in double-double. None if that fails.
+/// Returns the state at a height so close to the mode's that double hardly resolves it. It comes
+/// from the law of the onset and is balanced in double-double. Returns none if that fails.
 REVCHAIN_LAZY
-std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset, const Fine& height) {
+std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
+                                         const Fine& height) {
     const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
     BranchState state = onset.state(rounded(system.links), amplitude);
@@ -117,15 +121,16 @@ std::optional<BranchPoint> near_vertical(const BranchSystem& system, const Branc
     return onset.point(std::move(state), amplitude);
 }
 
-/// The start of a branch: a mode or, with the support off the axis, rest.
+/// The start of a branch: a mode, or rest if the support is off the axis.
 struct BranchRoot {
     std::shared_ptr<const BranchSystem> system;
     Corrector corrector;
-    std::optional<BranchOnset> onset;  ///< none from rest
-    double height;                     ///< of the mode, or from rest of the first mode
+    std::optional<BranchOnset> onset;  ///< none for the branch from rest
+    double height;                     ///< of the mode; for the branch from rest, of the first mode
 
     template <class Options>
-    static BranchRoot of(std::string_view place, const Chain<double>& chain, const Options& options) {
+    static BranchRoot of(std::string_view place, const Chain<double>& chain,
+                         const Options& options) {
         require_mode(place, options.mode, chain.mode_count());
         const auto found = detail::one_mode(chain, options.mode);
         return from(BranchSystem(chain), found.conical_height, &found.shape);
@@ -138,11 +143,13 @@ struct BranchRoot {
         detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
-                detail::throw_invalid(place,
-                                      "with a support off the axis mode must be 1, the branch from rest; "
-                                      "branches lists those born in folds",
-                                      mode);
-            return from(BranchSystem(rig, gravity, direction), first_height(place, rig, gravity, direction));
+                detail::throw_invalid(
+                    place,
+                    "with a support off the axis mode must be 1, the branch from rest; "
+                    "branches lists those born in folds",
+                    mode);
+            return from(BranchSystem(rig, gravity, direction),
+                        first_height(place, rig, gravity, direction));
         }
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
         require_mode(place, mode, modes.count());
@@ -150,18 +157,21 @@ struct BranchRoot {
         const Vector<double> shape = modes.shape(found);
         return from(BranchSystem(rig, gravity, direction), found.conical_height, &shape);
     }
-    /// Conical height of the slowest mode of a rig; its length if it has none.
-    static double first_height(std::string_view place, const Rig& rig, double gravity, Rotation direction) {
+    /// Returns the conical height of the slowest mode of a rig; its length if it has none.
+    static double first_height(std::string_view place, const Rig& rig, double gravity,
+                               Rotation direction) {
         const detail::ModesOfOneSense modes(place, rig, gravity, direction);
-        return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
+        return modes.count() > 0 ? modes.found(1, 1).front().conical_height
+                                 : rig.chain().total_length();
     }
 
-    /// The state of the slowly turning rig, almost straight, at a log of height or above.
+    /// Returns the state of the slowly turning, almost straight rig at a log of height or above.
     std::optional<BranchPoint> at_rest(double log_height) {
         const double unit = std::ldexp(1.0, -system->units.length_exponent);
         log_height = std::max(log_height, std::log(height * unit));
         for (int round = 0; round < 12; ++round, log_height += 2) {
-            BranchState straight{std::vector<double>(corrector.size(), 0.0), log_height}, faster = straight;
+            BranchState straight{std::vector<double>(corrector.size(), 0.0), log_height},
+                faster = straight;
             faster.log_height = -1;
             auto found = corrector.corrected(straight, faster, 0.1);
             if (found) return found;
@@ -172,9 +182,12 @@ struct BranchRoot {
    private:
     static void require_mode(std::string_view place, Index mode, Index count) {
         if (mode < 1 || mode > count)
-            detail::throw_invalid(place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
+            detail::throw_invalid(
+                place, "mode must be from 1 to the number of modes, " + std::to_string(count),
+                mode);
     }
-    static BranchRoot from(BranchSystem system, double height, const Vector<double>* mode = nullptr) {
+    static BranchRoot from(BranchSystem system, double height,
+                           const Vector<double>* mode = nullptr) {
         auto narrow = rounded(system.links);
         std::optional<BranchOnset> onset;
         if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system.units.length_exponent));

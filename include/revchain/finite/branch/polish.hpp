@@ -13,11 +13,12 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// A condition on shape and height, in double-double, solved together with the balance of forces.
 struct Condition {
     virtual ~Condition() = default;
-    /// Given minus actual value at offsets of the pins, and its derivative by log lambda. Fills
-    /// `row` with the derivatives by the reaches a sin delta.
-    virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& offset,
-                                         const Fine& height, std::vector<double>& row) const = 0;
-    /// The change of the condition for a relative change 1 of the given number; 0 without one.
+    /// Returns the given minus the actual value at offsets of the pins, and its derivative by log
+    /// lambda. Fills `row` with the derivatives by the reaches a sin delta.
+    virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links,
+                                         const std::vector<Fine>& offset, const Fine& height,
+                                         std::vector<double>& row) const = 0;
+    /// Returns the condition's change for a relative change 1 of the given number; 0 without one.
     virtual double size(const Fine& height) const = 0;
     virtual bool gives_height() const { return false; }
 };
@@ -25,8 +26,8 @@ struct Condition {
 struct GivenHeight : Condition {
     Fine wanted;
     explicit GivenHeight(Fine height) : wanted(std::move(height)) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>&, const Fine& height,
-                                 std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>&,
+                                 const Fine& height, std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         return {(wanted - height) / wanted, as_double(height / wanted)};
     }
@@ -34,8 +35,8 @@ struct GivenHeight : Condition {
     bool gives_height() const override { return true; }
 };
 
-/// sin(inclination of the lowest link - wanted) = 0, accurate near the horizontal too, with the
-/// link's sign.
+/// The condition sin(inclination of the lowest link - wanted) = 0, where `wanted` has the link's
+/// sign. It is accurate near the horizontal too.
 struct GivenTipInclination : Condition {
     Fine sine, cosine;
     double angle;
@@ -43,8 +44,8 @@ struct GivenTipInclination : Condition {
         : sine(DoubleDouble(std::sin(static_cast<long double>(wanted))).word()),
           cosine(DoubleDouble(std::cos(static_cast<long double>(wanted))).word()),
           angle(wanted) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine&,
-                                 std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                 const Fine&, std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         const Fine &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
         const Fine signed_sine = d < Fine(0) ? -sine : sine;
@@ -54,7 +55,7 @@ struct GivenTipInclination : Condition {
     double size(const Fine&) const override { return angle; }
 };
 
-/// The free end's distance from the axis, on its current side.
+/// The condition that gives the free end's distance from the axis, on its current side.
 struct GivenTipRadius : Condition {
     Fine wanted;
     explicit GivenTipRadius(Fine radius) : wanted(std::move(radius)) {}
@@ -66,13 +67,15 @@ struct GivenTipRadius : Condition {
     double size(const Fine&) const override { return as_double(wanted); }
 };
 
-/// The reaction at the topmost pin: |sum of weights times offsets| = lambda sqrt(T^2 - W^2).
+/// The condition on the topmost pin's reaction: |sum of weights times offsets| = lambda sqrt(T^2 -
+/// W^2).
 struct GivenTopTension : Condition {
     Fine across;   ///< the sideways part of T, positive
-    double share;  ///< its relative change for one of T
-    GivenTopTension(Fine sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
-                                 std::vector<double>& row) const override {
+    double share;  ///< relative change of `across` per relative change of T
+    GivenTopTension(Fine sideways, double sensitivity)
+        : across(std::move(sideways)), share(sensitivity) {}
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                 const Fine& height, std::vector<double>& row) const override {
         Fine sum(0);
         double weights = 0;
         for (std::size_t m = 0; m < links.bodies(); ++m) {
@@ -85,15 +88,17 @@ struct GivenTopTension : Condition {
         const Fine pull = sum < Fine(0) ? -(height * across) : height * across;
         return {pull - sum, -as_double(pull)};
     }
-    double size(const Fine& height) const override { return share * std::abs(as_double(height * across)); }
+    double size(const Fine& height) const override {
+        return share * std::abs(as_double(height * across));
+    }
 };
 
-/// The plane across the branch at one of its points: fixes the point along the arc, even at folds.
+/// The plane across the branch at one of its points: it fixes the point on the arc, even at folds.
 struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y, const Fine& height,
-                                 std::vector<double>& row) const override {
+    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                 const Fine& height, std::vector<double>& row) const override {
         double sum = 0;
         const double share = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
@@ -119,11 +124,12 @@ struct Polished {
     double condition = 0;
 };
 
-/// `Polished::condition`, from the factors at a shape and the sizes of forces; `given` is the
-/// condition's change for that of the number, `growth` 1/(a cos^2) of links.
+/// Returns `Polished::condition`, from the factors at a shape and the sizes of forces. `given` is
+/// the condition's change for that of the number, `growth` is 1/(a cos^2) of links.
 REVCHAIN_LAZY
-double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const std::vector<double>& size,
-                    const std::vector<double>& growth, double given) {
+double condition_of(const BranchLinks<Fine>& links, BorderedChain& border,
+                    const std::vector<double>& size, const std::vector<double>& growth,
+                    double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
     double worst = 0;
@@ -144,31 +150,36 @@ double condition_of(const BranchLinks<Fine>& links, BorderedChain& border, const
     return worst;
 }
 
-/// Offsets of the pins of a state; the firm end of the support is last.
+/// Returns the offsets of the pins of a state; the firm end of the support is last.
 REVCHAIN_LAZY
 std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& state) {
     std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
-    for (std::size_t m = links.size(); m-- > 0;) {  // by a - a sin, accurate near the horizontal
+    for (std::size_t m = links.size(); m-- > 0;) {  // from a - a sin, accurate near the horizontal
         const double tau = state.rise[m];
         const Fine &a = links.links[m].length,
                    d = a * (Fine(1) - Fine(2) / (Fine(1) + Fine(std::exp(2 * std::abs(tau)))));
         const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
-        y[m] = y[m + 1] + (small ? a * Fine(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
+        y[m] = y[m + 1] + (small ? a * Fine(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau))
+                           : tau < 0 ? -d
+                                     : d);
     }
     return y;
 }
 
-/// Newton's method on all pins and the height, as `balance`, with one condition. Cost O(N) a step.
+/// Returns the result of Newton's method on all pins and the height with one condition, as in
+/// `balance`. Each step costs O(N).
 REVCHAIN_LAZY
-Polished polished(const BranchLinks<Fine>& links, const BranchState& start, const Condition& condition) {
+Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
+                  const Condition& condition) {
     using std::abs;
     const std::size_t n = links.size();
     Polished result{{offsets_of(links, start), {}}, Fine(std::exp(start.log_height))};
     std::vector<Fine>& y = result.shape.offset;
     Fine& height = result.height;
     BorderedChain border(n);
-    std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n), growth(n);
+    std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n),
+        growth(n);
     double last = 1;
     for (int round = 0; round < 40; ++round) {
         Fine sum(0), before(0);
@@ -181,12 +192,13 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start, cons
             if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
             const Fine cosine = links.is_spring(m) ? Fine(1) : cosine_of(link.length, d),
                        factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
-                       pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
-                       at_upper = link.rest * y[m + 1];
+                       pulled = factor * tangent, turn = link.cross * d,
+                       at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
             const Fine whole = sum + at_lower - pulled - turn;
             const double c = as_double(cosine), a = as_double(link.length);
             left[m] = as_double(whole), pull[m] = along[m] = as_double(pulled);
-            if (!links.spin.empty()) along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
+            if (!links.spin.empty())
+                along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
             growth[m] = 1 / (a * c * c);
             stiffness[m] = as_double(factor) / (a * c * c * c) + as_double(link.cross);
             const double parts = std::abs(pull[m]) + as_double(abs(turn));
@@ -202,49 +214,57 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start, cons
         if (result.shape.converged) break;  // the factors are now those of the result
         const double log_change = border.solve(left, as_double(open), reach);
         // Changes are relative to a link's own inclination and to the steepest one. The start was
-        // summed in double: an almost vertical link may have rounding alone, 1e-18 for 1e-40, say.
-        // It does no harm.
+        // summed in double. The offset of an almost vertical link may thus be rounding alone, for
+        // example 1e-18 instead of 1e-40. This is harmless.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of an accidentally vertical link, only what double-double offsets resolve
+            // a link that happens to be vertical counts with what double-double offsets resolve
             const double lower = std::abs(as_double(y[m])), upper = std::abs(as_double(y[m + 1])),
                          there = std::abs(as_double(y[m] - y[m + 1])) * growth[m],
-                         told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
+                         told =
+                             std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
                          change = std::abs(reach[m]) * growth[m];
             largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
             steepest = std::max(steepest, there), farthest = std::max(farthest, change);
             x += reach[m];
             y[m] = y[m] + Fine(x);
         }
-        if (!(std::abs(log_change) < 1) || !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0))) return result;
+        if (!(std::abs(log_change) < 1) ||
+            !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0)))
+            return result;
         height = height + height * Fine(log_change);
         // the size of the next step if convergence continues at this rate
         const double next = largest * std::min(1.0, largest / std::min(1.0, last));
-        result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
+        result.shape.converged =
+            (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
         last = largest;
     }
-    if (result.shape.converged) result.condition = condition_of(links, border, size, growth, condition.size(height));
+    if (result.shape.converged)
+        result.condition = condition_of(links, border, size, growth, condition.size(height));
     return result;
 }
 
-/// A shape found at a height by Newton's method, `verified` at heights in `within`.
+/// Returns a shape found at a height by Newton's method, `verified` at the heights `within`.
 REVCHAIN_LAZY
-SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within, Balanced<Fine> found,
-                           bool height_is_given) {
+SteadyShape verified_shape(const BranchSystem& system, const Fine& height, const Span& within,
+                           Balanced<Fine> found, bool height_is_given) {
     if (!system.rig)
-        return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
-                              height_is_given);
+        return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within,
+                              std::move(found), height_is_given);
     const RiggedLinks rig = system.rigged_at(height);
     found.offset.resize(rig.links.size() + 1);  // without the firm end of a spring
     found.posture = rig.posture;
-    return verified_shape(rig, folded_links(rig), height, within, std::move(found), height_is_given);
+    return verified_shape(rig, folded_links(rig), height, within, std::move(found),
+                          height_is_given);
 }
 
-/// The shape near a point of a branch that satisfies a condition. At a given height its bound is
-/// that of `verified`. If the height is found, the bound adds the residual of Newton's method times
-/// the condition number; where nothing is proved, as at a fold, it is that alone.
+/// Returns the shape near a point of a branch that satisfies a condition. At a given height its
+/// bound is that of `verified`. If the height is found, the bound adds the residual of Newton's
+/// method times the condition number. If nothing is proved, as at a fold, the bound is this
+/// product.
 REVCHAIN_LAZY
-std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near, const Condition& condition) {
+std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
+                                    const Condition& condition) {
     auto found = polished(system.links, near, condition);
     if (!found.shape.converged) return std::nullopt;
     const bool given = condition.gives_height();
@@ -253,7 +273,8 @@ std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchStat
     const bool proved = shape.error_bound < 1;
     if (given && proved) return shape;
     shape.condition = found.condition;
-    shape.error_bound = (proved ? shape.error_bound : 0x1p-52) + found.condition * (found.residual + 1e-30);
+    shape.error_bound =
+        (proved ? shape.error_bound : 0x1p-52) + found.condition * (found.residual + 1e-30);
     return shape;
 }
 

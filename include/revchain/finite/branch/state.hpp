@@ -9,7 +9,8 @@
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
 /// A point of a branch or a direction: tau of each link, with tan(inclination) = sinh tau, and log
-/// lambda. tau is a small inclination or the logarithm of a large tangent; branches end straight.
+/// lambda. A small tau is the inclination, a large one the logarithm of the tangent. In these
+/// coordinates the ends of branches are straight.
 struct BranchState {
     std::vector<double> rise;  ///< tau, lowest link first
     double log_height = 0;
@@ -17,7 +18,7 @@ struct BranchState {
 
 /// A point with the direction of the branch.
 struct BranchPoint {
-    BranchState state, tangent;  ///< tangent: of length 1 along the arc
+    BranchState state, tangent;  ///< tangent: direction of length 1 along the arc
     double arc = 0;
     int half_waves = 0;  ///< sign changes of the offsets plus 1; 0 if rounding leaves one undecided
 };
@@ -25,7 +26,7 @@ struct BranchPoint {
 struct BranchSystem;
 struct BranchOnset;
 
-/// How a branch was followed; read by accessors of `Branch`.
+/// The record of how a branch was followed. Accessors of `Branch` read it.
 struct BranchTrace {
     std::shared_ptr<const BranchSystem> system;
     std::vector<BranchPoint> points;

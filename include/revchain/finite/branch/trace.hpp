@@ -21,8 +21,9 @@ void append(Branch& branch, const BranchPoint& point) {
     for (std::size_t m = links.size(); m-- > 0;) {
         const auto& link = links.links[m];
         const Inclined at = links.inclined(m, point.state.rise[m]);
-        const double a = as_double(link.length), moment = as_double(link.moment), rest = as_double(link.rest),
-                     pull = as_double(links.pull(m, speed)), d = a * at.sine, upper = y;
+        const double a = as_double(link.length), moment = as_double(link.moment),
+                     rest = as_double(link.rest), pull = as_double(links.pull(m, speed)),
+                     d = a * at.sine, upper = y;
         y += d;
         inertia += moment * y * y + rest * upper * upper - as_double(link.cross) * d * d;
         if (!links.is_spring(m)) sideways += moment * y + rest * upper;
@@ -30,38 +31,42 @@ void append(Branch& branch, const BranchPoint& point) {
     }
     branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
     const double inclination = std::atan(std::sinh(point.state.rise[0]));
-    branch.tip_inclination.push_back(system.stands(0) ? beyond(-inclination, inclination < 0) : inclination);
+    branch.tip_inclination.push_back(system.stands(0) ? beyond(-inclination, inclination < 0)
+                                                      : inclination);
     branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
     branch.top_tension.push_back(weight(std::hypot(as_double(system.bearing), sideways / height)));
-    branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * system.units.length_exponent)));
+    branch.moment_of_inertia.push_back(
+        weight(std::ldexp(inertia, 2 * system.units.length_exponent)));
     branch.effective_energy.push_back(weight(length(energy - inertia / (2 * height))));
     trace_of(branch).points.push_back(point);
 }
 
-/// Whether a point lies beyond a neighbouring one in the direction of the branch.
+/// Returns true if a point lies beyond a neighbouring one in the direction of the branch.
 REVCHAIN_LAZY
 bool is_past(const BranchPoint& here, const BranchPoint& there) {
     return inner(moved(here.state, -1, there.state), here.tangent) > 0;
 }
 
-/// Whether a step passes the start of a loop in the same direction.
+/// Returns true if a step passes the start of a loop in the same direction.
 REVCHAIN_LAZY
 bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
     const double reach = here.arc - before.arc;
     if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
     const BranchState from_before = moved(start.state, -1, before.state);
-    return inner(from_before, from_before) < 2 * reach * reach && !is_past(before, start) && is_past(here, start);
+    return inner(from_before, from_before) < 2 * reach * reach && !is_past(before, start) &&
+           is_past(here, start);
 }
 
-/// Whether a step goes through the straight chain to the mirror image.
+/// Returns true if a step goes through the straight chain to the mirror image.
 REVCHAIN_LAZY
-bool mirrored(const BranchPoint& before, const BranchPoint& here) {
+bool crosses_vertical(const BranchPoint& before, const BranchPoint& here) {
     double sum = 0;
-    for (std::size_t m = 0; m < here.state.rise.size(); ++m) sum += before.state.rise[m] * here.state.rise[m];
+    for (std::size_t m = 0; m < here.state.rise.size(); ++m)
+        sum += before.state.rise[m] * here.state.rise[m];
     return sum < 0;
 }
 
-/// Whether flywheels cancel all but 1e-5 of the tension of a link.
+/// Returns true if flywheels cancel all but 1e-5 of the tension of a link.
 REVCHAIN_LAZY
 bool is_slack(const BranchLinks<double>& links, double log_height) {
     const double speed = links.speed_at(std::exp(log_height));
@@ -70,13 +75,14 @@ bool is_slack(const BranchLinks<double>& links, double log_height) {
     return false;
 }
 
-/// Whether the spring at the support is stretched by more than a thousand lengths.
+/// Returns true if the spring at the support is stretched by more than a thousand lengths.
 template <class S>
 bool is_loose(const BranchLinks<S>& links, const BranchState& at) {
     return links.spring && std::abs(at.rise.back()) > 7.6;  // arsinh 1000
 }
 
-/// Follows a branch until it comes down to `log_end` or up to `log_top`, if finite. Inserts folds.
+/// Follows a branch until it comes down to `log_end` or, if finite, up to `log_top`. Adds points at
+/// folds. Returns why it ended.
 template <class Branch>
 auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points,
             double log_top = std::numeric_limits<double>::infinity()) {
@@ -85,11 +91,13 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     const BranchPoint start = walk.here();
     const bool passes_vertical = trace_of(branch).system->links.is_symmetric();
     while (branch.size() < max_points) {
-        if (!walk.advance()) return is_slack(walk.links(), walk.here().state.log_height) ? End::slack : End::stuck;
+        if (!walk.advance())
+            return is_slack(walk.links(), walk.here().state.log_height) ? End::slack : End::stuck;
         const BranchPoint &before = walk.before(), &here = walk.here();
-        if (passes_vertical && mirrored(before, here)) return End::vertical;
+        if (passes_vertical && crosses_vertical(before, here)) return End::vertical;
         auto crossings = crossings_of(walk, to_end);
-        std::erase_if(crossings, [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
+        std::erase_if(crossings,
+                      [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
         const double until = crossings.empty() ? 1.0 : crossings.front().share;
         const bool closed = returned(here, before, start);
         if (before.tangent.log_height * here.tangent.log_height < 0)
@@ -115,10 +123,11 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
     return End::budget;
 }
 
-/// The states of a branch at one height, in the order of the arc. Between the vertical and the next
-/// point, where the height hardly changes, they come from the law of the onset.
+/// Returns the states of a branch at one height, in the order of the arc. Between the vertical and
+/// the next point, where the height hardly changes, they come from the law of the onset.
 template <class Branch>
-std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
+std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector,
+                                   double conical_height) {
     std::vector<SteadyShape> found;
     if (branch.size() == 0) return found;
     const auto& trace = trace_of(branch);
@@ -126,7 +135,9 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, d
     const Fine height = ldexp(Fine(conical_height), -system.units.length_exponent);
     const HeightMeasure measure{std::log(as_double(height))};
     const GivenHeight condition(height);
-    const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
+    const auto off = [&](std::size_t i) {
+        return (branch.conical_height[i] - conical_height) / conical_height;
+    };
     const auto take = [&](const BranchState& near) {
         if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));
     };
@@ -141,7 +152,8 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, d
         if (i == 1 && within && side * a <= -there)
             if (const auto point = near_vertical(system, *trace.onset, height)) take(point->state);
         if (std::abs(a) < there) {  // the point itself: an end, or a crossing
-            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(trace.points[i].state);
+            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0))
+                take(trace.points[i].state);
         } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {
             const auto walk = BranchWalk::between(corrector, trace.points[i], trace.points[i + 1]);
             const auto crossing = crossings_of(walk, measure);

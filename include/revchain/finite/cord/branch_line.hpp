@@ -2,21 +2,23 @@
 #pragma once
 
 #include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/numeric/arc_step.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/gauss_rule.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Moment of inertia and potential energy of a path, integrated by parts with the axis at the
-/// support:
+/// The moment of inertia and potential energy of a path, integrated by parts. At the support the
+/// path is on the axis:
 ///     sum of weight eta^2 = integral of u^2/T,   sum of weight height = - integral of V^2/T.
 class PathEnergies {
    public:
     explicit PathEnergies(const PathKind& kind, double tip_offset) : kind_(kind) {
         if (kind.density == nullptr) return;
-        // below the start of the path the inclination is that of the free end
+        // below the start of the path the inclination equals that of the free end
         const double s = Path::first_arc(kind), below = kind.weight_below(s);
-        const double moment = kind.density->first_moment(s * kind.unit), cosine = 1 / std::hypot(1.0, tip_offset);
+        const double moment = kind.density->first_moment(s * kind.unit),
+                     cosine = 1 / std::hypot(1.0, tip_offset);
         const double carried = s * below - moment * (below - kind.tip) * s;
         add(carried / cosine * (1 - cosine * cosine), carried * cosine);
     }
@@ -44,8 +46,8 @@ class PathEnergies {
     double inertia_ = 0, potential_ = 0;
 };
 
-/// A point of the plane of branches of a cord: tau, with sinh(tau) the tangent of the inclination
-/// of the free end, and the logarithm of the conical height.
+/// A point in the plane of branches of a cord. `bend` is tau, where sinh(tau) is the tangent of the
+/// inclination of the free end. The other coordinate is the logarithm of the conical height.
 struct BranchPlace {
     double bend = 0, log_height = 0;
 };
@@ -55,9 +57,13 @@ inline BranchPlace operator+(const BranchPlace& x, const BranchPlace& y) {
 inline BranchPlace operator-(const BranchPlace& x, const BranchPlace& y) {
     return {x.bend - y.bend, x.log_height - y.log_height};
 }
-inline BranchPlace operator*(double s, const BranchPlace& x) { return {s * x.bend, s * x.log_height}; }
+inline BranchPlace operator*(double s, const BranchPlace& x) {
+    return {s * x.bend, s * x.log_height};
+}
 REVCHAIN_LAZY
-double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
+double dot(const BranchPlace& x, const BranchPlace& y) {
+    return x.bend * y.bend + x.log_height * y.log_height;
+}
 REVCHAIN_LAZY
 double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
 
@@ -77,18 +83,21 @@ class BranchLine {
     int crossing() const { return crossing_; }
     PathKind kind(double log_height) const { return kind_of(chain_, std::exp(log_height), 1); }
 
-    /// The point of the line near `from`, across `direction`, with its direction on the same side;
-    /// none if Newton's method does not converge at once.
-    std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction, double reach) const {
+    /// Returns the point of the line near `from`, searched across `direction`, with its direction
+    /// on the same side. Returns none if Newton's method does not converge at once.
+    std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction,
+                                 double reach) const {
         BranchPlace at = from;
         double last = std::numeric_limits<double>::infinity();
         Point found;
         for (int round = 0; round < 12; ++round) {
-            if (!(at.bend > 0) || at.bend > 700 || std::exp(-at.log_height) * chain_.length > 1e6) return std::nullopt;
+            if (!(at.bend > 0) || at.bend > 700 || std::exp(-at.log_height) * chain_.length > 1e6)
+                return std::nullopt;
             const auto value = value_at(at, round > 0);
             if (!value) return std::nullopt;
             const BranchPlace& slope = value->second;
-            const double across = slope.bend * direction.log_height - slope.log_height * direction.bend;
+            const double across =
+                slope.bend * direction.log_height - slope.log_height * direction.bend;
             found = {at, {-slope.log_height, slope.bend}, slope.bend, value->first};
             found.direction = (1 / size(found.direction)) * found.direction;
             if (dot(found.direction, direction) < 0) found.direction = -1.0 * found.direction;
@@ -96,35 +105,44 @@ class BranchLine {
                                    value->first * direction.bend / across};
             const double moved = size(step);
             if (!std::isfinite(moved) || size(at + step - from) > reach) return std::nullopt;
-            if (moved < 4e-16 * (1 + size(at)) || (round > 1 && moved < 1e-12 && moved > 0.3 * last)) return found;
+            if (moved < 4e-16 * (1 + size(at)) ||
+                (round > 1 && moved < 1e-12 && moved > 0.3 * last))
+                return found;
             if (round > 2 && moved > 0.5 * last) return std::nullopt;
             at = at + step, last = moved;
         }
         return found;
     }
-    /// f and its slopes. The slope by height is 1 for a uniform cord without a tip, else a
-    /// difference of two paths, accurate to 1e-7; only directions and steps use it.
-    std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at, bool fine = true) const {
+    /// Returns f and its slopes. The slope by log(height) is 1 for a uniform cord without a tip
+    /// weight. Else it is a difference of two paths, accurate to 1e-7; only directions and steps
+    /// use it.
+    std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at,
+                                                           bool fine = true) const {
         const double tolerance = fine ? PathSeries::rounding : 1e-13;
         const auto path = [&](double log_height, bool with_change) {
-            return Path(kind(log_height), std::sinh(at.bend),
-                        {.crossings = crossing_, .tolerance = tolerance, .with_change = with_change});
+            return Path(
+                kind(log_height), std::sinh(at.bend),
+                {.crossings = crossing_, .tolerance = tolerance, .with_change = with_change});
         };
-        const auto enough = [&](const Path& x) { return static_cast<int>(x.crossings().size()) >= crossing_; };
+        const auto enough = [&](const Path& x) {
+            return static_cast<int>(x.crossings().size()) >= crossing_;
+        };
         const Path here = path(at.log_height, true);
         if (!enough(here)) return std::nullopt;
         const Path::Crossing& support = here.crossings().back();
         double by_height = 1;
         if (!here.kind().is_bare()) {
             constexpr double little = 1e-4;
-            const Path above = path(at.log_height + little, false), below = path(at.log_height - little, false);
+            const Path above = path(at.log_height + little, false),
+                       below = path(at.log_height - little, false);
             if (!enough(above) || !enough(below)) return std::nullopt;
-            by_height = 1 + std::log(above.crossings().back().arc / below.crossings().back().arc) / (2 * little);
+            by_height = 1 + std::log(above.crossings().back().arc / below.crossings().back().arc) /
+                                (2 * little);
         }
         return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
                          BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
     }
-    /// The point between two at which `value` of a point, with different signs at both, is 0.
+    /// Returns the point between a and b, where `value` has different signs, at which it is 0.
     template <class F>
     std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
         const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
@@ -149,7 +167,7 @@ class BranchLine {
 };
 
 /// Follows a line: predictor along the direction, corrector across it. Accepts a step if Newton's
-/// method contracts, the direction turns by less than 0.2 and the correction is below step/3.
+/// method contracts, the direction turns by at most 0.2 and the correction is at most step/3.
 class BranchLineWalk {
    public:
     BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double longest)
@@ -157,17 +175,16 @@ class BranchLineWalk {
 
     const BranchLine::Point& at() const { return at_; }
     bool advance() {
-        for (double step = std::min(step_, longest_); step > 1e-9; step /= 2) {
+        return detail::arc_step(step_, longest_, 0.5, [&](double step) -> std::optional<double> {
             const BranchPlace guess = at_.at + step * at_.direction;
             const auto next = line_.next_to(guess, at_.direction, step);
-            if (!next) continue;
-            const double turned = std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
-            if (turned > 0.2 || size(next->at - guess) > step / 3) continue;
-            step_ = turned < 0.05 ? 2 * step : step;
+            if (!next) return {};
+            const double turned =
+                std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
+            if (turned > 0.2 || size(next->at - guess) > step / 3) return {};
             at_ = *next;
-            return true;
-        }
-        return false;
+            return turned < 0.05 ? 2 : 1;
+        });
     }
 
    private:

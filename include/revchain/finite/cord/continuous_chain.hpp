@@ -10,44 +10,45 @@
 
 /// Steady shapes of a whirling cord of any density, with or without a weight at its free end, at
 /// any inclination: Greenhill (1908) §4 without small angles. A path is followed up from the free
-/// end; the offset eta_0 of that end is the one unknown. A shape of j half waves is a path whose
+/// end. The offset eta_0 of that end is the one unknown. A shape of j half waves is a path whose
 /// crossing j, at s_j(eta_0), is the support (equations at `finite::PathState`). Properties of s_j:
-///   - s_j(eta_0) > s_j(0), the value at small amplitude, by Sturm's comparison: against V the pull
-///     satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip, and T > V. So no shape has j half waves at
-///     or above the conical height lambda_j of small amplitude.
-///   - s_j is unbounded, as s_1 >= eta_0: at least one shape has j half waves if lambda < lambda_j.
+///   - s_j(eta_0) > s_j(0), the value at small amplitude, by Sturm's comparison: as a function of V
+///     the pull satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip, and T > V. So no shape has j half
+///     waves at or above the conical height lambda_j of small amplitude.
+///   - s_j is unbounded, as s_1 >= eta_0. So at least one shape has j half waves if lambda <
+///     lambda_j.
 ///   - s_1 increases: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so (u v' - v u')' > 0 while
-///     u and v have one sign, and at the crossing, where u' = 0, u v' > 0. So at most one shape has
-///     no node.
-///   - Every s_j increases if h = sqrt(rho/V) is a convex function of V: then there is one shape
-///     for every critical height above lambda. This holds for a uniform chain with any tip weight,
-///     and for densities s^p without a tip for p > -1, with a tip for p <= 0. Proof (' by V): let w
-///     = eta_0 v, which starts as u does. By u'' = -u/(rho T) and w'' = -q w, q = V^2/(rho T^3) <=
-///     1/(rho T), the phase of w, tan theta = w/w', lags that of u (Sturm). E = V u' - u is 0 at
-///     the free end, E' = -V u/(rho T) and E'' + (ln(rho/V))' E' + q E = 0, so y = h E satisfies
-///     y'' = -(q - h''/h) y with h'' >= 0. Hence w has a zero between the free end and the first
-///     zero of E, and between any two zeros, upper ones included. (Else, where w y < 0 up to the
-///     next zero b, W = w y' - w' y has W' = w y h''/h <= 0 but W(b) = w(b) y'(b) > 0. At the free
-///     end the monotone W has a limit that is not positive: a positive one contradicts y > 0 rising
-///     from 0 with a tip; without a tip it makes (y/w)' = W/w^2 ~ 1/V^2 not integrable, while y/w
-///     tends to 0.) E is monotone between zeros of u. At crossing j, where u' = 0, E and E' have
-///     the sign of -u, so E has one zero between each zero of u and the next crossing: j - 1 below
-///     crossing j. There theta lies between (j - 1) pi, from the zeros of w, and (j - 1/2) pi, the
-///     phase of u: w' has the sign of u, and ds_j/deta_0 that of u w'. Only the density up to s_j
-///     counts: extend it beyond the support; s_j(eta_0) is smooth and rises at the support, so it
-///     is there once.
-/// For the uniform chain without a tip this is I. I. Kolodner, Heavy rotating string - a nonlinear
-/// eigenvalue problem, Comm. Pure Appl. Math. 8 (1955); for densities s^p without a tip P. Amore,
-/// J. P. Boyd, A. Marquez, arXiv:2202.13476. It fails in general: three heavy beads on a light
-/// thread have five shapes below three critical heights
+///     u and v have one sign. At the crossing, u' = 0 and u v' > 0. So at most one shape has no
+///     node.
+///   - Every s_j increases if h = sqrt(rho/V) is a convex function of V. Then there is one shape
+///     for every critical height above lambda. This holds for a uniform chain with any tip weight.
+///     It holds for densities s^p without a tip weight for p > -1, with one for p <= 0.
+///     Proof (' by V). Let w = eta_0 v, which starts as u does. By u'' = -u/(rho T) and w'' = -q w,
+///     q = V^2/(rho T^3) <= 1/(rho T), the phase of w, tan theta = w/w', lags that of u (Sturm). E
+///     = V u' - u is 0 at the free end. E' = -V u/(rho T) and E'' + (ln(rho/V))' E' + q E = 0, so y
+///     = h E satisfies y'' = -(q - h''/h) y with h'' >= 0. Hence w has a zero between the free end
+///     and the first zero of E, and between any two zeros of E, upper ones included. (Otherwise,
+///     where w y < 0 up to the next zero b, W = w y' - w' y has W' = w y h''/h <= 0 but W(b) = w(b)
+///     y'(b) > 0. At the free end the monotone W has a limit that is not positive. With a tip
+///     weight a positive limit contradicts y > 0 rising from 0. Without one it makes (y/w)' = W/w^2
+///     ~ 1/V^2 not integrable, while y/w tends to 0.) E is monotone between zeros of u. At crossing
+///     j, where u' = 0, E and E' have the sign of -u, so E has one zero between each zero of u and
+///     the next crossing: j - 1 below crossing j. There theta lies between (j - 1) pi, from the
+///     zeros of w, and (j - 1/2) pi, the phase of u: w' has the sign of u, and ds_j/deta_0 that of
+///     u w'. Only the density up to s_j counts. Extend it beyond the support: s_j(eta_0) is smooth
+///     and rises at the support, so it equals the length once.
+/// For the uniform chain without a tip weight this is I. I. Kolodner, Heavy rotating string - a
+/// nonlinear eigenvalue problem, Comm. Pure Appl. Math. 8 (1955). For densities s^p without a tip
+/// weight it is P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476. It fails in general: three
+/// heavy beads on a light thread have five shapes below three critical heights
 /// (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true if sqrt(rho/V) is known to
-/// be convex, or if at most one critical height is above; else many eta_0 are sampled, without
+/// be convex, or if at most one critical height is above. Else many eta_0 are sampled, without
 /// proof.
 namespace revchain::inline REVCHAIN_BUILD {
 
 struct CordShapes {
     std::vector<CordShape> shapes;  ///< by half waves, then the free end's offset
-    bool complete = false;          ///< a theorem excludes others
+    bool complete = false;          ///< whether a theorem excludes others
 };
 
 /// The speed: give either `conical_height` or `angular_speed`.
@@ -74,7 +75,7 @@ struct ContinuousChain {
           is_counted(cord.exponent() && (cord.tip_weight() == 0 || *cord.exponent() <= 0)) {}
 };
 
-/// The chain with lengths over `height`; bend 0 for small amplitude.
+/// Returns the chain with lengths over `height`; bend is 0 for small amplitude.
 REVCHAIN_LAZY
 PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
     const double mean = chain.density == nullptr ? 1.0 : chain.density->mean();
@@ -87,13 +88,15 @@ Path path_at_rest(const ContinuousChain& chain, double height, Path::Options opt
     return {kind_of(chain, height, 0), 1, options};
 }
 
-/// The shape near an almost exact path; none if no path could be followed that far.
+/// Returns the shape near an almost exact path; none if no path could be followed that far.
 REVCHAIN_LAZY
-std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length, double height) {
+std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing,
+                                  double length, double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
         const Path path(kind, tip_offset, {.crossings = crossing}, samples);
-        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing) return std::nullopt;
+        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing)
+            return std::nullopt;
         const Path::Crossing& support = path.crossings().back();
         const double step = (length / height - support.arc) / support.rate;
         if (std::abs(step) < TipOffset::near * tip_offset || round == 3)
@@ -102,19 +105,24 @@ std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int c
     }
 }
 
-/// For each crossing, ranges of eta_0 at whose ends it is on different sides of the support.
+/// Returns for each crossing the ranges of eta_0 with ends on different sides of the support.
 REVCHAIN_LAZY
-std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length, int count) {
+std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings,
+                                           double length, int count) {
     std::vector<std::vector<TipRange>> ranges(crossings);
-    std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
+    std::vector<bool> below(crossings, true);  // at small amplitude crossings lie below the support
     double last = 0;
     for (int i = 1; i <= count; ++i) {
-        const double x = static_cast<double>(i) / count, tip = i == count ? length : length * x * x * x;
-        const Path path(
-            kind, tip,
-            {.crossings = static_cast<int>(crossings), .farthest = length, .tolerance = 1e-12, .with_change = false});
+        const double x = static_cast<double>(i) / count,
+                     tip = i == count ? length : length * x * x * x;
+        const Path path(kind, tip,
+                        {.crossings = static_cast<int>(crossings),
+                         .farthest = length,
+                         .tolerance = 1e-12,
+                         .with_change = false});
         for (std::size_t j = 0; j < crossings; ++j) {
-            const bool now = i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
+            const bool now =
+                i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
             if (now != below[j]) ranges[j].push_back({last, tip, below[j]});
             below[j] = now;
         }
@@ -123,11 +131,12 @@ std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t cro
     return ranges;
 }
 
-/// Length over conical height. Throws InvalidArgument above 1e6, where no path is followed.
+/// Returns length over conical height. Throws InvalidArgument above 1e6, where no path is followed.
 REVCHAIN_LAZY
 double length_in_heights(std::string_view place, double length, double height) {
     const double heights = length / height;
-    if (!(heights <= 1e6)) detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
+    if (!(heights <= 1e6))
+        detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
     return heights;
 }
 
@@ -177,14 +186,15 @@ CordShapes continuous_shapes(const ContinuousChain& chain, double height, int mo
     return result;
 }
 
-/// The `count` greatest critical heights, at which shapes leave the vertical, descending: by the
-/// series with T = V, as crossing j of a chain that continues beyond its support falls with the
-/// height. Accuracy: 4e-15 relative. Cost: eight paths each; one path for all if the chain is
-/// uniform without tip. Throws InvalidArgument for a count below 1 or above 1e5.
+/// Returns the `count` greatest critical heights, at which shapes leave the vertical, descending.
+/// Method: the series with T = V. On a chain continued beyond its support, crossing j is lower at a
+/// lower height. Accuracy: 4e-15 relative. Cost: eight paths each; one path for all if the chain is
+/// uniform without a tip weight. Throws InvalidArgument for a count below 1 or above 1e5.
 REVCHAIN_LAZY
 Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
     constexpr std::string_view place = "modes";
-    if (count < 1 || count > 100'000) detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
+    if (count < 1 || count > 100'000)
+        detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
     Vector<double> heights(count);
     const auto place_of = [&](double height, Index crossing) {
         const Path path = path_at_rest(chain, height, {.crossings = static_cast<int>(crossing)});
@@ -193,13 +203,15 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
                 place,
                 chain.density != nullptr
                     ? "the line density is too rough to follow up to critical height"
-                    : "the tip weight is too great beside the chain's to follow up to critical height",
+                    : "the tip weight is too great beside the chain's to follow up to critical "
+                      "height",
                 crossing);
         return path.crossings();
     };
     if (kind_of(chain, 1, 0).is_bare()) {
         const auto crossings = place_of(1, count);
-        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
+        for (Index j = 0; j < count; ++j)
+            heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
         return heights;
     }
     for (Index j = 1; j <= count; ++j) {
@@ -207,14 +219,14 @@ Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
             return std::log(place_of(height, j).back().arc * height / chain.length);
         };
         const double guess = j == 1 ? chain.length : heights[j - 2];
-        heights[j - 1] =
-            detail::zero_between(detail::sign_change_near(guess, excess), excess, {.value = 2 * epsilon<double>()});
+        heights[j - 1] = detail::zero_between(detail::sign_change_near(guess, excess), excess,
+                                              {.value = 2 * epsilon<double>()});
     }
     return heights;
 }
 
-/// The number of critical heights above `height`. Throws InvalidArgument for a length above 1e6
-/// heights and for a density or tip that the series cannot follow.
+/// Returns the number of critical heights above `height`. Throws InvalidArgument for a length above
+/// 1e6 heights and for a density or tip weight that the series cannot follow.
 REVCHAIN_LAZY
 Index critical_heights_above(const ContinuousChain& chain, double height) {
     constexpr std::string_view place = "count_modes";
@@ -229,24 +241,27 @@ Index critical_heights_above(const ContinuousChain& chain, double height) {
 class CordModeShape {
    public:
     CordModeShape(const ContinuousChain& chain, double height, Index mode)
-        : chain_(chain), height_(height), path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
+        : chain_(chain),
+          height_(height),
+          path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
 
-    /// Offset at distance s from the free end; 1 there.
+    /// Returns the offset at distance s from the free end; 1 at that end.
     double shape(double s) const { return state("CordModes::offset", s).offset; }
-    /// d offset / ds, -1 / height at the free end.
+    /// Returns d offset / ds at s; -1 / height at the free end.
     double slope(double s) const { return slope(state("CordModes::slope", s)); }
-    /// Where the cord crosses the axis, ascending, without the support.
+    /// Returns where the cord crosses the axis, ascending, without the support.
     Vector<double> nodes() const {
         Vector<double> points(static_cast<Index>(path_.crossings().size()) - 1);
         for (Index i = 0; i < points.size(); ++i)
             points[i] = path_.crossings()[static_cast<std::size_t>(i)].arc * height_;
         return points;
     }
-    /// Where it is vertical, once above each node: T y'' = -rho (y / height + y').
+    /// Returns where the cord is vertical, once above each node: T y'' = -rho (y / height + y').
     Vector<double> vertical_points() const {
         return detail::zeros_between(nodes(), chain_.length, [&](double s) {
             const PathState at = state("CordModes::vertical_points", s);
-            const double steep = slope(at), part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
+            const double steep = slope(at),
+                         part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
             return std::pair(steep, -part * (at.offset / height_ + steep) / height_);
         });
     }
@@ -269,26 +284,26 @@ class CordModeShape {
 
 }  // namespace finite
 
-/// All steady shapes of a cord at a speed, at any inclination, without the straight one; of two
-/// mirror images that with the free end at a positive offset. If `complete` is false there may be
-/// more (see above).
+/// Returns all steady shapes of a cord at a speed, at any inclination, without the straight one. Of
+/// two mirror images it returns the one whose free end has a positive offset. If `complete` is
+/// false there may be more shapes (see above).
 ///
 /// Method: power series of order 24 in a time that makes the equations polynomials
-/// (`finite::PathSeries`); Newton's method on crossing j, with its derivative from the series;
-/// crossings are told by quadrants within every step. Accuracy: inclinations, and offsets and
-/// heights over the length, are within `error_bound`: at most 0.6 of it, measured against 22 digits
-/// for length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities. The bound is an
-/// estimate from how the shape changes with and along its length: 1.3e-13 at length/height 500
-/// (measured 3.4e-14; 3e-16 for offsets), where the sharpest corner turns over a radian in a
-/// thousandth of the length; 3e-12 at 1e4 (7e-13). It grows near a critical height, where the
-/// amplitude is ill determined. `residual` is that of the first integral of the uniform chain; with
-/// a density, of the tension's own series against its components. Cost: a microsecond a step, at
-/// least four steps a half wave: 1.8 ms for the fourteen shapes at length/height 500
-/// (bench/continuous.cpp); ten times that with a density, plus `scanned` paths. Throws
-/// InvalidArgument unless exactly one of height and speed is given, positive and finite; for a
-/// length above 1e6 heights, `scanned` below 1, an exponent of the density above 20, and a cord
-/// that the series cannot follow (as an exponent of 16 without a tip, or a tip of 1e30 times its
-/// weight).
+/// (`finite::PathSeries`), and Newton's method on crossing j, with its derivative from the series.
+/// Quadrants within every step determine the crossings. Accuracy: inclinations, and offsets and
+/// heights over the length, are within `error_bound`. Errors are at most 0.6 of it, measured
+/// against 22 digits for length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities.
+/// The bound is an estimate from the change of the shape with its length and along it. It is
+/// 1.3e-13 at length/height 500 (measured 3.4e-14; 3e-16 for offsets), where the sharpest corner
+/// turns over a radian in a thousandth of the length. It is 3e-12 at 1e4 (measured 7e-13). It grows
+/// near a critical height, where the amplitude is ill determined. `residual` is that of the first
+/// integral of the uniform chain; with a density, of the tension's own series against its
+/// components. Cost: a microsecond a step, at least four steps a half wave. Fourteen shapes at
+/// length/height 500 take 1.8 ms (bench/continuous.cpp); with a density ten times that, plus
+/// `scanned` paths. Throws InvalidArgument unless exactly one of height and speed is given,
+/// positive and finite. Throws it too for a length above 1e6 heights, `scanned` below 1, an
+/// exponent of the density above 20, and a cord that the series cannot follow. Examples are an
+/// exponent of 16 without a tip weight, or a tip of 1e30 times the cord's weight.
 REVCHAIN_DECLARE
 [[nodiscard]] CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options);
 

@@ -9,8 +9,9 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 template <class Options>
 class CordDiagram {
    public:
-    /// `critical`: the heights of the modes above `lowest`, descending.
-    CordDiagram(const Cord& cord, const Vector<double>& critical, double lowest, const Options& options)
+    /// `critical` holds the heights of the modes above `lowest`, descending.
+    CordDiagram(const Cord& cord, const Vector<double>& critical, double lowest,
+                const Options& options)
         : cord_(cord), critical_(critical), log_end_(std::log(lowest)), options_(options) {
         result_.conical_height = lowest;
     }
@@ -36,15 +37,18 @@ class CordDiagram {
         const auto born = [](const CordBranch& branch) {
             return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
         };
-        const auto before = [&](const CordBranch& x, const CordBranch& y) { return born(x) > born(y); };
+        const auto before = [&](const CordBranch& x, const CordBranch& y) {
+            return born(x) > born(y);
+        };
         std::stable_sort(isolated, result_.branches.end(), before);
-        result_.remark = critical_.size() == 0 ? "no shape leaves the vertical at this height or above"
-                         : result_.complete    ? "a theorem counts the shapes: there are no others"
-                         : !ended              ? "a branch could not be followed to the end"
-                         : result_.consistent
-                             ? "no theorem counts the shapes: loops between the speeds looked at may be "
-                               "missing"
-                             : "at a speed looked at, a shape is not met once by a branch";
+        result_.remark =
+            critical_.size() == 0 ? "no shape leaves the vertical at this height or above"
+            : result_.complete    ? "a theorem counts the shapes: there are no others"
+            : !ended              ? "a branch could not be followed to the end"
+            : result_.consistent
+                ? "no theorem counts the shapes: loops between the speeds looked at may be "
+                  "missing"
+                : "at a speed looked at, a shape is not met once by a branch";
         return std::move(result_);
     }
 
@@ -64,8 +68,9 @@ class CordDiagram {
             if (met[i] != 1) result_.consistent = false;
         }
     }
-    /// Shapes of a branch that the scan missed do not count.
-    void count_met(const CordShapes& list, const CordBranch& branch, double height, std::vector<int>& met) const {
+    /// Counts in `met` how often a branch meets each listed shape, without shapes not in the list.
+    void count_met(const CordShapes& list, const CordBranch& branch, double height,
+                   std::vector<int>& met) const {
         for (const CordShape& shape : branch.shapes_at(height))
             for (std::size_t i = 0; i < met.size(); ++i)
                 if (list.shapes[i].half_waves == shape.half_waves &&
@@ -73,7 +78,7 @@ class CordDiagram {
                     ++met[i];
     }
 
-    /// The isolated branch through a shape: closed, or from the lowest height to its other end.
+    /// Returns the isolated branch through a shape: closed, or from the lowest height to its end.
     CordBranch through(const CordShape& shape) const {
         CordBranch result;
         auto line = std::make_shared<const BranchLine>(cord_, shape.half_waves);
@@ -86,25 +91,29 @@ class CordDiagram {
         away.line = line;
         const bool at_end = start->at.log_height <= log_end_ + 1e-12;
         if (at_end) start->at.log_height = log_end_;
-        // from the lowest height it goes up
+        // a branch that starts at the lowest height goes up
         if (at_end && start->direction.log_height < 0) start->direction = -1.0 * start->direction;
         if (!at_end && append(away, *start)) {
-            away.end = follow(away, *start, options_.max_step, options_.max_points, [&](const auto& last, auto& now) {
-                const BranchPlace chord = now.at - last.at, to_start = start->at - last.at;
-                const double share = dot(to_start, chord) / dot(chord, chord);
-                if (away.size() > 2 && share > 0 && share <= 1 && size(to_start - share * chord) < 0.1 * size(chord)) {
-                    now = *start;
-                    return std::optional(BranchEnd::closed);
-                }
-                return down(last, now);
-            });
+            away.end = follow(away, *start, options_.max_step, options_.max_points,
+                              [&](const auto& last, auto& now) {
+                                  const BranchPlace chord = now.at - last.at,
+                                                    to_start = start->at - last.at;
+                                  const double share = dot(to_start, chord) / dot(chord, chord);
+                                  if (away.size() > 2 && share > 0 && share <= 1 &&
+                                      size(to_start - share * chord) < 0.1 * size(chord)) {
+                                      now = *start;
+                                      return std::optional(BranchEnd::closed);
+                                  }
+                                  return down(last, now);
+                              });
             if (away.end != BranchEnd::height) return away;
             *start = away.points.back();
             start->direction = -1.0 * (away.points.back().at - away.points[away.size() - 2].at);
             start = line->next_to(start->at, (1 / size(start->direction)) * start->direction, 0.1);
             if (!start) return away;
         }
-        if (append(result, *start)) result.end = follow(result, *start, options_.max_step, options_.max_points, down);
+        if (append(result, *start))
+            result.end = follow(result, *start, options_.max_step, options_.max_points, down);
         return result;
     }
 

@@ -12,11 +12,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of a path, lengths over the conical height lambda: sigma the distance from the free end,
-/// eta the offset from the axis, xi the height above the free end, u the pull across the axis over
-/// the weight of a length lambda,
+/// A state of a path, with lengths over the conical height lambda. sigma is the distance from the
+/// free end, eta the offset from the axis and xi the height above the free end. u is the pull
+/// across the axis over the weight of a length lambda:
 ///     u' = -rho eta,   V' = rho,   eta' = u/T,   xi' = V/T,   T = sqrt(u^2 + V^2)   (' by sigma),
-/// V the weight below and rho the line density. Going up, -u/V is the tangent of the inclination.
+/// V is the weight below, rho the line density. Going up, -u/V is the tangent of the inclination.
 struct PathState {
     double arc = 0, offset = 1, pull = 0, height = 0;
 };
@@ -33,21 +33,23 @@ struct PathKind {
     double line_weight = 1;                ///< mean weight per length, the unit of tensions
 
     double weight_below(double arc) const {
-        return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
+        return tip +
+               (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
     }
     double density_at(double arc) const {
         return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;
     }
-    double tension(double pull, double below) const { return bend == 0 ? below : std::hypot(pull, below); }
-    /// Whether the free end, where T = 0, needs a series of its own: `TipSeries`.
+    double tension(double pull, double below) const {
+        return bend == 0 ? below : std::hypot(pull, below);
+    }
+    /// Returns true if the free end, where T = 0, needs a series of its own: `TipSeries`.
     bool is_bare() const { return density == nullptr && tip == 0; }
 };
 
-/// The power series of a path about one of its points, in a time t that makes the equations
-/// polynomials:
+/// The power series of a path about one of its points, in a time t: the equations are polynomials,
 ///     dsigma = T dt:  eta' = u,  u' = -rho T eta,  V' = rho T,  xi' = V,  T' = rho (V - u eta).
-/// For the uniform chain the last has the integral T = C + xi - eta^2/2. At a sharp turn T goes
-/// like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
+/// For the uniform chain the last equation has the integral T = C + xi - eta^2/2. At a sharp turn T
+/// is like a hyperbolic cosine of t: one step in t spans most of it, one in sigma only its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
@@ -57,7 +59,7 @@ class PathSeries {
     PathSeries() = default;
     PathSeries(const PathKind& kind, const PathState& state) { start(kind, state); }
 
-    /// With `change`, also the series of the derivatives.
+    /// Computes the series about `state`; with `change`, also the series of the derivatives.
     void start(const PathKind& kind, const PathState& state, const PathChange* change = nullptr) {
         set(state, kind.weight_below(state.arc), change);
         tension[0] = kind.tension(state.pull, below[0]);
@@ -68,29 +70,33 @@ class PathSeries {
         else
             uniform<true>({kind.bend});
     }
-    /// The uniform chain with other constants, a given weight below and its change.
+    /// Constants of a uniform chain; `start` takes them with the weight below and its change.
     struct Constants {
         double bend = 1, weight = 1;  ///< V' = weight T,  T' = weight V - bend u eta
         double weight_change = 0;     ///< derivative of `weight`
     };
-    void start(const Constants& constants, const PathState& state, double weight_below, const PathChange* change,
-               double change_below) {
+    void start(const Constants& constants, const PathState& state, double weight_below,
+               const PathChange* change, double change_below) {
         set(state, weight_below, change);
         below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
         uniform<false>(constants);
     }
 
-    /// The longest time for which the first omitted terms stay below `tolerance`.
+    /// Returns the longest time for which the last terms stay below `tolerance`.
     double reach(double tolerance) const {
-        const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
+        const double size =
+            std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
         return std::min(latest_, reach(tolerance, [&](std::size_t k) {
-                            return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
+                            return std::max(std::abs(offset[k]) / size,
+                                            std::abs(tension[k]) / tension[0]);
                         }));
     }
-    /// The reach if `largest(k)` is the size of the coefficients k.
+    /// Returns the reach if `largest(k)` is the size of the coefficients k.
     template <class Largest>
     static double reach(double tolerance, const Largest& largest) {
-        const auto of = [&](std::size_t k) { return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k)); };
+        const auto of = [&](std::size_t k) {
+            return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k));
+        };
         return std::min(of(order), of(order - 1));
     }
 
@@ -99,15 +105,17 @@ class PathSeries {
         for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
         return sum;
     }
-    /// The state at a time, the tension by its own series, and a bound of the Prüfer angle:
+    /// The state at a time, the tension by its own series, and a bound on the Prüfer angle:
     /// dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
         double tension, max_phase;
     };
-    Reached reached(double t) const {  // all sums at once, since each waits for itself
+    Reached reached(double t) const {  // one loop: the steps of a single sum wait for each other
         const Coefficients& pulled = is_dense_ ? mass : tension;
-        Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(pulled[order])};
+        Reached x{{arc[order], offset[order], pull[order], height[order]},
+                  tension[order],
+                  std::abs(pulled[order])};
         for (std::size_t k = order; k-- > 0;) {
             x.state.arc = x.state.arc * t + arc[k];
             x.state.offset = x.state.offset * t + offset[k];
@@ -122,7 +130,8 @@ class PathSeries {
     PathState state(double t) const { return reached(t).state; }
     double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
-        PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
+        PathChange x{arc_change[order], offset_change[order], pull_change[order],
+                     height_change[order]};
         for (std::size_t k = order; k-- > 0;) {
             x.arc = x.arc * t + arc_change[k];
             x.offset = x.offset * t + offset_change[k];
@@ -139,14 +148,14 @@ class PathSeries {
 
    private:
     void set(const PathState& state, double weight_below, const PathChange* change) {
-        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull, height[0] = state.height;
+        arc[0] = state.arc, offset[0] = state.offset, pull[0] = state.pull,
+        height[0] = state.height;
         below[0] = weight_below, has_change_ = change != nullptr;
         if (!has_change_) return;
         arc_change[0] = change->arc, offset_change[0] = change->offset;
         pull_change[0] = change->pull, height_change[0] = change->height;
     }
-    /// Unit weight is known at compile time: fewer products in a row save 5 %
-    /// (bench/continuous.cpp).
+    /// With the unit weight known at compile time, fewer products save 5 % (bench/continuous.cpp).
     template <bool unit_weight>
     void uniform(const Constants& constants) {
         if (has_change_)
@@ -155,7 +164,7 @@ class PathSeries {
             uniform<unit_weight, false>(constants);
     }
 
-    /// Coefficient n of a product.
+    /// Returns coefficient n of a product; `square` returns that of a square.
     static double product(const double* a, const double* b, int n) {
         double even = 0, odd = 0;
         int i = 0;
@@ -165,7 +174,6 @@ class PathSeries {
     static double product(const Coefficients& a, const Coefficients& b, int n) {
         return product(a.data(), b.data(), n);
     }
-    /// Coefficient n of a square.
     static double square(const Coefficients& a, int n) {
         double sum = 0;
         const auto last = static_cast<std::size_t>(n);
@@ -173,8 +181,8 @@ class PathSeries {
         return 2 * sum + (n % 2 == 0 ? a[last / 2] * a[last / 2] : 0.0);
     }
 
-    /// Each new coefficient is added at once to the later sums it belongs to: loops without sums
-    /// across, which compilers vectorise. Unknown coefficients are 0, so no pair counts twice.
+    /// Adds each new coefficient at once to the later sums that contain it: compilers vectorise
+    /// loops without sums across lanes. Unknown coefficients are 0, so no pair counts twice.
     template <bool unit_weight, bool change>
     void uniform(const Constants& constants) {
         const double bend = constants.bend, weight = unit_weight ? 1.0 : constants.weight;
@@ -189,7 +197,8 @@ class PathSeries {
             for (std::size_t first = 0; first <= last; first += block) {
                 for (std::size_t i = first; i < first + block; ++i) {
                     eT[n + i] += en * w[i] + wn * e[i];
-                    if constexpr (change) d_eT[n + i] += en * dw[i] + wn * de[i] + den * w[i] + dwn * e[i];
+                    if constexpr (change)
+                        d_eT[n + i] += en * dw[i] + wn * de[i] + den * w[i] + dwn * e[i];
                 }
             }
         };
@@ -205,7 +214,8 @@ class PathSeries {
             if constexpr (change) d_ee[2 * n] += en * den;
         };
         if constexpr (change)
-            tension_change[0] = (bend * pull[0] * pull_change[0] + below[0] * change_below[0]) / tension[0];
+            tension_change[0] =
+                (bend * pull[0] * pull_change[0] + below[0] * change_below[0]) / tension[0];
         double en = offset[0], den = change ? offset_change[0] : 0.0;
         for (std::size_t n = 0; n < order; ++n) {
             const double inverse = 1.0 / static_cast<double>(n + 1);
@@ -214,7 +224,8 @@ class PathSeries {
             spread(n, en, wn, den, dwn);
             e[n] = en;
             if constexpr (change) de[n] = den;
-            const double next = pull[n] * inverse, next_change = change ? pull_change[n] * inverse : 0.0;
+            const double next = pull[n] * inverse,
+                         next_change = change ? pull_change[n] * inverse : 0.0;
             offset[n + 1] = next;
             arc[n + 1] = wn * inverse;
             below[n + 1] = weight * arc[n + 1];
@@ -226,18 +237,20 @@ class PathSeries {
                 offset_change[n + 1] = next_change;
                 arc_change[n + 1] = dwn * inverse;
                 if constexpr (!unit_weight)
-                    below_change[n + 1] = weight * arc_change[n + 1] + constants.weight_change * arc[n + 1];
+                    below_change[n + 1] =
+                        weight * arc_change[n + 1] + constants.weight_change * arc[n + 1];
                 height_change[n + 1] = change_below[n] * inverse;
                 pull_change[n + 1] = -d_eT[n] * inverse;
-                tension_change[n + 1] =
-                    weight * height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
-                if constexpr (!unit_weight) tension_change[n + 1] += constants.weight_change * height[n + 1];
+                tension_change[n + 1] = weight * height_change[n + 1] -
+                                        bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+                if constexpr (!unit_weight)
+                    tension_change[n + 1] += constants.weight_change * height[n + 1];
             }
             en = next, den = next_change;
         }
     }
 
-    /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of
+    /// Sets the series for a density: rho(sigma(t)) by Horner's rule on series, one coefficient of
     /// all lines at a time. dsigma = pace T dt, with `pace` such that coefficients stay in range.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
@@ -248,7 +261,7 @@ class PathSeries {
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + sigma line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
-        std::size_t last = degree;  // higher powers are negligible within the piece
+        std::size_t last = degree;  // powers above `last` are negligible within the piece
         const double span = std::min(kind.density->end_of_piece(at) / kind.unit - arc[0], 1e300);
         if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a heavy tip
         while (last > 0 && std::abs(c[last]) * std::pow(span, last) < 1e-17 * c[0]) --last;
@@ -280,14 +293,20 @@ class PathSeries {
             density_change[k] = product(slope, arc_change, n);
             below_change[k] = product(density, arc_change, n);
             if (n == 0)
-                tension_change[0] = (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) / tension[0];
+                tension_change[0] =
+                    (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) /
+                    tension[0];
             offset_change[k + 1] = pull_change[k] * inverse;
             arc_change[k + 1] = tension_change[k] * inverse;
             height_change[k + 1] = below_change[k] * inverse;
-            mass_change[k] = product(density_change, tension, n) + product(density, tension_change, n);
-            pull_change[k + 1] = -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
-            drive_change[k] = below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
-            tension_change[k + 1] = (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
+            mass_change[k] =
+                product(density_change, tension, n) + product(density, tension_change, n);
+            pull_change[k + 1] =
+                -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
+            drive_change[k] =
+                below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
+            tension_change[k + 1] =
+                (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
         }
         mass[order] = product(density, tension, order);
     }
@@ -296,23 +315,23 @@ class PathSeries {
     double latest_ = std::numeric_limits<double>::infinity();  ///< latest time within a short piece
 };
 
-/// The zero, between 0 and `latest`, of an increasing function within a step of a series, to 2^-51:
-/// the rounding of 25 terms spoils the last digit. `value_and_slope(t)` returns a pair.
+/// Returns the zero, between 0 and `latest`, of an increasing function within a step of a series,
+/// to 2^-51: the rounding of 25 terms spoils the last digit. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double latest, const F& value_and_slope) {
     return detail::zero_between(0.0, latest, value_and_slope, 0x1p-51);
 }
 
-/// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
+/// Returns the time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
 REVCHAIN_LAZY
 double time_at(const PathSeries& series, double arc, double latest) {
     return time_of_zero(latest, [&](double t) {
-        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
+        return std::pair(PathSeries::at(series.arc, t) - arc,
+                         series.pace * PathSeries::at(series.tension, t));
     });
 }
 
-/// The series of a uniform chain without a tip weight about its free end, where T = 0, in sigma:
-/// with u = sigma q,
+/// The series of a uniform chain about a bare free end, where T = 0, in sigma, with u = sigma q:
 ///     (sigma q)' = -eta,   eta' = q/sqrt(1 + q^2),   xi' = 1/sqrt(1 + q^2),   q(0) = -eta(0).
 class TipSeries {
    public:
@@ -342,14 +361,16 @@ class TipSeries {
             height_change[n + 1] = sink * inverse;
             height[n + 1] = cosine[n] * inverse;
         }
-        // no zero of eta before max(1.4458, eta_0): it bends less than at small amplitude
-        const double within = PathSeries::reach(
-            tolerance, [&](std::size_t k) { return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k])); });
+        // eta has no zero before max(1.4458, eta_0): the path bends less than at small amplitude
+        const double within = PathSeries::reach(tolerance, [&](std::size_t k) {
+            return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k]));
+        });
         reach = std::min(0.9 * std::max(1.4458, tip_offset), within);
     }
 
     PathState state(double arc) const {
-        return {arc, PathSeries::at(offset, arc), arc * PathSeries::at(tangent, arc), PathSeries::at(height, arc)};
+        return {arc, PathSeries::at(offset, arc), arc * PathSeries::at(tangent, arc),
+                PathSeries::at(height, arc)};
     }
     PathChange change(double arc) const {
         return {0, PathSeries::at(offset_change, arc), arc * PathSeries::at(tangent_change, arc),
@@ -360,8 +381,9 @@ class TipSeries {
     double reach;
 
    private:
-    /// Coefficient n of a power of a series by J. C. P. Miller's recurrence.
-    static double power(const Coefficients& of, const Coefficients& result, std::size_t n, double exponent) {
+    /// Returns coefficient n of a power of a series by J. C. P. Miller's recurrence.
+    static double power(const Coefficients& of, const Coefficients& result, std::size_t n,
+                        double exponent) {
         if (n == 0) return std::pow(of[0], exponent);
         double sum = 0;
         const auto whole = static_cast<double>(n);

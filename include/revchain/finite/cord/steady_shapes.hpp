@@ -11,7 +11,8 @@ CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
     const double height = detail::height_given(place, options);
     finite::length_in_heights(place, cord.length(), height);
-    if (options.scanned < 1) detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
+    if (options.scanned < 1)
+        detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
     return finite::continuous_shapes(finite::ContinuousChain(cord), height, options.scanned);
 }
 

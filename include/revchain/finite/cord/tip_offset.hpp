@@ -6,25 +6,26 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A model of the arc s of one crossing by the free end's offset eta_0: s - s(0) = c eta_0^2/(1 + b
-/// eta_0).
+/// A model of the arc s of one crossing as a function of the free end's offset eta_0:
+///     s - s(0) = c eta_0^2/(1 + b eta_0).
 struct CrossingLaw {
     double quadratic, bend;
 
-    /// For the uniform chain: c from small amplitudes; c/b = 2 j - 1, since a stretched chain has
-    /// half waves of length eta_0. The rise is right within 20 percent.
+    /// Returns the law of the uniform chain: c from small amplitudes; c/b = 2 j - 1, since a
+    /// stretched chain has half waves of length eta_0. The rise s - s(0) is right within 20 %.
     static CrossingLaw uniform(int crossing) {
         const double c = 0.502 * crossing - 0.15;
         return {c, c / (2 * crossing - 1)};
     }
-    /// Through a value and a slope, where they fit.
-    static CrossingLaw through(double tip_offset, double rise, double rate, const CrossingLaw& otherwise) {
+    /// Returns the law through a value and a slope, if one fits; `otherwise` if none does.
+    static CrossingLaw through(double tip_offset, double rise, double rate,
+                               const CrossingLaw& otherwise) {
         const double power = rate * tip_offset / rise;  // local exponent of eta_0, between 2 and 1
         if (!(power > 1.0001 && power < 2)) return otherwise;
         const double b = (2 - power) / (power - 1);
         return {rise * (1 + b) / (tip_offset * tip_offset), b / tip_offset};
     }
-    /// The law of the crossing before, corrected relative to the uniform chain as this one is.
+    /// Returns the law of the crossing before, corrected from the uniform chain like this one.
     CrossingLaw of_one_before(int crossing) const {
         if (crossing < 2) return *this;
         const CrossingLaw here = uniform(crossing), before = uniform(crossing - 1);
@@ -36,35 +37,38 @@ struct CrossingLaw {
     }
 };
 
-/// A range of eta_0 in which a crossing passes the support, from below (`rises`) or above.
+/// A range of eta_0 in which a crossing passes the support, from below (`rises`) or from above.
 struct TipRange {
     double low, high;
     bool rises;
 };
 
-/// eta_0 for which a crossing is at `length`, within `near` relatively, and the law fitted to the
-/// last path: by Newton's method or that law. Paths far from the solution are followed with lower
-/// accuracy. 0 if a path could not be followed that far.
+/// An eta_0 for which a crossing is at `length`, within `near` relatively, and the law fitted to
+/// the last path. Each step is by Newton's method or by that law. Paths far from the solution are
+/// followed with lower accuracy. The value is 0 if a path could not be followed that far.
 struct TipOffset {
     static constexpr double near = 1e-8;
     double value = 0;
     CrossingLaw law;
 };
 REVCHAIN_LAZY
-TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
-                     CrossingLaw law) {
+TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length,
+                     TipRange range, CrossingLaw law) {
     const auto middle = [&] {
         if (range.low == 0) return 0.1 * range.high;
         return std::clamp(std::sqrt(range.low) * std::sqrt(range.high), range.low, range.high);
     };
-    const auto inside = [&](double tip) { return tip > range.low && tip < range.high ? tip : middle(); };
+    const auto inside = [&](double tip) {
+        return tip > range.low && tip < range.high ? tip : middle();
+    };
     const double rise = length - place_at_rest;
     double tip = inside(std::min(law.tip_offset(rise), 0.999 * range.high)), last = 0.05;
     for (int round = 0; round < 200; ++round) {
-        // the fitted law leaves 1e-2 of the step's square, relative to the rise, which near a
-        // critical height is a small part of the arc; more accuracy is not needed
+        // The fitted law leaves 1e-2 of the step's square, relative to the rise. Near a critical
+        // height the rise is a small part of the arc. More accuracy is not needed.
         const double square = last * last;
-        const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
+        const double tolerance =
+            std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
         const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
         if (static_cast<int>(path.crossings().size()) < crossing) return {0, law};
         const Path::Crossing& found = path.crossings().back();
@@ -78,7 +82,8 @@ TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, d
         last = std::abs(next / tip - 1);
         tip = next;
         // the next step would be below the square of this one plus the tolerance
-        if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise && tolerance * length < TipOffset::near * rise)
+        if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise &&
+            tolerance * length < TipOffset::near * rise)
             break;
     }
     return {tip, law};

@@ -5,17 +5,17 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Bounds common to all chains that begin in a cell. With mirror images, offsets are over the sine
-/// of the lowest link's angle: this excludes the chain along the axis.
+/// Bounds for all chains that begin in a cell. With mirror images, offsets are over the sine of the
+/// lowest link's angle, which excludes the chain along the axis.
 struct HeldReach {
-    bool none = false;           ///< no chain of the cell meets the goal with the wanted half waves
-    bool known = false;          ///< the rest is
-    long looked = 1;             ///< links swept
+    bool none = false;           ///< whether no chain meets the goal with the wanted half waves
+    bool known = false;          ///< whether the fields below `looked` are known
+    long looked = 1;             ///< number of links swept
     Interval<double> side, gap;  ///< of the upper end, at the cell's centre
     std::array<Interval<double>, 2> side_change, gap_change;  ///< over the cell
 };
 
-/// Sweeps a cell of starts up the chain, as `held_sweep` does for one state.
+/// Sweeps a cell of starts up the chain, as `held_sweep` sweeps one state.
 class HeldCells : public HeldBounds {
    public:
     using HeldBounds::HeldBounds;
@@ -25,13 +25,15 @@ class HeldCells : public HeldBounds {
         const HeldCell middle{{point(cell.at[0]), point(cell.at[1])}, cell.up};
         Start box(cell, *this), centre(middle, *this);
         HeldReach result;
-        if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0) return none(result.looked);
+        if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0)
+            return none(result.looked);
         const std::array<Span, 2> off{cell.at[0] - middle.at[0], cell.at[1] - middle.at[1]};
         Slopes slopes;
         slopes.begin(box, links_[0]);
         int waves = 1, sign = 0;
         if (lower_.yields())
-            sign = (gives_ * box.pull * (mirrored_ ? Span(1.0) : box.sine) + foot_ - lower_.radius).sign();
+            sign = (gives_ * box.pull * (symmetric_ ? Span(1.0) : box.sine) + foot_ - lower_.radius)
+                       .sign();
         Direction<Span> last{-box.sine, box.cosine};
         if (misses(box, 0, waves, sign)) return none(result.looked);
         for (std::size_t m = 1; m < links_.size(); ++m) {
@@ -41,7 +43,7 @@ class HeldCells : public HeldBounds {
             result.looked += 2;
             if (!everywhere.known || !at.known) {
                 const bool past = sign != 0 && everywhere.past(box.offset, link) == -sign;
-                result.none = mirrored_ && past && waves == most_ && m + 1 < links_.size();
+                result.none = symmetric_ && past && waves == most_ && m + 1 < links_.size();
                 if (result.none || arcs == 0) return result;
                 long work = arcs * static_cast<long>(links_.size());
                 result.looked += work;
@@ -54,7 +56,8 @@ class HeldCells : public HeldBounds {
             centre.pass(link, at), box.pass(link, everywhere);
             for (Start::Part part : {&Start::offset, &Start::across, &Start::rise}) {
                 const auto& change = slopes.of(part);
-                box.*part = common(box.*part, centre.*part + change[0] * off[0] + change[1] * off[1]);
+                box.*part =
+                    common(box.*part, centre.*part + change[0] * off[0] + change[1] * off[1]);
             }
             if (misses(box, m, waves, sign)) return none(result.looked);
         }
@@ -67,8 +70,10 @@ class HeldCells : public HeldBounds {
             side = side - upper_.compliance * (pulled[i] + upper_.carriage * side);
         }
         if (goal_.is_span) return result;
-        const Span across = box.unit * box.across, along = top(box), force = sqrt(square(across) + square(along));
-        const std::array<Span, 2> unit{Span(0.0), box.unit_change}, push{box.cosine, box.push_change};
+        const Span across = box.unit * box.across, along = top(box),
+                   force = sqrt(square(across) + square(along));
+        const std::array<Span, 2> unit{Span(0.0), box.unit_change},
+            push{box.cosine, box.push_change};
         for (std::size_t i = 0; i < 2; ++i) {
             const Span change = box.unit * pulled[i] + box.across * unit[i];
             result.gap_change[i] = (across * change + along * push[i]) / force;
@@ -84,45 +89,49 @@ class HeldCells : public HeldBounds {
         return result;
     }
 
-    /// A link under its load: sine over that of the lowest link, pull, growth of its moment.
+    /// A link: its loads, sine over `Start::unit`, cosine, pull and growth of its moment.
     struct Hung {
         Span across, along, sine, cosine, pull, growth, most;
         bool known = false;
 
-        /// The certain sign of the offset above a link whose pull may vanish, else 0.
+        /// Returns the certain sign of the offset above a link whose pull may vanish, or 0.
         int past(const Span& offset, const Link<Span>& link) const {
             const int sign = across.sign();
             const Span turning = turning_of(link);
             if (sign == 0 || !(most.high > 0) || turning.low < 0) return 0;
             const Span least = link.length * across / Span((most + turning).high);
-            return sign > 0 && offset.high < least.low ? -1 : sign < 0 && offset.low > least.high ? 1 : 0;
+            return sign > 0 && offset.high < least.low   ? -1
+                   : sign < 0 && offset.low > least.high ? 1
+                                                         : 0;
         }
     };
 
     /// A partly swept chain and its start. The sine is positive if the lowest link leads outwards.
-    /// Offset and force across are over `unit`: that sine if shapes have mirror images, else 1.
+    /// Offset and force across are over `unit`: this sine if shapes have mirror images, else 1.
     struct Start {
         using Part = Span Start::*;
         Span pull, sine, cosine, sine_change, cosine_change, push, push_change;
         Span unit{1.0}, unit_change{0.0};
         Span offset, across, rise;
-        std::array<Span, 2> offset_change{Span(0.0), Span(0.0)}, across_change{Span(-1.0), Span(0.0)};
+        std::array<Span, 2> offset_change{Span(0.0), Span(0.0)},
+            across_change{Span(-1.0), Span(0.0)};
 
         Start(const HeldCell& cell, const HeldCells& chain) : pull(cell.at[0]) {
             const Link<Span>& lowest = chain.links_[0];
             const auto low = direction(cell.at[1].low), high = direction(cell.at[1].high);
             sine = hull(low[0], high[0]), cosine = hull(low[1], high[1]);
-            if (chain.mirrored_) sine.low = std::max(sine.low, 0.0);
+            if (chain.symmetric_) sine.low = std::max(sine.low, 0.0);
             if (cell.at[1].contains(1.0)) sine.high = std::max(sine.high, 1.0);
             if (cell.at[1].contains(-1.0)) sine.low = std::min(sine.low, -1.0);
             if (cell.at[1].contains(0.0)) cosine.high = std::max(cosine.high, 1.0);
-            const Span twice = hull(Span(hull(low[2], high[2])), cell.at[1].contains(0.0) ? Span(2.0) : low[2]);
+            const Span twice =
+                hull(Span(hull(low[2], high[2])), cell.at[1].contains(0.0) ? Span(2.0) : low[2]);
             sine_change = cosine * twice, cosine_change = -(sine * twice);
             if (!cell.up) cosine = -cosine, cosine_change = -cosine_change;
             const Span turning = turning_of(lowest);
             push = (pull - turning) * cosine, push_change = (pull - turning) * cosine_change;
             offset = lowest.length, rise = lowest.length * cosine;
-            if (chain.mirrored_) {
+            if (chain.symmetric_) {
                 unit = sine, unit_change = sine_change;
                 if (chain.lower_.yields()) {
                     offset = offset + chain.gives_ * pull, offset_change[0] = chain.gives_;
@@ -154,16 +163,19 @@ class HeldCells : public HeldBounds {
         void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
             const Span& s = hung.sine;
             const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
-            const Span with_unit = -(chain.unit * hung.across * square(s) * (hung.pull - turning_of(link))) /
+            const Span with_unit = -(chain.unit * hung.across * square(s) *
+                                     (hung.pull - turning_of(link))) /
                                    (hung.growth * hung.pull),
                        with_push = -(hung.cosine * s) / hung.growth;
-            const std::array<Span, 2> unit{Span(0.0), chain.unit_change}, push{chain.cosine, chain.push_change};
+            const std::array<Span, 2> unit{Span(0.0), chain.unit_change},
+                push{chain.cosine, chain.push_change};
             const std::array<Span, 4> J{Span(1.0) - turn * link.moment, -turn,
                                         link.moment + link.rest * (Span(1.0) - turn * link.moment),
                                         Span(1.0) - link.rest * turn};
             std::array<double, 4> next{};
             for (std::size_t i = 0; i < 4; ++i)
-                next[i] = J[i / 2 * 2].middle() * basis_[i % 2] + J[i / 2 * 2 + 1].middle() * basis_[i % 2 + 2];
+                next[i] = J[i / 2 * 2].middle() * basis_[i % 2] +
+                          J[i / 2 * 2 + 1].middle() * basis_[i % 2 + 2];
             const Span p(next[0]), q(next[1]), r(next[2]), t(next[3]), determinant = p * t - q * r;
             const auto solved = [&](const Span& x, const Span& y) {
                 return std::array{(t * x - q * y) / determinant, (p * y - r * x) / determinant};
@@ -182,15 +194,18 @@ class HeldCells : public HeldBounds {
                 const auto kept = times(middle_[i][0], middle_[i][1]);
                 const Span offset = kept[0] + direct, across = kept[1] + link.rest * direct;
                 middle_[i] = {offset.middle(), across.middle()};
-                const auto fresh = solved(offset - Span(middle_[i][0]), across - Span(middle_[i][1]));
+                const auto fresh =
+                    solved(offset - Span(middle_[i][0]), across - Span(middle_[i][1]));
                 const Span a = one[0] * off_[i][0] + other[0] * off_[i][1] + fresh[0],
                            b = one[1] * off_[i][0] + other[1] * off_[i][1] + fresh[1];
                 off_[i] = {a, b};
             }
             basis_ = next;
             for (std::size_t i = 0; i < 2; ++i) {
-                offset_[i] = Span(middle_[i][0]) + Span(basis_[0]) * off_[i][0] + Span(basis_[1]) * off_[i][1];
-                across_[i] = Span(middle_[i][1]) + Span(basis_[2]) * off_[i][0] + Span(basis_[3]) * off_[i][1];
+                offset_[i] = Span(middle_[i][0]) + Span(basis_[0]) * off_[i][0] +
+                             Span(basis_[1]) * off_[i][1];
+                across_[i] = Span(middle_[i][1]) + Span(basis_[2]) * off_[i][0] +
+                             Span(basis_[3]) * off_[i][1];
             }
         }
         const std::array<Span, 2>& of(Start::Part part) const {
@@ -219,25 +234,28 @@ class HeldCells : public HeldBounds {
         return sqrt(square(chain.unit * chain.across) + square(top(chain))) - goal_.value;
     }
 
-    /// The distance of the upper end of a swept chain from its support, over the unit.
+    /// Returns the distance of the upper end of a swept chain from its support, over the unit.
     Span side(const Start& chain) const {
-        return mirrored_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
+        return symmetric_ && upper_.firm ? chain.offset : upper_.miss(chain.offset, chain.across);
     }
-    /// Offset of the line between the rest positions of the ends at the chain's height.
-    Span line(const Start& chain) const { return mirrored_ ? Span(0.0) : lower_.radius + slope_ * chain.rise; }
-    /// Whether a chain swept to link m cannot meet the goal; counts half waves.
+    /// Returns the offset of the line between the ends' rest positions at the chain's height.
+    Span line(const Start& chain) const {
+        return symmetric_ ? Span(0.0) : lower_.radius + slope_ * chain.rise;
+    }
+    /// Returns true if a chain swept to link m cannot meet the goal. Counts half waves.
     bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
         const bool last = m + 1 == links_.size();
-        const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0), z = goal_.is_span ? gap(chain) : Span(0.0);
+        const Span y = upper_.firm ? chain.unit * side(chain) : Span(0.0),
+                   z = goal_.is_span ? gap(chain) : Span(0.0);
         if ((square(y) + square(z)).low > square(rest_[m + 1]).high) return true;
         if (!goal_.is_span && (chain.rise + rest_[m + 1]).high < 0) return true;  // upside down
         if (last && (!side(chain).may_vanish() || !gap(chain).may_vanish())) return true;
         if (last && upper_.firm) return false;
-        const Span aside = mirrored_ ? chain.offset : chain.offset - line(chain);
+        const Span aside = symmetric_ ? chain.offset : chain.offset - line(chain);
         const int here = aside.sign();
         if (sign == 0) sign = here;
         if (here == -sign && here != 0) sign = here, ++waves;
-        if (waves == most_ && sign != 0) {  // it must not cross the line again
+        if (waves == most_ && sign != 0) {  // the chain must not cross the line again
             const Span at = line(chain);
             if (sign > 0) chain.offset.low = std::max(chain.offset.low, at.low);
             if (sign < 0) chain.offset.high = std::min(chain.offset.high, at.high);
@@ -245,8 +263,9 @@ class HeldCells : public HeldBounds {
         return waves > most_;
     }
 
-    /// Whether a chain may meet the upper end from link m on, in intervals and arcs.
-    bool may_meet(std::size_t m, Start chain, Direction<Span> last, int waves, int sign, long& work) const {
+    /// Returns true if a chain may meet the upper end from link m on, in intervals and arcs.
+    bool may_meet(std::size_t m, Start chain, Direction<Span> last, int waves, int sign,
+                  long& work) const {
         for (; m < links_.size(); ++m) {
             if (--work < 0) return true;
             const Link<Span>& link = links_[m];
@@ -264,15 +283,17 @@ class HeldCells : public HeldBounds {
         return true;
     }
 
-    /// `may_meet` for directions of link m in part of a quarter circle.
-    bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at, int waves, int sign,
-                long& work, std::size_t quarter, double from, double to) const {
+    /// Returns `may_meet` for directions of link m in part of a quarter circle.
+    bool in_arc(std::size_t m, const Start& chain, const Direction<Span>& last, const Hung& at,
+                int waves, int sign, long& work, std::size_t quarter, double from,
+                double to) const {
         if (--work < 0) return true;
         const Link<Span>& link = links_[m];
         auto [sine, cosine] = arc(quarter, from, to);
         const Span R = chain.unit * at.across, turning = turning_of(link);
         if (!(at.along * sine + turning * sine * cosine - R * cosine).may_vanish()) return false;
-        if (!((at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine).high > 0)) return false;
+        if (!((at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine).high > 0))
+            return false;
         if (at.across.sign() * sine.sign() < 0 && turning.low >= 0) return false;
         if (is_zero(turning) && is_zero(turning_of(links_[m - 1]))) {
             // the pull is that of the link below plus the load of the pin between them
@@ -288,11 +309,13 @@ class HeldCells : public HeldBounds {
                    in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
         };
         if (to - from > 0.07) return in_halves();
-        // Newton's method in intervals about the middle
-        for (int round = 0; round < 3; ++round) {
-            const Span at_s(sine.middle()), at_c(cosine.middle()), size = sqrt(square(at_s) + square(at_c));
-            const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s), near_c = hull(cosine, c);
-            const Span growth = at.along * near_c + turning * (square(near_c) - square(near_s)) + R * near_s;
+        for (int round = 0; round < 3; ++round) {  // Newton's method in intervals about the middle
+            const Span at_s(sine.middle()), at_c(cosine.middle()),
+                size = sqrt(square(at_s) + square(at_c));
+            const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s),
+                       near_c = hull(cosine, c);
+            const Span growth =
+                at.along * near_c + turning * (square(near_c) - square(near_s)) + R * near_s;
             if (!growth.positive()) break;
             const Span turn = (R * c - at.along * s - turning * s * c) / growth;
             sine = common(sine, s + near_c * turn), cosine = common(cosine, c - near_s * turn);
@@ -307,13 +330,14 @@ class HeldCells : public HeldBounds {
             if (!(across.low <= across.high)) return false;
             next.offset = chain.offset - link.length * across;
             next.across = at.across + link.rest * next.offset;
-        } else {
-            // the pull along the link may vanish: the offset above the link becomes the unit
+        } else {  // the pull along the link may vanish: the offset above it becomes the unit
             const int side = chain.offset.sign(), drawn = at.across.sign();
             if (side == 0 || drawn == 0 || turning.low < 0) return true;
             const bool away = drawn != side;
-            const Span offset = side > 0 ? chain.offset : -chain.offset, across = drawn > 0 ? at.across : -at.across;
-            const Span most(pulled.high), share = away ? Span(1.0) : Span(1.0) - offset * most / (link.length * across);
+            const Span offset = side > 0 ? chain.offset : -chain.offset,
+                       across = drawn > 0 ? at.across : -at.across;
+            const Span most(pulled.high),
+                share = away ? Span(1.0) : Span(1.0) - offset * most / (link.length * across);
             if (!share.positive()) return true;
             const Span moved = link.length * (drawn > 0 ? sine : -sine), was = chain.unit * offset;
             next.unit = away ? moved + was : moved - was;
@@ -323,7 +347,8 @@ class HeldCells : public HeldBounds {
             next.across = link.rest * next.offset + (drawn > 0 ? added : -added);
         }
         int more = waves, way = sign;
-        if (misses(next, m, more, way) || !may_meet(m + 1, next, {sine, cosine}, more, way, work)) return false;
+        if (misses(next, m, more, way) || !may_meet(m + 1, next, {sine, cosine}, more, way, work))
+            return false;
         return to - from < 1e-3 || in_halves();
     }
     static std::array<Span, 2> arc(std::size_t quarter, double from, double to) {
@@ -334,12 +359,14 @@ class HeldCells : public HeldBounds {
     }
     static std::array<Span, 3> direction(double t) {
         const Span tangent(t), whole = Span(1.0) + square(tangent);
-        return {Span(2.0) * tangent / whole, (Span(1.0) - square(tangent)) / whole, Span(2.0) / whole};
+        return {Span(2.0) * tangent / whole, (Span(1.0) - square(tangent)) / whole,
+                Span(2.0) / whole};
     }
 
     static Hung hung(const Link<Span>& link, const Start& chain, const Span& load) {
         Hung result;
-        const Span r = chain.across + link.moment * chain.offset, R = chain.unit * r, V = chain.push + load;
+        const Span r = chain.across + link.moment * chain.offset, R = chain.unit * r,
+                   V = chain.push + load;
         result.across = r, result.along = V;
         const Span sum = square(R) + square(V);
         result.most = sqrt(sum);
@@ -350,13 +377,12 @@ class HeldCells : public HeldBounds {
             result.cosine = common(V / result.pull, Span(-1.0, 1.0));
         } else {
             if (!(sum.low > square(turning).high * (1 + 1e-9))) return result;
-            // Newton's method in intervals about the inclination at the middle
             Direction<double> way{R.middle() / std::hypot(R.middle(), V.middle()),
                                   V.middle() / std::hypot(R.middle(), V.middle())};
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
-            if (!(settle(near, R.middle(), V.middle(), way) > 0)) return result;
-            Direction<Span> all;
-            const Span growth = settle_near(link, R, V, way, all);
+            if (!(find_direction(near, R.middle(), V.middle(), way) > 0)) return result;
+            Direction<Span> all;  // by Newton's method in intervals about the middle's inclination
+            const Span growth = enclose_direction(link, R, V, way, all);
             if (!growth.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));
             result.pull = sqrt(square(V + turning * result.cosine) + square(R));

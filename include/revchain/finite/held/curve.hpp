@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "revchain/finite/held/sweep.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/arc_step.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A state of a chain or cord held at both ends: forces at the lower end, and span.
+/// A state of a chain or cord held at both ends: the forces at the lower end, and the span.
 struct HeldState {
     HeldForces<double> forces;
     double span;
@@ -18,32 +18,33 @@ struct HeldState {
 /// The number that varies along a curve of states besides the two forces.
 enum class Third { span, height, part };
 
-/// A curve of states that meet the upper end, in two forces and a third number, by its arc, through
-/// folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the upper
-/// end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`; `keep` stores it.
+/// A curve of states that meet the upper end, in two forces and a third number, followed by its arc
+/// through folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the
+/// upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`. If `keep` is true
+/// it stores its state.
 template <class Shooter>
 class HeldCurve {
    public:
-    /// `length` and `weight` scale steps; `mirrored`: both ends are on the axis.
-    HeldCurve(Shooter& shooter, double length, double weight, bool mirrored = true)
-        : shooter_(&shooter), length_(length), weight_(weight), mirrored_(mirrored) {}
+    /// `length` and `weight` scale steps. `symmetric` is true if both ends are on the axis.
+    HeldCurve(Shooter& shooter, double length, double weight, bool symmetric = true)
+        : shooter_(&shooter), length_(length), weight_(weight), symmetric_(symmetric) {}
 
     static constexpr int max_steps = 3000;
     static constexpr double at_rest = 1e4;  ///< conical height over length of a chain at rest
 
-    /// Newton's method at the span and height of `state`, to double accuracy.
+    /// Returns the state at the span and height of `state`, by Newton's method, to double accuracy.
     std::optional<HeldState> corrected(HeldState state) {
-        detail::look();
+        detail::check_interrupt();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
         if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
         (*shooter_)(state.forces, true);
         return state;
     }
 
-    /// The state at a span and a height, by continuation: the ends of the nearly straight system
-    /// without gravity approach, then move to their supports, if these are not firm on the axis;
-    /// then gravity grows. `slack` is length less span; `nearly_straight(slack)` returns the forces
-    /// of a small slack. None if the curve does not lead there.
+    /// Returns the state at a span and a height, by continuation; none if the curve does not lead
+    /// there. First the ends of the nearly straight system without gravity approach each other.
+    /// Ends that are not firm on the axis then move to their supports. Last, gravity grows. `slack`
+    /// is length less span; `nearly_straight(slack)` returns the forces of a small slack.
     template <class NearlyStraight>
     std::optional<HeldState> from_straight(double slack, double span, double height,
                                            const NearlyStraight& nearly_straight) {
@@ -60,8 +61,8 @@ class HeldCurve {
         if (state && height > 0) state = follow<Third::height>(*state, height);
         return state;
     }
-    /// Visits the states of the height of `from`, both ways along the curve, with lambda times the
-    /// top tension as wanted. Usually there are two, on both sides of the largest tension.
+    /// Visits the states at the height of `from` whose top tension times lambda is `wanted`, both
+    /// ways along the curve. Usually there are two, on both sides of the largest tension.
     template <class Visit>
     void under(const HeldState& from, double wanted, Visit&& visit) {
         const auto kept = shooter_->kept();
@@ -75,7 +76,7 @@ class HeldCurve {
                     between(last, here, wanted, visit);
                 } else if (before.off * last.off > 0 && std::abs(last.off) < std::abs(before.off) &&
                            std::abs(last.off) < std::abs(here.off)) {
-                    // the nearest state may be beyond the wanted tension: then there are two
+                    // the nearest state may be beyond the wanted tension; then there are two states
                     if (const auto met = crossed(before, here, wanted)) {
                         between(before, *met, wanted, visit);
                         between(*met, here, wanted, visit);
@@ -93,8 +94,9 @@ class HeldCurve {
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
         step_along<Third::height>(from, true, visit, max_step);
     }
-    /// The state in the plane across the chord of two states, at a share of it.
-    std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to, double share) {
+    /// Returns the state in the plane across the chord of two states, at a share of the chord.
+    std::optional<HeldState> across_chord(const HeldState& from, const HeldState& to,
+                                          double share) {
         constexpr Third height = Third::height;
         const Triple scale = scales<height>(from);
         const HeldForces<double>&a = from.forces, &b = to.forces;
@@ -133,10 +135,11 @@ class HeldCurve {
 
     struct Tense {
         HeldState state;
-        double off;  ///< lambda times the top tension, less the wanted
+        double off;  ///< lambda times the top tension, minus the wanted value
     };
     Tense tense(const HeldState& x, double wanted) {
-        const double across = (*shooter_)(x.forces, false).across, along = x.forces.along + x.forces.height * weight_;
+        const double across = (*shooter_)(x.forces, false).across,
+                     along = x.forces.along + x.forces.height * weight_;
         return {x, std::hypot(across, along) - wanted};
     }
     static HeldState mixed(HeldState a, const HeldState& b, double share) {
@@ -150,7 +153,7 @@ class HeldCurve {
         if (!state) return {};
         return tense(*state, wanted);
     }
-    /// Visits the state between two with the wanted top tension.
+    /// Visits the state between two states with the wanted top tension.
     template <class Visit>
     void between(const Tense& a, const Tense& b, double wanted, Visit&& visit) {
         const auto at = [&](double share) { return at_share(a, b, share, wanted); };
@@ -158,7 +161,7 @@ class HeldCurve {
         const auto best = detail::state_between(a.off, b.off, at, off, 1e-16 * wanted);
         if (best) visit(best->state);
     }
-    /// A state between two beyond the wanted tension, searched where it is nearest.
+    /// Returns a state between two that is beyond the wanted tension, searched where it is nearest.
     std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
         for (int round = 0; round < 60; ++round) {
             const auto first = at_share(a, b, 0.4, wanted), second = at_share(a, b, 0.6, wanted);
@@ -180,11 +183,13 @@ class HeldCurve {
     template <Third third>
     Triple scales(const HeldState& x) const {
         const double along = std::abs(x.forces.along), hung = weight_ * x.forces.height,
-                     across = std::abs(x.forces.across) + (has_image(x) ? 0.0 : 0.1 * (along + hung));
+                     across =
+                         std::abs(x.forces.across) + (has_image(x) ? 0.0 : 0.1 * (along + hung));
         const double pull = along + 0.05 * (across + hung);
         if constexpr (third == Third::span) {
             const double least = x.forces.height == 0 ? along : pull;
-            return {across, least, std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
+            return {across, least,
+                    std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
         } else if constexpr (third == Third::height) {
             return {across, pull, x.forces.height + 0.3 * (across + along) / weight_};
         } else {
@@ -200,8 +205,8 @@ class HeldCurve {
         else
             return x.forces.part;
     }
-    /// Whether the state with opposite forces across is one too; then this force is never 0.
-    bool has_image(const HeldState& x) const { return mirrored_ || x.forces.part == 0; }
+    /// Returns true if the opposite force across gives a state too; then this force is never 0.
+    bool has_image(const HeldState& x) const { return symmetric_ || x.forces.part == 0; }
     template <Third third>
     static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
         HeldState x = from;
@@ -209,7 +214,7 @@ class HeldCurve {
         number<third>(x) += scale[2] * by[2];
         return x;
     }
-    /// Gradients of the end's offset and of its rise less the span, by scaled numbers.
+    /// Returns the gradients of the end's offset and of its rise minus the span, by scaled numbers.
     template <Third third>
     std::array<Triple, 2> gradients(const HeldEnd<double>& end, const Triple& scale) const {
         Triple y(end.offset_change.data()), z(end.rise_change.data());
@@ -219,36 +224,35 @@ class HeldCurve {
 
     template <Third third, class Visit>
     void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
-        double step = std::min(0.05, max_step);
+        double step = 0.05;
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<third>(state);
-        for (int count = 0; count < max_steps && step > 1e-9; ++count) {
-            detail::look();
+        for (int count = 0; count < max_steps; ++count) {
             const auto [over_y, over_z] = gradients<third>(end, scale);
             Triple tangent = cross(over_y.normalized(), over_z.normalized()).normalized();
             if (!(tangent.norm() > 0.5)) return;
             if (tangent.dot(last) < 0) tangent = -tangent;
             HeldState next;
             HeldEnd<double> there;
-            int rounds = 0;
-            for (; step > 1e-9; step *= 0.4)
-                if (correct<third>(state, scale, tangent, step, next, there, rounds)) break;
-            if (!(step > 1e-9)) return;
+            const auto attempt = [&](double reach) -> std::optional<double> {
+                int rounds = 0;
+                if (!correct<third>(state, scale, tangent, reach, next, there, rounds)) return {};
+                return rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
+            };
+            if (!detail::arc_step(step, max_step, 0.4, attempt)) return;
             (*shooter_)(next.forces, true);
             if (!visit(next)) return;
             const Triple before = scale;
             state = next, end = there, scale = scales<third>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);
-            step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
-            step = std::min(step, max_step);
         }
     }
 
-    /// Newton's method back to the curve in the plane across the tangent.
+    /// Returns to the curve by Newton's method in the plane across the tangent; false on failure.
     template <Third third>
-    bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
-                 HeldEnd<double>& end, int& rounds) {
+    bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step,
+                 HeldState& x, HeldEnd<double>& end, int& rounds) {
         Triple at = tangent * step;
         double last = 1;
         for (rounds = 0; rounds < 8; ++rounds) {
@@ -260,7 +264,8 @@ class HeldCurve {
             const auto [over_y, over_z] = gradients<third>(end, scale);
             // three equations: the end's two gaps and the plane
             const double y = end.offset, z = end.rise - x.span, p = tangent.dot(at) - step;
-            const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
+            const Triple a = cross(over_z, tangent), b = cross(tangent, over_y),
+                         c = cross(over_y, over_z);
             const Triple change = -(y * a + z * b + p * c) / over_y.dot(a);
             const double size = change.norm();
             if (!(size < 2 * step + 1e-9)) return false;
@@ -276,7 +281,7 @@ class HeldCurve {
         return false;
     }
 
-    /// Continues to another value of the third number; none if the curve does not lead there.
+    /// Returns the state at a value of the third number; none if the curve does not lead there.
     template <Third third>
     std::optional<HeldState> follow(const HeldState& from, double wanted) {
         const auto off = [&](const HeldState& x) { return number<third>(x) - wanted; };
@@ -300,19 +305,20 @@ class HeldCurve {
 
     Shooter* shooter_;
     double length_, weight_;
-    bool mirrored_;
+    bool symmetric_;
 };
 
-/// Visits the states of a height with tension at the upper end times height as `wanted`, on the
+/// Visits the states of a height whose tension at the upper end times height is `wanted`, on the
 /// branch through the first of a few spans that has a state.
 template <class System, class Visit>
 void each_under(System& held, int half_waves, double height, double wanted, const Visit& visit) {
     for (const double share : {0.9, 0.5, 0.99, 0.1})
-        if (const auto state = held.at_height(half_waves, held.length() * typename System::S(share), height))
+        if (const auto state =
+                held.at_height(half_waves, held.length() * typename System::S(share), height))
             return held.curve().under(*state, wanted, visit);
 }
 
-/// Larger error bounds mean that the cord hangs folded along the axis.
+/// Error bounds of at least this mean that the cord hangs folded along the axis.
 inline constexpr double folded = 1e-3;
 
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` calls `add` with each shape.

@@ -14,7 +14,7 @@ struct HeldRoot {
     double pull, tangent;  ///< of the shape, to about 1e-10
 };
 
-/// All starts of chains that meet the upper end, and undecided cells.
+/// All starts of chains that meet the upper end, and the undecided cells.
 struct HeldRoots {
     std::vector<HeldRoot> roots;
     std::vector<HeldCell> undecided;
@@ -31,7 +31,7 @@ class HeldSearch {
     HeldRoots operator()() {
         const Span pulls = chain_.pulls();
         scale_ = pulls.high;
-        const Span tangents(chain_.mirrored() ? 0.0 : -1.0, 1.0);
+        const Span tangents(chain_.is_symmetric() ? 0.0 : -1.0, 1.0);
         const std::deque<HeldCell> whole{{{pulls, tangents}, false}, {{pulls, tangents}, true}};
         each_cell<1, true>(
             whole, [&] { return budget_ <= 0; },
@@ -46,10 +46,11 @@ class HeldSearch {
         bool regular, inside, none;
     };
 
-    /// Krawczyk's operator: encloses the roots of a cell.
+    /// Encloses the roots of a cell by Krawczyk's operator.
     static std::optional<Image> image(const HeldCell& cell, const HeldReach& reach) {
         const double a = reach.side_change[0].middle(), b = reach.side_change[1].middle(),
-                     c = reach.gap_change[0].middle(), d = reach.gap_change[1].middle(), det = a * d - b * c;
+                     c = reach.gap_change[0].middle(), d = reach.gap_change[1].middle(),
+                     det = a * d - b * c;
         if (!(std::abs(det) > 0) || !std::isfinite(1 / det)) return {};
         const std::array<double, 4> inverse{d / det, -b / det, -c / det, a / det};
         Image result{{}, true, true, false};
@@ -58,15 +59,17 @@ class HeldSearch {
             Span next = Span(cell.at[i].middle()) - (p * reach.side + q * reach.gap);
             double norm = 0;
             for (std::size_t j = 0; j < 2; ++j) {
-                const Span entry = Span(i == j ? 1.0 : 0.0) - (p * reach.side_change[j] + q * reach.gap_change[j]);
+                const Span entry =
+                    Span(i == j ? 1.0 : 0.0) - (p * reach.side_change[j] + q * reach.gap_change[j]);
                 const Span off = cell.at[j] - Span(cell.at[j].middle());
                 next = next + entry * off;
-                // weighted by the cell's widths, so that rows compare
+                // weighted by the cell's widths, so that rows are comparable
                 norm += entry.size() * (cell.at[j].width() / cell.at[i].width());
             }
             if (!(next.low <= next.high)) return {};
             result.regular = result.regular && norm < 1;
-            result.inside = result.inside && cell.at[i].low < next.low && next.high < cell.at[i].high;
+            result.inside =
+                result.inside && cell.at[i].low < next.low && next.high < cell.at[i].high;
             result.none = result.none || next.high < cell.at[i].low || next.low > cell.at[i].high;
             result.at[i] = common(next, cell.at[i]);
         }
@@ -80,19 +83,22 @@ class HeldSearch {
         std::size_t widest = relative(cell, 0) > relative(cell, 1) ? 0 : 1;
         if (reach.known) {
             const auto weight = [&](std::size_t i) {
-                return cell.at[i].width() * (std::abs(reach.side_change[i].middle()) / chain_.length().high +
-                                             std::abs(reach.gap_change[i].middle()));
+                return cell.at[i].width() *
+                       (std::abs(reach.side_change[i].middle()) / chain_.length().high +
+                        std::abs(reach.gap_change[i].middle()));
             };
-            // the direction that moves the upper end more; slopes mean little in a long cell
+            // split the direction that moves the upper end more; in a long cell slopes mean little
             const std::size_t other = 1 - widest;
-            if (weight(other) > 4 * weight(widest) && relative(cell, other) > relative(cell, widest) / 16)
+            if (weight(other) > 4 * weight(widest) &&
+                relative(cell, other) > relative(cell, widest) / 16)
                 widest = other;
             const auto next = image(cell, reach);
             if (next) {
                 if (next->none) return;
                 if (next->regular && isolated(HeldCell{next->at, cell.up})) return;
                 const HeldCell less{next->at, cell.up};
-                if (less.at[0].width() < 0.5 * cell.at[0].width() || less.at[1].width() < 0.5 * cell.at[1].width()) {
+                if (less.at[0].width() < 0.5 * cell.at[0].width() ||
+                    less.at[1].width() < 0.5 * cell.at[1].width()) {
                     wait(less);
                     return;
                 }
@@ -108,14 +114,14 @@ class HeldSearch {
         wait(low), wait(high);
     }
 
-    /// Whether a slightly larger cell contains exactly one shape.
+    /// Returns true if a slightly larger cell contains exactly one shape. It is then listed.
     bool isolated(const HeldCell& cell) {
         HeldCell about = cell;
         for (Span& x : about.at) {
             const double by = 0.1 * x.width() + 1e-14 * x.size() + 1e-300;
             x = {x.low - by, x.high + by};
         }
-        if (chain_.mirrored()) about.at[1].low = std::max(about.at[1].low, 0.0);
+        if (chain_.is_symmetric()) about.at[1].low = std::max(about.at[1].low, 0.0);
         HeldReach reach = sweep(about);
         if (!reach.known) return false;
         auto next = image(about, reach);

@@ -8,23 +8,25 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The state at the lower end: lambda times the force on it across and along the axis; lambda =
-/// g/n^2, 0 without gravity; and `part` of the supports: with 0 the ends are firm on the axis.
+/// The state at the lower end: lambda times the force on it across and along the axis, and lambda =
+/// g/n^2, 0 without gravity. `part` scales the supports; at 0 the ends are firm on the axis.
 template <class S>
 struct HeldForces {
     S across, along, height;
     S part = S(1);
 };
 
-/// Both supports, and their derivatives and that of the height by the third number.
+/// Both supports, with the derivatives of the supports and of the height by the third number.
 template <class S>
 struct HeldEnds {
-    Held<S> lower = firm(), upper = firm();
+    SupportEnd<S> lower = firm(), upper = firm();
     std::array<S, 2> radius_change{}, compliance_change{};
     S height_change = S(1);
 
-    static Held<S> firm(const S& radius = S(0)) { return {radius, S(0), S(0), S(0), radius == S(0), true}; }
-    bool mirrored() const { return lower.symmetric && upper.symmetric; }
+    static SupportEnd<S> firm(const S& radius = S(0)) {
+        return {radius, S(0), S(0), S(0), radius == S(0), true};
+    }
+    bool is_symmetric() const { return lower.symmetric && upper.symmetric; }
     bool yields() const { return lower.yields() || upper.yields(); }
 };
 
@@ -42,16 +44,17 @@ struct Direction {
     S sine, cosine;
 };
 
-/// The swept upper end: distance from the support, as in `Held::miss`, height, and force across.
+/// The swept upper end: distance from its support (see `SupportEnd::miss`), height, force across.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
     HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
     bool known = false;  ///< false if a link is slack or its inclination turns over
 
-    /// The changes of the two forces that move the upper end by (y, z).
+    /// Returns the changes of the two forces that move the upper end by (y, z).
     std::array<S, 2> forces_to_move(const S& y, const S& z) const {
-        const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0], &d = rise_change[1];
+        const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0],
+                &d = rise_change[1];
         const S determinant = a * d - b * c;
         return {(d * y - b * z) / determinant, (a * z - c * y) / determinant};
     }
@@ -61,7 +64,7 @@ struct HeldEnd {
 /// along the axis. Returns the derivative by the inclination, positive at a stable direction; for a
 /// plummet it is the pull. Of several solutions it finds the one nearest to the given direction.
 template <class S>
-S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& direction) {
+S find_direction(const Link<S>& link, const S& across, const S& along, Direction<S>& direction) {
     using std::abs;
     using std::sqrt;
     S &s = direction.sine, &c = direction.cosine;
@@ -93,11 +96,11 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
 }
 
 /// Encloses the direction of a link other than a plummet under the loads (R, V), near one found for
-/// one of them, by Newton's method in intervals. Returns the derivative as `settle` does; it is not
-/// positive if the link may be slack or have another inclination.
+/// one of the loads, by Newton's method in intervals. Returns the derivative as `find_direction`
+/// does. It is not positive if the link may be slack or have another inclination.
 template <Real T, class Span = Interval<T>>
-Span settle_near(const Link<Span>& link, const Span& R, const Span& V, const Direction<T>& found,
-                 Direction<Span>& direction) {
+Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
+                       const Direction<T>& found, Direction<Span>& direction) {
     const Span turn = link.length * link.cross, sine(found.sine), cosine(found.cosine);
     const Span size = sqrt(square(sine) + square(cosine)), s = sine / size, c = cosine / size;
     const Span left = V * s + turn * s * c - R * c;
@@ -119,18 +122,18 @@ struct SeesNothing {
     void operator()(std::size_t, const Any&...) const {}
 };
 
-/// Sweep from the lower end to the upper: Greenhill (1908) §8 with a force at the lower end,
+/// Sweeps from the lower to the upper end: Greenhill (1908) §8 with a force at the lower end,
 ///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
 ///     y = y_below - length s,         H = R + rest y,
 /// with tau = `along` and F = `across`. A lower end on a spring is at y = b - F/(lambda E), where H
-/// = F + W y, W its carriage; a firm one at b, where H = F. Derivatives by the first K numbers are
-/// exact. `settle(m, R, V, way)` sets the direction of link m and returns the derivative of its
-/// moment by the inclination; the sweep ends if that is not positive. `each(m, y, R, H, growth,
-/// change of the inclination)` receives every link: y of its lower pin, H of its upper.
-template <std::size_t K, class S, class Settle, class Each = SeesNothing>
-HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
-                         const Settle& settle, const Each& each = {}) {
-    const Held<S>&lower = ends.lower, &upper = ends.upper;
+/// = F + W y, with W its carriage. A firm one is at b, where H = F. Derivatives by the first K
+/// numbers are exact. `solve(m, R, V, way)` sets the direction of link m and returns the derivative
+/// of its moment by the inclination. The sweep ends if that is not positive. `each(m, y, R, H,
+/// growth, change of the inclination)` receives every link: y of its lower pin, H of its upper pin.
+template <std::size_t K, class S, class Solve, class Each = SeesNothing>
+HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends,
+                         const HeldForces<S>& forces, const Solve& solve, const Each& each = {}) {
+    const SupportEnd<S>&lower = ends.lower, &upper = ends.upper;
     S y = lower.radius, z(0), H = forces.across;
     HeldChange<S, K> y_change, z_change, H_change;
     y_change.fill(S(0)), z_change.fill(S(0)), H_change.fill(S(0));
@@ -140,13 +143,14 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
         y = y - lower.compliance * forces.across, H = H + lower.carriage * y;
         y_change[0] = -lower.compliance;
         if constexpr (K > 2) y_change[2] = y_change[2] - ends.compliance_change[0] * forces.across;
-        for (std::size_t i = 0; i < K; ++i) H_change[i] = H_change[i] + lower.carriage * y_change[i];
+        for (std::size_t i = 0; i < K; ++i)
+            H_change[i] = H_change[i] + lower.carriage * y_change[i];
     }
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<S>& link = links[m];
         const S R = H + link.moment * y, V = forces.height * link.pull + forces.along;
         Direction<S> way;
-        const S growth = settle(m, R, V, way);
+        const S growth = solve(m, R, V, way);
         if (!is_positive(growth)) return {};
         const auto& [s, c] = way;
         HeldChange<S, K> R_change, turned;
@@ -170,33 +174,36 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
     if constexpr (K > 2) end.offset_change[2] = end.offset_change[2] - ends.radius_change[1];
     if (upper.yields()) {
         for (std::size_t i = 0; i < K; ++i)
-            end.offset_change[i] =
-                end.offset_change[i] - upper.compliance * (H_change[i] + upper.carriage * y_change[i]);
+            end.offset_change[i] = end.offset_change[i] -
+                                   upper.compliance * (H_change[i] + upper.carriage * y_change[i]);
         if constexpr (K > 2)
-            end.offset_change[2] = end.offset_change[2] - ends.compliance_change[1] * (H + upper.carriage * y);
+            end.offset_change[2] =
+                end.offset_change[2] - ends.compliance_change[1] * (H + upper.carriage * y);
     }
     return end;
 }
 
-/// The sweep in numbers, with every link in tension, above or below the horizontal. `direction`
-/// holds starts and results. Cost O(N): 0.1 microseconds a link in double.
+/// Sweeps in numbers, with every link in tension, above or below the horizontal. `direction` holds
+/// starting values, then results. Cost O(N): 0.1 microseconds a link in double.
 template <class S, class Each = SeesNothing>
-HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends, const HeldForces<S>& forces,
-                      std::vector<Direction<S>>& direction, const Each& each = {}) {
+HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends,
+                      const HeldForces<S>& forces, std::vector<Direction<S>>& direction,
+                      const Each& each = {}) {
     const auto at_pull = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
-        const S growth = settle(links[m], R, V, direction[m]);
+        const S growth = find_direction(links[m], R, V, direction[m]);
         way = direction[m];
         return growth;
     };
     return held_sweep<3>(links, ends, forces, at_pull, each);
 }
 
-/// Newton's method on the forces at the lower end, for a rise of the upper end; returns whether it
-/// converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of the forces
-/// before and after; with mirror images the force across is compared with itself alone. It ends
-/// after a step below `enough`, or one below `rounding` that is not under a quarter of the last.
+/// Finds the forces at the lower end for a rise of the upper end, by Newton's method; returns
+/// whether it converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of
+/// the forces before and after. With mirror images the force across is compared with itself alone.
+/// It ends after a step below `enough`, or below `rounding` and over a quarter of the last.
 template <class S, class Sweep>
-bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, double rounding, const Sweep& sweep) {
+bool meet(HeldForces<S>& forces, const S& rise, bool symmetric, double enough, double rounding,
+          const Sweep& sweep) {
     const auto size_of = [](const S& x) { return std::abs(as_double(x)); };
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 30; ++round) {
@@ -207,7 +214,7 @@ bool meet(HeldForces<S>& forces, const S& rise, bool mirrored, double enough, do
         forces.across = forces.across + across, forces.along = forces.along + along;
         const double own = std::max(size_of(before.across), size_of(forces.across)),
                      whole = own + std::max(size_of(before.along), size_of(forces.along));
-        const double size = size_of(across) / (mirrored ? own : whole) + size_of(along) / whole;
+        const double size = size_of(across) / (symmetric ? own : whole) + size_of(along) / whole;
         if (!(size < 1)) return false;
         if (size < enough || (size < rounding && size > 0.25 * last)) return true;
         last = size;

@@ -36,12 +36,12 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
 template <class T>
 struct Isolation {
     std::vector<Bracket<T>> shapes;     ///< ascending
-    std::vector<Bracket<T>> undecided;  ///< ascending: may contain more shapes; empty if complete
-    long cells = 0;                     ///< examined
+    std::vector<Bracket<T>> undecided;  ///< ascending; may contain more shapes; empty if complete
+    long cells = 0;                     ///< number of cells examined
 };
 
-/// Whether rounding dominates an enclosure over a cell (or it is unknown): it is not much wider
-/// than at the centre, so splitting would not help.
+/// Returns true if rounding dominates an enclosure over a cell, or the enclosure is unknown. It is
+/// then not much wider than at the centre, so splitting would not help.
 template <Real T>
 bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
     return !(T(4) * centre.width() < over.width());
@@ -51,9 +51,9 @@ bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
 template <Real T>
 class Cutting {
    public:
-    /// Nearly a half, at random: middle cuts could meet a shape again and again.
+    /// Returns a random number near a half. Cuts at the middle could meet a shape again and again.
     T share() { return T(0.45 + 0.1 * as_double(random_()) / as_double(random_.max())); }
-    /// Near the geometric mean if the ends differ by a factor over 2; from 0, at a sixteenth.
+    /// Returns a cut near the geometric mean of ends a factor over 2 apart; from 0, at a sixteenth.
     T between(const T& low, const T& high) {
         using std::sqrt;
         const T at = share();
@@ -61,11 +61,12 @@ class Cutting {
         if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
         return low + at * (high - low);
     }
-    /// None if the range is narrower than `narrowest` of its upper end; from 0, of min(`last`, 1).
+    /// Returns a cut; none if the width is below `narrowest` times `high` (from 0: min(`last`, 1)).
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
-        const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
-                                        : high - low < narrowest * high || !(low < cut && cut < high);
+        const bool narrow = low == T(0)
+                                ? high < narrowest * std::min(last, T(1))
+                                : high - low < narrowest * high || !(low < cut && cut < high);
         return narrow ? std::nullopt : std::optional<T>(cut);
     }
 
@@ -73,14 +74,17 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
-/// Visits cells and their parts until none waits, up to `batch` at once: the newest first, so that
-/// few wait, or with `large_first` the oldest, so that remaining cells are small. `visit(cells,
-/// wait)` settles each cell, leaves it open, or passes parts to `wait`; `spent()` ends this.
-template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit, class LeaveOpen>
-void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit, const LeaveOpen& leave_open) {
+/// Visits cells and their parts until none waits, up to `batch` at once. The newest are first, so
+/// that few wait; with `large_first` the oldest, so that remaining cells are small. `visit(cells,
+/// wait)` decides each cell, leaves it open, or passes parts to `wait`. Once `spent()` is true, the
+/// remaining cells are left open.
+template <std::size_t batch = 1, bool large_first = false, class Cell, class Spent, class Visit,
+          class LeaveOpen>
+void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
+               const LeaveOpen& leave_open) {
     std::vector<Cell> cells;
     while (!waiting.empty()) {
-        detail::look();
+        detail::check_interrupt();
         cells.clear();
         while (cells.size() < batch && !waiting.empty()) {
             cells.push_back(large_first ? waiting.front() : waiting.back());
@@ -93,21 +97,21 @@ void each_cell(std::deque<Cell> waiting, const Spent& spent, const Visit& visit,
     }
 }
 
-/// State of a range of tangents: all shapes known; undecided; undecided because of rounding.
-enum class Seen { settled, open, ruled_by_rounding };
+/// The state of a range of tangents: all shapes known; undecided; undecided because of rounding.
+enum class Seen { decided, open, ruled_by_rounding };
 
-/// Splits `whole` until `classify(part, cells)` settles every part. Calls `leave_open(part)` for
-/// parts ruled by rounding, too narrow (see `Cutting`) or beyond the budget. Returns their number.
+/// Splits `whole` until `classify(part, cells)` decides every part. Calls `leave_open(part)` for
+/// parts ruled by rounding, too narrow (see `Cutting`) or over budget. Returns the number of cells.
 template <class T, class Classify, class LeaveOpen>
-long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
-           const LeaveOpen& leave_open) {
+long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget,
+           const Classify& classify, const LeaveOpen& leave_open) {
     Cutting<T> cutting;
     long cells = 0;
     const auto visit = [&](const std::vector<Bracket<T>>& one, const auto& wait) {
         const Bracket<T>& part = one.front();
         ++cells;
         const Seen seen = classify(part, cells);
-        if (seen == Seen::settled) return;
+        if (seen == Seen::decided) return;
         const auto cut = cutting.between(part.low, part.high, narrowest, last);
         if (!cut || seen == Seen::ruled_by_rounding) return leave_open(part);
         wait({*cut, part.high});
@@ -120,22 +124,24 @@ long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budg
 
 /// Splits `whole` until each part has no shape or one. Leaves out the straight chain, at 0.
 template <Real T, class End = OnAxis>
-Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, const Bracket<T>& whole,
-                     const T& narrowest, long budget, const End& support = {}) {
+Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height,
+                     const Bracket<T>& whole, const T& narrowest, long budget,
+                     const End& support = {}) {
     Isolation<T> found;
     const auto classify = [&](const Bracket<T>& part, long&) {
-        const auto end = support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
+        const auto end =
+            support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
         const bool from_zero = part.low == T(0) && support.is_symmetric();
-        if (!from_zero && !end.value.may_vanish()) return Seen::settled;
+        if (!from_zero && !end.value.may_vanish()) return Seen::decided;
         if (!end.slope[0].may_vanish()) {
-            if (from_zero) return Seen::settled;  // the straight chain alone
+            if (from_zero) return Seen::decided;  // contains only the straight chain
             const int low = sign_at(links, height, part.low, support),
                       high = sign_at(links, height, part.high, support);
             if (low * high == -1) found.shapes.push_back(part);
-            if (low * high != 0) return Seen::settled;
+            if (low * high != 0) return Seen::decided;
         }
-        const bool rounding =
-            from_zero ? rounding_rules(end.slope[0], end.centre_slope[0]) : rounding_rules(end.value, end.centre_value);
+        const bool rounding = from_zero ? rounding_rules(end.slope[0], end.centre_slope[0])
+                                        : rounding_rules(end.value, end.centre_value);
         return rounding ? Seen::ruled_by_rounding : Seen::open;
     };
     found.cells = split(whole, whole.high, narrowest, budget, classify,

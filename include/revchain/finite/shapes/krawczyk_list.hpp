@@ -5,21 +5,22 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The zeros of the balance in one posture, each alone in a box; mirror images are one.
+/// A list of the zeros of the balance in one posture, each alone in a box; mirror images are one.
 template <Real T, class End = OnAxis>
 class KrawczykList {
    public:
     struct Zero {
-        TangentBox<T> near;  ///< a narrow box that contains it
+        TangentBox<T> near;  ///< a narrow box that contains the zero
         bool straight = false;
     };
 
     explicit KrawczykList(const WholeBalance<T, End>& balance) : balance_(balance) {
         if (balance.is_symmetric()) add_straight(balance.posture().size());
     }
-    /// Takes over the zeros of the same balance found in fewer digits.
+    /// Starts with the zeros of the same balance found in fewer digits.
     template <class Fewer, class FewerEnd>
-    KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known) : balance_(balance) {
+    KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known)
+        : balance_(balance) {
         const auto same = [](const TangentBox<Fewer>& x) {
             TangentBox<T> result;
             for (const Interval<Fewer>& t : x) result.push_back({T(t.low), T(t.high)});
@@ -31,8 +32,8 @@ class KrawczykList {
 
     const std::vector<Zero>& found() const { return found_; }
 
-    /// Whether the box has no zero, or one, which is in the list now.
-    bool settles(TangentBox<T> box) {
+    /// Returns true if the box has no zero, or one, which is in the list now.
+    bool decides(TangentBox<T> box) {
         for (int round = 0; round < 4; ++round) {
             if (is_known(box)) return true;
             const auto narrow = balance_.narrowed(box);
@@ -41,18 +42,19 @@ class KrawczykList {
             bool less = false;
             for (std::size_t m = 0; m < box.size(); ++m) {
                 const Interval<T> now = common((*narrow)[m], box[m]);
-                if (!(now.low <= now.high)) return false;  // nothing is known of it
+                if (!(now.low <= now.high)) return false;  // nothing is known of the box
                 less = less || now.width() < T(0.75) * box[m].width();
                 box[m] = now;
             }
             if (!less) break;
         }
-        // a zero on the edge of the box, or in one narrowed to rounding, needs a wider box
+        // a zero on the edge of the box, or in a box narrowed to rounding, needs a wider box
         TangentBox<T> wider = box;
         for (int round = 0; round < 3; ++round) {
             using std::abs;
             for (Interval<T>& t : wider) {
-                const T off = t.width() / T(2) + T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
+                const T off = t.width() / T(2) +
+                              T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
                               std::numeric_limits<T>::min();
                 t = {t.low - off, t.high + off};
             }
@@ -81,7 +83,7 @@ class KrawczykList {
         return false;
     }
 
-    /// Adds the zero of the box, within `near`; false if it may be one in the list.
+    /// Adds the zero of the box, within `near`. Returns false if it may be one in the list.
     bool add(const TangentBox<T>& box, TangentBox<T> near) {
         for (int round = 0; round < 20; ++round) {
             const auto again = balance_.narrowed(near);
@@ -95,14 +97,15 @@ class KrawczykList {
             if (!(now < T(0.5) * before)) break;
         }
         const bool both = balance_.is_symmetric();
-        const TangentBox<T> other = both ? mirrored(near) : near;
+        const TangentBox<T> other = both ? mirror_image(near) : near;
         for (const Zone& zone : zones_) {
             if (!within(near, zone.box) && !within(other, zone.box)) continue;
             zones_.push_back({box, zone.zero});
             return true;
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (within(found_[i].near, box) || (both && within(found_[i].near, mirrored(box)))) {
+            if (within(found_[i].near, box) ||
+                (both && within(found_[i].near, mirror_image(box)))) {
                 zones_.push_back({box, i});
                 return true;
             }

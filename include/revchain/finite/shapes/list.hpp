@@ -18,37 +18,82 @@
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/thorough.hpp"
 
-/// The list of all steady shapes at a height, see revchain/steady_shapes.hpp.
+/// Finds the list of all steady shapes at a height; see revchain/steady_shapes.hpp.
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An upper bound for the lowest tangent, from y0 = lambda t + (a X/moment) s and the reach.
+/// Returns an upper bound of the lowest tangent: y0 = lambda t + (a X/moment) s is within the
+/// reach.
 template <class T>
-T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height,
+                   bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
-    const Interval<T> beyond = hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
+    const Interval<T> beyond =
+        hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
     return ((reach + Interval<T>(beyond.high)) / height).high;
+}
+
+/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
+template <class T>
+Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
+                               const SupportEnd<Interval<T>>& support) {
+    Interval<T> moving = support.carriage;
+    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
+    return Interval<T>(T(1)) - support.compliance * moving;
+}
+
+/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
+/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
+/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
+/// there is no bound: then as if they were 1e-6 apart.
+template <class T>
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
+                   const SupportEnd<Interval<T>>& support) {
+    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
+    for (const Link<Interval<T>>& link : links) {
+        reach = reach + Interval<T>(link.length.size());
+        if (!support.firm)
+            drawn = drawn +
+                    support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
+        moving = moving + link.moment + link.rest;
+    }
+    if (!support.firm) {
+        const Interval<T> left = left_to_the_spring(links, support);
+        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
+    }
+    const Interval<T> turning = links[0].length * links[0].cross;
+    const Interval<T> far =
+        (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
+        (height * links[0].pull);
+    return far.high;
 }
 
 /// Whether each link but the lowest has one inclination under its load; always if l <= a.
 template <class T>
 bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
-    return std::all_of(links.begin() + 1, links.end(),
-                       [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
+    return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
+        return grows_fast(height * link.pull, turning_of(link));
+    });
 }
 
-REVCHAIN_LAZY
-bool hangs_at_one_inclination(const Links<Fine>& links, const Interval<double>& height) {
-    return single_valued(enclosed<double>(links.links), height);
+/// Whether all links hang, each at one inclination.
+template <class AnyLinks>
+bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& height) {
+    const auto postures = links.postures();
+    for (std::size_t m = 0; m < postures.size(); ++m)
+        if (postures[m] == Posture::stands || links.turned(m)) return false;
+    return single_valued(links.template links_for_sweep<double>(), height);
 }
 
-/// Finds shapes where a proof of completeness failed: between tangents of the lowest link at which
-/// the offset of the support, `sign(tangent)`, has certain opposite signs there is at least one.
-/// Samples the ends of the ascending `ranges` and those of `points` tangents up to `last` in them:
-/// a third each even in inclination, in tangent, and in its logarithm down to 1e-12 of the last.
+/// Returns brackets of shapes where a proof of completeness failed. Between tangents of the lowest
+/// link at which the offset of the support, `sign(tangent)`, has certain opposite signs there is at
+/// least one. Samples the ends of the ascending `ranges` and those of `points` tangents up to
+/// `last` in them. A third each are even in inclination, in tangent, and in its logarithm down to
+/// 1e-12 of the last.
 template <Real T, class Sign>
-std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
+std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points,
+                                const Sign& sign) {
     std::vector<double> tangents;
     const double steepest = std::atan(last), third = as_double(points / 3);
     for (double i = 0.5; i < third; ++i) {
@@ -64,7 +109,7 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
         T seen_at{};
         int seen = 0;
         const auto note = [&](const T& t) {
-            detail::look();
+            detail::check_interrupt();
             const int here = t > T(0) ? sign(t) : 0;
             if (here == 0) return;
             if (here == -seen) found.push_back({seen_at, t});
@@ -77,45 +122,53 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     return found;
 }
 
-/// Isolates shapes in double, undecided cells in double-double, and scans what remains open.
+/// Isolates shapes in double, undecided cells in double-double, and scans cells that remain open.
 template <class AnyLinks>
-Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, long links_to_look_at) {
+Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
+                        long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
-    const auto narrow = swept_links<double>(chain);
+    const auto narrow = chain.template links_for_sweep<double>();
     const Interval<double> lambda = enclosed<double>(height);
-    const auto support = enclosed<double>(support_of(chain));
-    const Isolation<double> first = isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
+    const auto support = enclosed<double>(chain.upper_end());
+    const Isolation<double> first =
+        isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
-    const auto wide = swept_links<Far>(chain);
+    const auto wide = chain.template links_for_sweep<Far>();
     const Span height_wide = enclosed<Far>(height);
-    const auto support_wide = enclosed<Far>(support_of(chain));
+    const auto support_wide = enclosed<Far>(chain.upper_end());
     for (const Bracket<double>& open : joined(first.undecided)) {
-        const auto again = isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
-                                        std::max(0L, budget - found.cells), support_wide);
+        const auto again =
+            isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
+                         std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
-        found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
+        found.undecided.insert(found.undecided.end(), again.undecided.begin(),
+                               again.undecided.end());
     }
     if (found.undecided.empty()) return found;
     found.undecided = joined(found.undecided);
-    const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = sign_at(narrow, lambda, as_double(t), support);
-        return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
-    });
+    const auto more =
+        scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
+            const int sign = sign_at(narrow, lambda, as_double(t), support);
+            return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
+        });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
 }
 
-/// The shape whose lowest tangent is in the bracket, if Newton's method finds it.
+/// Returns the shape whose lowest tangent is in the bracket, if Newton's method finds it.
 template <class AnyLinks>
-std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket) {
+std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height,
+                                       const Bracket<Far>& bracket) {
     const std::vector<Link<Fine>>& links = chain.links;
-    const auto support = support_of(chain);
+    const auto support = chain.upper_end();
     Fine low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const Fine& t) { return support_offset(links, height, t, support) < Fine(0); };
+    const auto falls_short = [&](const Fine& t) {
+        return support_offset(links, height, t, support) < Fine(0);
+    };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
         const Fine middle = low + (high - low) * Fine(0.5);
@@ -133,11 +186,12 @@ std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height
     return std::nullopt;
 }
 
-/// Bounds the error (rad) of inclinations found by Newton's method, from signs of the support's
-/// offset on both sides of the lowest tangent, and the ranges of all links between.
+/// Returns a bound on the error (rad) of inclinations found by Newton's method. It uses the signs
+/// of the support's offset on both sides of the lowest tangent, and the ranges of all links.
 template <class End>
-double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, const Bracket<Far>& bracket,
-                         const Balanced<Fine>& found, const std::vector<Link<Fine>>& middle, const End& support) {
+double inclination_error(const EnclosedLinks<Far>& links, const Fine& height,
+                         const Bracket<Far>& bracket, const Balanced<Fine>& found,
+                         const std::vector<Link<Fine>>& middle, const End& support) {
     const Span lambda = enclosed<Far>(height);
     const Far tangent(tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
@@ -154,17 +208,21 @@ double inclination_error(const EnclosedLinks<Far>& links, const Fine& height, co
         for (std::size_t m = 0; m < tangents.size(); ++m) {
             const Far t(tangent_in(found, middle, m));
             const Span both = hull(tangents[m], Span(t));
-            const double near = both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
-            const double change = as_double(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
-            worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
+            const double near =
+                both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
+            const double change =
+                as_double(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
+            worst = std::max(worst,
+                             change == change ? change : std::numeric_limits<double>::infinity());
         }
         return worst * 1.01;
     }
 }
 
-/// Halves a bracket of a shape by proved signs until rounding leaves one undecided.
+/// Halves a bracket of a shape by proved signs until rounding leaves a sign undecided.
 template <class End>
-Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const End& support, Bracket<Far> bracket) {
+Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const End& support,
+                      Bracket<Far> bracket) {
     const int low_sign = sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
         const Far middle = Span(bracket.low, bracket.high).middle();
@@ -175,18 +233,19 @@ Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const
     return bracket;
 }
 
-/// A shape with links too near the horizontal for `finished`, from the tangents of all links in a
-/// `part` of the bracket; none if it cannot be proved.
+/// Returns a shape with links too near the horizontal for `finished`, from the tangents of all
+/// links in a `part` of the bracket; none if it cannot be proved.
 template <class AnyLinks>
-std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& height, const Bracket<Far>& bracket,
-                                            const Bracket<Far>& part) {
-    const auto links = swept_links<Far>(chain);
+std::optional<ProvedShape> finished_by_tangents(const AnyLinks& chain, const Fine& height,
+                                                const Bracket<Far>& bracket,
+                                                const Bracket<Far>& part) {
+    const auto links = chain.template links_for_sweep<Far>();
     const auto lambda = enclosed<Far>(height);
-    const auto support = enclosed<Far>(support_of(chain));
+    const auto support = enclosed<Far>(chain.upper_end());
     TangentBox<Far> near;
     support_offset(links, lambda, Span(part.low, part.high), support, &near);
-    const WholeBalance balance(links, lambda, posture_of(chain), support);
-    auto found = settled(chain, height, balance, near);
+    const WholeBalance balance(links, lambda, chain.postures(), support);
+    auto found = proved_shape(chain, height, balance, near);
     if (!found) return std::nullopt;
     const Far tangent = abs(Far(tangent_in(found->shape, chain.links, 0)));
     const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
@@ -194,10 +253,11 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Fine& h
 }
 
 template <class AnyLinks, class Result>
-void add(const AnyLinks& links, const Fine& height, const Settled& settled, Result& result) {
+void add(const AnyLinks& links, const Fine& height, const ProvedShape& proved, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
-    result.shapes.push_back(described<Shape>(links, height, settled.shape));
-    result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
+    result.shapes.push_back(described<Shape>(links, height, proved.shape));
+    result.shapes.back().error_bound = proved.error,
+    result.shapes.back().condition = proved.condition;
 }
 
 template <class Result>
@@ -206,8 +266,8 @@ void leave_open(const Bracket<Far>& part, Result& result) {
     result.undecided.push_back({inclination(part.low), inclination(part.high)});
 }
 
-/// Whether a link is so near the horizontal that the offset of a support on a spring may be wrong:
-/// offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
+/// Returns true if a link is so near the horizontal that the offset of a support on a spring may be
+/// wrong. Offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
 REVCHAIN_LAZY
 bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
@@ -220,26 +280,29 @@ template <class Means, class AnyLinks, class Result>
 void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
                   const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
-    const auto support = enclosed<Far>(support_of(links));
+    const auto support = enclosed<Far>(links.upper_end());
     if (auto found = finished(links, height, bracket)) {
         Shape& shape = result.shapes.emplace_back(
             verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
         if (shape.error_bound <= 0x1.8p-52) return;
-        // almost horizontal or critical: the sweep may give a better bound
-        const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
+        // with an almost level link, or near a critical height, the sweep may bound it better
+        const double error =
+            inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
         if (error < shape.error_bound) {
             const double condition = shape.condition;
             turn_outwards(*found, support);
             shape = described<Shape>(links, height, *found);
             shape.error_bound = error, shape.condition = condition;
         }
-        if (shape.error_bound < 0x1p-48 && !(support.yields() && is_all_but_level(links.links, *found))) return;
+        if (shape.error_bound < 0x1p-48 &&
+            !(support.yields() && is_all_but_level(links.links, *found)))
+            return;
     }
     const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
     if constexpr (detail::is_thorough<Means>) {
-        if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
+        if (const auto proved = finished_by_tangents(links, height, bracket, part)) {
             result.shapes.clear();
-            add(links, height, *settled, result);
+            add(links, height, *proved, result);
         }
     }
     if (result.shapes.empty()) leave_open(part, result);
@@ -247,15 +310,16 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
 
 /// Adds all shapes if each link has one inclination under its load.
 template <class Means, class AnyLinks, class Result>
-void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget, Result& result) {
-    const auto narrow = swept_links<Far>(links);
+void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget,
+                       Result& result) {
+    const auto narrow = links.template links_for_sweep<Far>();
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
     std::vector<Result> each(isolation.shapes.size());
     detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            detail::look();
+            detail::check_interrupt();
             add_isolated<Means>(links, narrow, height, isolation.shapes[i], each[i]);
         }
     });
@@ -267,12 +331,12 @@ void add_single_valued(const AnyLinks& links, const Fine& height, double last, l
 
 /// Adds all shapes if links may have several inclinations.
 template <class AnyLinks, class Options, class Result>
-void add_several_valued(const AnyLinks& links, const Fine& height, double last, const Options& options,
-                        Result& result) {
+void add_several_valued(const AnyLinks& links, const Fine& height, double last,
+                        const Options& options, Result& result) {
     const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
     result.cells = found.cells;
-    for (const Settled& settled : found.shapes) add(links, height, settled, result);
+    for (const ProvedShape& proved : found.shapes) add(links, height, proved, result);
     for (const auto& part : found.open) {
         const double low = std::atan(part.low), high = std::atan(part.high);
         if (part.lowest == Posture::hangs)
@@ -284,30 +348,33 @@ void add_several_valued(const AnyLinks& links, const Fine& height, double last, 
 
 template <int = 0>
 [[noreturn]] void throw_not_thorough(std::string_view where, double height) {
-    detail::throw_invalid(where,
-                          "each link must hang, at one inclination under its load, unless revchain::thorough is the "
-                          "last argument; at this conical height one may not",
-                          height);
+    detail::throw_invalid(
+        where,
+        "each link must hang, at one inclination under its load, unless revchain::thorough is the "
+        "last argument; at this conical height one may not",
+        height);
 }
 
 template <class Result>
-void sort(Result& found) {
+void conclude(Result& found) {
     const auto order = [](const auto& x) { return std::pair(x.half_waves, x.inclination[0]); };
     const auto before = [&](const auto& x, const auto& y) { return order(x) < order(y); };
     std::sort(found.shapes.begin(), found.shapes.end(), before);
     found.complete = found.undecided.empty();
 }
 
-/// All shapes at a height in the units of the links. Throws InvalidArgument where links stand or
-/// have several inclinations, unless the means are `Thorough`.
+/// Returns all shapes at a height in the units of the links. Throws InvalidArgument where links
+/// stand or have several inclinations, unless the means are `Thorough`.
 template <class Result, class Means, class AnyLinks, class Options>
 Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
-    // slightly beyond: an almost horizontal link is at the bound, to rounding
-    const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
-                                                !options.hanging_only, enclosed<double>(support_of(links)));
+    // slightly beyond the bound: an almost horizontal link is at the bound, to rounding
+    const double last =
+        1.01 * farthest_tangent(links.template links_for_sweep<double>(), enclosed<double>(scaled),
+                                !options.hanging_only, enclosed<double>(links.upper_end()));
     if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
-        result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
+        result.undecided.push_back(
+            {0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }
     if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
@@ -315,8 +382,9 @@ Result listed(const AnyLinks& links, const Fine& scaled, const Options& options)
     else if constexpr (detail::is_thorough<Means>)
         add_several_valued(links, scaled, last, options, result);
     else
-        throw_not_thorough("steady_shapes", std::ldexp(as_double(scaled), links.units.length_exponent));
-    sort(result);
+        throw_not_thorough("steady_shapes",
+                           std::ldexp(as_double(scaled), links.units.length_exponent));
+    conclude(result);
     return result;
 }
 

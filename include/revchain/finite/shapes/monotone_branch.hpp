@@ -5,26 +5,26 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one, the whole;
-/// else R falls in the middle and grows beyond the joints t = +-sqrt((|turning|/stiffness)^(2/3) -
-/// 1).
+/// A range of tangents in which R is monotone. If stiffness +- turning > 0 there is one range,
+/// `whole`. Otherwise R falls in the middle and grows beyond the joints t =
+/// +-sqrt((|turning|/stiffness)^(2/3) - 1).
 enum class MonotoneBranch { whole, right, middle, left };
 
-/// Whether R grows with t everywhere by at least a hundredth of `stiffness`. A flatter one is
-/// divided into branches, the middle one without width.
+/// Returns true if R grows with t everywhere by at least a hundredth of `stiffness`. A flatter R is
+/// divided into branches, of which the middle one may have no width.
 template <Real T>
 bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
 }
 
-/// Tangents of a branch under a load R; `smooth` if they are away from joints.
+/// The tangents of a branch under a load R; `smooth` if they are away from joints.
 template <Real T>
 struct LoadedTangents {
     Interval<T> tangent;
     bool possible = true, smooth = true;
 };
 
-/// The tangents of one link in one posture by their load R.
+/// The tangents of one link in one posture as functions of its load R.
 template <Real T>
 class Response {
    public:
@@ -45,17 +45,20 @@ class Response {
     }
 
     LoadedTangents<T> met(MonotoneBranch branch, const Interval<T>& R) const {
-        if (branch == MonotoneBranch::whole) return {tangent_of(stiffness_, turning_, R), true, true};
+        if (branch == MonotoneBranch::whole)
+            return {tangent_of(stiffness_, turning_, R), true, true};
         if (branch == MonotoneBranch::right) return right_of_joint(R);
         if (branch == MonotoneBranch::middle) return between_joints(R);
-        LoadedTangents<T> mirrored = right_of_joint(-R);
-        mirrored.tangent = -mirrored.tangent;
-        return mirrored;
+        LoadedTangents<T> image = right_of_joint(-R);
+        image.tangent = -image.tangent;
+        return image;
     }
 
    private:
     Interval<T> at(const T& t) const { return load(Interval<T>(t)); }
-    Interval<T> growth(const T& t) const { return stiffness_ + turning_ * Sine<T>(Interval<T>(t)).slope; }
+    Interval<T> growth(const T& t) const {
+        return stiffness_ + turning_ * Sine<T>(Interval<T>(t)).slope;
+    }
 
     void find_joint() {
         using std::cbrt;
@@ -66,19 +69,21 @@ class Response {
         for (int round = 0; round < 3 && near > T(0); ++round) {  // to the accuracy of T
             const T secant_squared = T(1) + near * near, secant = sqrt(secant_squared);
             const T slope = stiffness_.low + turning_.low / (secant * secant_squared);
-            near = near + slope * secant * secant_squared * secant_squared / (T(3) * turning_.low * near);
+            near = near +
+                   slope * secant * secant_squared * secant_squared / (T(3) * turning_.low * near);
             if (!(near > T(0))) near = T(0);
         }
         constexpr int to_overflow = 2 * std::numeric_limits<T>::max_exponent;
         const T step = T(4) * epsilon<T>() * near + std::numeric_limits<T>::min();
-        joint_.high = first_passing(near, step, to_overflow, [&](const T& t) { return growth(t).positive(); });
-        joint_.low =
-            first_passing(near, T(-step), to_overflow, [&](const T& t) { return !(t > T(0)) || growth(t).negative(); });
+        joint_.high = first_passing(near, step, to_overflow,
+                                    [&](const T& t) { return growth(t).positive(); });
+        joint_.low = first_passing(near, T(-step), to_overflow,
+                                   [&](const T& t) { return !(t > T(0)) || growth(t).negative(); });
         if (!(joint_.low > T(0))) joint_.low = T(0);
         least_ = load(joint_);
     }
 
-    /// Solves R(t) = wanted without overshooting: R is convex for t > 0.
+    /// Returns t with R(t) = wanted. The method does not overshoot, since R is convex for t > 0.
     T near(const T& start, const T& wanted) const {
         return tangent_from(start, stiffness_.middle(), turning_.middle(), wanted);
     }
@@ -93,26 +98,31 @@ class Response {
         };
         LoadedTangents<T> met;
         met.smooth = R.low > least_.high;
-        const T high = met.smooth || R.high > least_.high ? std::max(joint_.high, from_right(R.high)) : joint_.high;
-        met.tangent.high =
-            first_passing(high, rounding_step(high), 2 * tries, [&](const T& t) { return at(t).low >= R.high; });
+        const T high = met.smooth || R.high > least_.high
+                           ? std::max(joint_.high, from_right(R.high))
+                           : joint_.high;
+        met.tangent.high = first_passing(high, rounding_step(high), 2 * tries,
+                                         [&](const T& t) { return at(t).low >= R.high; });
         if (!(met.tangent.high == met.tangent.high)) return {met.tangent.high, true, false};
         met.tangent.low = joint_.low;
         if (!met.smooth) return met;
         const T low = from_right(R.low);
-        const T passed = first_passing(low, T(-rounding_step(low)), tries,
-                                       [&](const T& t) { return !(t > joint_.high) || at(t).high <= R.low; });
+        const T passed = first_passing(low, T(-rounding_step(low)), tries, [&](const T& t) {
+            return !(t > joint_.high) || at(t).high <= R.low;
+        });
         met.smooth = passed > joint_.high;
         if (met.smooth) met.tangent.low = passed;
         return met;
     }
 
-    /// The largest tangent between the joints with a load of at least R; false if it is the joint.
+    /// Returns the largest tangent between the joints with a load >= R; false if it is the joint.
     std::pair<T, bool> last_between(const T& R) const {
         if (R <= least_.high) return {joint_.high, false};
-        T t = R > T(0) ? (R < -least_.high ? T(-near(T(0), T(-R))) : T(-joint_.low)) : near(T(0), R);
-        t = first_passing(t, rounding_step(t), tries,
-                          [&](const T& x) { return !(x < joint_.low) || (x > -joint_.low && at(x).high <= R); });
+        T t =
+            R > T(0) ? (R < -least_.high ? T(-near(T(0), T(-R))) : T(-joint_.low)) : near(T(0), R);
+        t = first_passing(t, rounding_step(t), tries, [&](const T& x) {
+            return !(x < joint_.low) || (x > -joint_.low && at(x).high <= R);
+        });
         return t < joint_.low ? std::pair(t, true) : std::pair(joint_.high, false);
     }
 
@@ -125,7 +135,7 @@ class Response {
 
     Interval<T> stiffness_, turning_;
     bool single_;
-    Interval<T> joint_, least_;  // the right joint, and its load
+    Interval<T> joint_, least_;  // the right joint and its load
 };
 
 }  // namespace revchain::finite

@@ -7,15 +7,15 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-struct Settled {
+struct ProvedShape {
     Balanced<Fine> shape;
     double error = 0;      ///< of every inclination, rad
-    double condition = 0;  ///< see WholeBalance::condition
+    double condition = 0;  ///< as returned by WholeBalance::condition
 };
 
 /// Steady shapes with links that stand or have several inclinations under one load.
 struct SeveralInclinations {
-    std::vector<Settled> shapes;
+    std::vector<ProvedShape> shapes;
     struct Open {
         Posture lowest;
         double low, high;  ///< tangents of the lowest link in that posture
@@ -24,9 +24,10 @@ struct SeveralInclinations {
     long cells = 0;
 };
 
-/// A box with exactly one zero, as small as double-double allows, about one known in double.
+/// Returns a box with exactly one zero, known in double, as small as double-double allows.
 template <class End>
-std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, const TangentBox<Far>& near) {
+std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance,
+                                         const TangentBox<Far>& near) {
     std::vector<Far> t = middle_of(near);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 20; ++round) {
@@ -41,8 +42,9 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     TangentBox<Far> box(t.size());
     for (Far factor(4); factor < Far(1e20); factor = factor * Far(16)) {
         for (std::size_t m = 0; m < t.size(); ++m) {
-            const Far off = factor * (std::max(abs((*first)[m].low - t[m]), abs((*first)[m].high - t[m])) +
-                                      Far(1e-31) * abs(t[m]) + Far(1e-290));
+            const Far off =
+                factor * (std::max(abs((*first)[m].low - t[m]), abs((*first)[m].high - t[m])) +
+                          Far(1e-31) * abs(t[m]) + Far(1e-290));
             box[m] = {t[m] - off, t[m] + off};
         }
         const auto narrow = balance.narrowed(box);
@@ -51,13 +53,14 @@ std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, 
     return std::nullopt;
 }
 
-/// Whether offsets found by Newton's method are those of the zero in a box (and its `offset`).
+/// Returns true if offsets found by Newton's method are those of a box's zero (and its `offset`).
 REVCHAIN_LAZY
-bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, const TangentBox<Far>& box,
-            const std::vector<Fine>& offset) {
+bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found,
+            const TangentBox<Far>& box, const std::vector<Fine>& offset) {
     for (std::size_t m = 0; m < offset.size(); ++m) {
         const double off = as_double(abs(found.offset[m] - offset[m]));
-        if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length))) return false;
+        if (!(off <= 1e-18 * as_double(abs(offset[m]) + links[std::min(m, box.size() - 1)].length)))
+            return false;
     }
     for (std::size_t m = 0; m < box.size(); ++m) {
         const Far t(tangent_in(found, links, m));
@@ -68,11 +71,12 @@ bool agrees(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found, c
     return true;
 }
 
-/// A shape from the tangents of its links, mirrored if it may be: the free end (or, if that is on
-/// the axis, the lowest inclined link) is at a positive offset.
+/// Returns a shape from the tangents of its links, or its mirror image if that is a shape too. The
+/// free end (or, if that is on the axis, the lowest inclined link) is at a positive offset.
 template <class AnyLinks, class End>
-std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const WholeBalance<Far, End>& balance,
-                               const TangentBox<Far>& near) {
+std::optional<ProvedShape> proved_shape(const AnyLinks& chain, const Fine& height,
+                                        const WholeBalance<Far, End>& balance,
+                                        const TangentBox<Far>& near) {
     const std::vector<Link<Fine>>& links = chain.links;
     auto box = sharpened(balance, near);
     if (!box) return std::nullopt;
@@ -80,7 +84,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const 
     if (!condition) return std::nullopt;
     const std::size_t n = links.size();
     std::vector<Fine> offset(n + 1, Fine(0));
-    if constexpr (is_held<End>) {
+    if constexpr (is_support<End>) {
         std::vector<Span> sines;
         for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
         offset[n] = balance.top(sines).middle().word();
@@ -92,15 +96,16 @@ std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const 
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(Far(0))) lowest_inclined = sine;
     }
-    Settled result;
+    ProvedShape result;
     result.condition = *condition;
-    result.shape = finite::balance(links, height, offset, balance.posture(), support_of(chain));
+    result.shape = finite::balance(links, height, offset, balance.posture(), chain.upper_end());
     if (!result.shape.converged || !agrees(links, result.shape, *box, offset)) {
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
     }
     const Fine tip = result.shape.offset[0];
-    const bool inwards = abs(tip) > Fine(1e-25) * links[0].length ? tip < Fine(0) : lowest_inclined < Fine(0);
+    const bool inwards =
+        abs(tip) > Fine(1e-25) * links[0].length ? tip < Fine(0) : lowest_inclined < Fine(0);
     if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = as_double((*box)[m].middle()), width = as_double((*box)[m].width());
@@ -110,20 +115,20 @@ std::optional<Settled> settled(const AnyLinks& chain, const Fine& height, const 
     return result;
 }
 
-/// All shapes with links in one posture, found in double and, for open parts, in double-double.
+/// Adds all shapes in one posture, found in double and, for open parts, in double-double.
 template <class AnyLinks>
-void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture, double last,
-                    long budget, SeveralInclinations& result) {
+void search_posture(const AnyLinks& chain, const Fine& height, const std::vector<Posture>& posture,
+                    double last, long budget, SeveralInclinations& result) {
     const std::size_t n = posture.size();
     const auto cube = static_cast<long>(n * n * n);
     result.cells += cube / 256;
-    if (cube >= 256 && result.cells >= budget) {  // not even one test of the whole chain
+    if (cube >= 256 && result.cells >= budget) {  // the budget is below one test of the chain
         result.open.push_back({posture[0], 0.0, last});
         return;
     }
-    const auto narrow = swept_links<double>(chain);
-    const auto wide = swept_links<Far>(chain);
-    const auto support = support_of(chain);
+    const auto narrow = chain.template links_for_sweep<double>();
+    const auto wide = chain.template links_for_sweep<Far>();
+    const auto support = chain.upper_end();
     PostureSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
     auto choice = first.first_choice();
     do {
@@ -132,34 +137,37 @@ void search_posture(const AnyLinks& chain, const Fine& height, const std::vector
     if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
     PostureSearch second(wide, enclosed<Far>(height), posture, enclosed<Far>(support), first);
     for (const auto& part : joined(first.open()))
-        result.cells +=
-            second.search({part.choice, Far(part.low), Far(part.high)}, Far(last), Far(1e-26), budget - result.cells);
+        result.cells += second.search({part.choice, Far(part.low), Far(part.high)}, Far(last),
+                                      Far(1e-26), budget - result.cells);
     const auto leave_open = [&](const Far& low, const Far& high) {
         result.open.push_back({posture[0], as_double(low), as_double(high)});
     };
     for (const auto& part : second.open()) leave_open(part.low, part.high);
     for (const auto& zero : second.zeros()) {
         if (zero.straight) continue;
-        if (auto shape = settled(chain, height, second.balance(), zero.near))
+        if (auto shape = proved_shape(chain, height, second.balance(), zero.near))
             result.shapes.push_back(std::move(*shape));
         else
             leave_open(zero.near[0].low, zero.near[0].high);
     }
 }
 
-/// Shapes with all links hanging (a rig: in its own posture) or also with any of them standing.
+/// Returns shapes with all links hanging (a rig: in its own posture) or also with any of them
+/// standing.
 template <class AnyLinks>
-SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last, bool hanging_only,
-                                         long budget) {
+SeveralInclinations several_inclinations(const AnyLinks& chain, const Fine& height, double last,
+                                         bool hanging_only, long budget) {
     const std::size_t n = chain.links.size();
     SeveralInclinations result;
-    std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
+    std::vector<Posture> posture =
+        hanging_only ? chain.postures() : std::vector<Posture>(n, Posture::hangs);
     const auto next = [&] {
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;
-        return m < n && (may_all_stand(chain) ||
-                         std::any_of(posture.begin(), posture.end(), [](Posture p) { return p == Posture::hangs; }));
+        return m < n && (chain.may_all_stand() ||
+                         std::any_of(posture.begin(), posture.end(),
+                                     [](Posture p) { return p == Posture::hangs; }));
     };
     do {
         search_posture(chain, height, posture, last, budget, result);

@@ -24,7 +24,8 @@ SteadyShapes steady_shapes(const Rig& rig, const RigShapesOptions& options) {
     return finite::shapes_by(rig, options, detail::UsualMeans{});
 }
 REVCHAIN_DEFINE
-SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options, Thorough) {
+SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options,
+                           Thorough) {
     return finite::shapes_by(chain, options, thorough);
 }
 REVCHAIN_DEFINE

@@ -10,18 +10,19 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct Verified {
     std::vector<Far> offset;   ///< of the pins, support last, in double-double
     double inclination_error;  ///< exactly one steady shape has all inclinations within this (rad)
-    double condition;          ///< largest change of an inclination (rad) per relative change of forces
+    double condition;  ///< largest change of an inclination (rad) per relative change of forces
 };
 
-/// lambda times the forces at the pins for offsets in intervals; the parts of their derivative: a
-/// tangent stiffness for each link and a mass for each pin.
+/// lambda times the forces at the pins for offsets in intervals, and the parts of their derivative:
+/// a tangent stiffness for each link and a mass for each pin.
 struct Forces {
     std::vector<Span> force, stiffness, mass;
-    std::vector<double> size, cosine;  ///< sum of sizes of each force; lower bound for each link
+    std::vector<double> size, cosine;  ///< sizes of each force's terms; lower bounds of cosines
     bool known = true;
 
     template <class End>
-    Forces(const EnclosedLinks<Far>& links, const Span& height, const std::vector<Span>& y, const End& support) {
+    Forces(const EnclosedLinks<Far>& links, const Span& height, const std::vector<Span>& y,
+           const End& support) {
         const std::size_t n = links.size();
         Span from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
@@ -34,25 +35,29 @@ struct Forces {
                 known = false;
                 return;
             }
-            const Span adjacent = sqrt(square), pull = height * link.pull * d / adjacent, turn = link.cross * d,
-                       at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            const Span adjacent = sqrt(square), pull = height * link.pull * d / adjacent,
+                       turn = link.cross * d, at_lower = link.moment * y[m],
+                       at_upper = link.rest * y[m + 1];
             force.push_back(from_below + pull + turn - at_lower);
-            stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
+            stiffness.push_back(height * link.pull * revchain::square(link.length) /
+                                    (adjacent * square) +
+                                link.cross);
             mass.push_back(mass_below + link.moment);
             size.push_back(size_below + largest(pull) + largest(turn) + largest(at_lower));
             cosine.push_back(as_double((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
             from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
-        if constexpr (is_held<End>) {  // a spring is one more link with a fixed upper end
+        if constexpr (is_support<End>) {  // a spring is one more link with a fixed upper end
             if (!support.yields()) return;
-            const Span pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
+            const Span pull = support.stiffness * (y[n] - y[n + 1]),
+                       at_lower = support.carriage * y[n];
             force.push_back(from_below + pull - at_lower);
             stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
-    /// Row m of the derivative times a vector that is 0 at the support.
+    /// Returns row m of the derivative times a vector that is 0 at the support.
     Span row(std::size_t m, const std::vector<Far>& x) const {
         Span result = stiffness[m] * (Span(x[m]) - Span(x[m + 1])) - mass[m] * Span(x[m]);
         if (m > 0) result = result - stiffness[m - 1] * (Span(x[m - 1]) - Span(x[m]));
@@ -60,14 +65,14 @@ struct Forces {
     }
 };
 
-/// The inverse of the derivative, p_i q_j / w for i <= j: p solves it upwards, q downwards.
+/// The inverse of the derivative, p_i q_j / w for i <= j. p solves it upwards, q downwards.
 struct Inverse {
     std::vector<Far> p, q;
     Far w;
 
     explicit Inverse(const Forces& at) : p(at.force.size() + 1, Far(0)), q(p), w(0) {
         const std::size_t n = at.force.size();
-        Far pull(0);  // between pin m and the next above
+        Far pull(0);  // between pin m and the next pin above
         p[0] = Far(1);
         for (std::size_t m = 0; m + 1 < n; ++m) {
             pull = pull + at.mass[m].middle() * p[m];
@@ -96,8 +101,10 @@ struct Inverse {
         }
         return result;
     }
-    /// For each pin |q| times the sum of `of_p` below and |p| times that of `of_q` above, over |w|.
-    std::vector<double> spread(const std::vector<double>& of_p, const std::vector<double>& of_q) const {
+    /// Returns for each pin |q| times the sum of `of_p` below plus |p| times that of `of_q` above,
+    /// over |w|.
+    std::vector<double> spread(const std::vector<double>& of_p,
+                               const std::vector<double>& of_q) const {
         const std::size_t n = of_p.size();
         std::vector<double> result(n);
         double sum = 0;
@@ -117,11 +124,11 @@ struct Balance {
     Inverse inverse;
 };
 
-/// Newton's method to the last digit of double-double; none if an offset is out of reach. It uses
-/// the inverse and the enclosed forces that the test below needs.
+/// Returns the balance by Newton's method to the last digit of double-double; none if an offset is
+/// out of reach. It uses the inverse and the enclosed forces that the test below needs.
 template <class End>
-std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
-                              const End& support) {
+std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& height,
+                              std::vector<Far> offset, const End& support) {
     const std::size_t n = offset.size() - 1;
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0;; ++round) {
@@ -140,10 +147,11 @@ std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Span& heigh
     }
 }
 
-/// Krawczyk's test on all pins at once: bounds the error of each offset; none if it fails.
+/// Bounds the error of each offset by Krawczyk's test on all pins at once; none if the test fails.
 template <class End>
-std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Span& height,
-                                                 const Balance& found, const End& support) {
+std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links,
+                                                 const Span& height, const Balance& found,
+                                                 const End& support) {
     const auto& [offset, at, inverse] = found;
     const auto& [p, q, w] = inverse;
     const std::size_t n = offset.size() - 1;
@@ -157,18 +165,21 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     std::vector<Span> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
-        box.push_back({detail::down(offset[m] - Far(radius[m])), detail::up(offset[m] + Far(radius[m]))});
+        box.push_back(
+            {detail::down(offset[m] - Far(radius[m])), detail::up(offset[m] + Far(radius[m]))});
     }
     box.push_back(Span(offset[n]));
     const Forces over(links, height, box, support);
     if (!over.known) return std::nullopt;
 
-    // rows of 1 - inverse times derivative: off the diagonal p_i or q_i times residuals of p and q
+    // rows of 1 - inverse times derivative: off the diagonal, p_i or q_i times residuals of p and q
     const Span one(Far(1)), W(w);
     for (std::size_t m = 0; m < n; ++m) {
         const Span rest = over.row(m, q), P(p[m]), Q(q[m]);
         Span product = P * rest;
-        if (m > 0) product = product + over.stiffness[m - 1] * (P * (Span(q[m - 1]) - Q) + Q * (P - Span(p[m - 1])));
+        if (m > 0)
+            product = product +
+                      over.stiffness[m - 1] * (P * (Span(q[m - 1]) - Q) + Q * (P - Span(p[m - 1])));
         own[m] = Inverse::size(one - product / W) * radius[m];
         by_q[m] = Inverse::size(rest) * radius[m];
         by_p[m] = m + 1 < n ? Inverse::size(over.row(m, p)) * radius[m] : 0.0;
@@ -179,14 +190,14 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
     return radius;
 }
 
-/// Newton's method, then Krawczyk's test (Computing 4 (1969) 187, doi:10.1007/BF02234767), on all
-/// pins at once. The inverse of the tridiagonal derivative is two vectors: O(N), 4 microseconds a
-/// link, and intervals do not grow from link to link as in a sweep.
+/// Returns a shape with proved errors, by Newton's method and Krawczyk's test (Computing 4 (1969)
+/// 187, doi:10.1007/BF02234767) on all pins at once. The inverse of the tridiagonal derivative is
+/// two vectors: O(N), 4 microseconds a link. Intervals do not grow from link to link as in a sweep.
 template <class End = OnAxis>
 Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vector<Far> offset,
                   const End& support = {}) {
     Verified result{offset, std::numeric_limits<double>::infinity(), 0};
-    if constexpr (is_held<End>)
+    if constexpr (is_support<End>)
         if (support.yields()) offset.push_back(support.radius.middle());
     const auto found = newton(links, height, std::move(offset), support);
     if (!found) return result;
@@ -195,36 +206,41 @@ Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vect
     std::copy_n(found->offset.begin(), links.size() + 1, result.offset.begin());
     const auto radius = proved_radius(links, height, *found, support);
     std::vector<double> below(n + 1, 0.0), above(n + 1, 0.0);
-    for (std::size_t m = 0; m < n; ++m) below[m + 1] = below[m] + Inverse::size(p[m]) * found->at.size[m];
-    for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
+    for (std::size_t m = 0; m < n; ++m)
+        below[m + 1] = below[m] + Inverse::size(p[m]) * found->at.size[m];
+    for (std::size_t m = n; m-- > 0;)
+        above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
     double worst = 0;
     for (std::size_t m = 0; m < links.size(); ++m) {
         const double opposite = as_double(links[m].length.low) * found->at.cosine[m];
-        if (radius) worst = std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
+        if (radius)
+            worst =
+                std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
         const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
-        const double change =
-            Inverse::size(p[m] - p_above) * above[m + 1] + Inverse::size(q[m] - q[m + 1]) * below[m + 1];
+        const double change = Inverse::size(p[m] - p_above) * above[m + 1] +
+                              Inverse::size(q[m] - q[m + 1]) * below[m + 1];
         result.condition = std::max(result.condition, change * found->inverse.share() / opposite);
     }
     if (radius && worst == worst) result.inclination_error = worst;
     return result;
 }
 
-/// Mirrors a shape, where that is a shape too, so that its free end has a positive offset.
+/// Mirrors a shape, if its mirror image is a shape too, so that its free end has a positive offset.
 template <class End>
 void turn_outwards(Balanced<Fine>& shape, const End& support) {
     if (shape.offset[0] < Fine(0) && support.is_symmetric()) shape.mirror();
 }
 
-/// A shape found by Newton's method, all links hanging, with error bound and condition of
+/// Returns a shape found by Newton's method, all links hanging, with error bound and condition of
 /// `verified` at heights in `within`. The bound is infinite if nothing is proved. At a given height
-/// the digits are those of `verified`. At a found height they stay, since near the vertical the
-/// rounding of the height moves the shape; the bound then includes the difference.
+/// the digits are those of `verified`. At a found height the given digits stay, since near the
+/// vertical the rounding of the height moves the shape; the bound then includes the difference.
 template <class Shape = SteadyShape, class AnyLinks>
-Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Fine& height,
-                     const Span& within, Balanced<Fine> found, bool height_is_given) {
+Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links,
+                     const Fine& height, const Span& within, Balanced<Fine> found,
+                     bool height_is_given) {
     std::vector<Fine>& y = found.offset;
-    const auto support = enclosed<Far>(support_of(chain));
+    const auto support = enclosed<Far>(chain.upper_end());
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
     if (height_is_given && std::isfinite(proved.inclination_error)) {
@@ -232,15 +248,17 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
                        [](const Far& digits) { return digits.word(); });
     } else {
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
-            const Fine d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
+            const Fine d = y[m] - y[m + 1],
+                       right = (proved.offset[m] - proved.offset[m + 1]).word(),
                        adjacent = chain.links[m].length * cosine_of(chain.links[m].length, d);
             off = std::max(off, 1.01 * std::abs(as_double((d - right) / adjacent)));
         }
     }
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
-    const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
-    // the last term: two roundings of an angle
+    const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) !=
+                        found.posture.end();
+    // the last term covers two roundings of an angle
     shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;
     return shape;

@@ -17,11 +17,11 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct CordProfile {
     double length, tip;
     int half_waves;
-    std::vector<double> steps;                            ///< ascending; inclination and tension are smooth between
-    std::vector<double> pieces;                           ///< the same of the density; empty if it is uniform
+    std::vector<double> steps;   ///< ends of steps, ascending, with a smooth shape between
+    std::vector<double> pieces;  ///< ends of pieces of the density; empty if uniform
     std::function<std::array<double, 2>(double)> at;      ///< inclination, lambda times tension
-    std::function<double(double)> density, weight_below;  ///< of the arc
-    bool is_held = false;                                 ///< the lower end too
+    std::function<double(double)> density, weight_below;  ///< functions of the arc
+    bool is_held = false;                                 ///< whether the lower end is held too
 };
 
 REVCHAIN_LAZY
@@ -33,7 +33,8 @@ CordProfile profile_of(const CordShape& shape) {
             profile.pieces.push_back((piece.middle + piece.half) / shape.conical_height);
     profile.at = [&shape](double arc) {
         const CordPlace place = shape(std::min(arc * shape.conical_height, shape.length));
-        return std::array{place.inclination, place.tension / (shape.conical_height * shape.kind.line_weight)};
+        return std::array{place.inclination,
+                          place.tension / (shape.conical_height * shape.kind.line_weight)};
     };
     profile.density = [&shape](double arc) { return shape.kind.density_at(arc); };
     profile.weight_below = [&shape](double arc) { return shape.kind.weight_below(arc); };
@@ -46,7 +47,8 @@ CordProfile profile_of(const HeldCordShape& shape) {
     for (const HeldCordState& step : shape.steps) profile.steps.push_back(step.arc);
     profile.at = [&shape](double arc) {
         const HeldCordPlace place = shape(std::min(arc * shape.length, shape.length));
-        return std::array{place.inclination, place.height_times_tension / (shape.length * shape.weight)};
+        return std::array{place.inclination,
+                          place.height_times_tension / (shape.length * shape.weight)};
     };
     profile.density = [](double) { return 1.0; };
     profile.weight_below = [](double arc) { return arc; };
@@ -54,18 +56,18 @@ CordProfile profile_of(const HeldCordShape& shape) {
 }
 
 /// A cord disturbed from a shape: its tangent turns by a in the plane of the shape and by b out of
-/// it. The displacements xi, eta, zeta (across the axis in the plane, out of the plane, along the
-/// axis) satisfy from the support down
+/// it. The displacements are xi across the axis in the plane, eta out of the plane and zeta along
+/// the axis. From the support down they satisfy
 ///     xi' = -a cos(psi),   zeta' = -a sin(psi),   eta' = b    (' by sigma, psi the inclination).
 /// With times in 1/n and T lambda times the tension, the Lagrangian of second order in the turning
 /// frame is
 ///     1/2 sum of m (xi'^2 + eta'^2 + zeta'^2) + m (xi eta' - eta xi') + 1/2 m (xi^2 + eta^2)
 ///     - 1/2 integral of T (a^2 + b^2)    (here ' by time).
 /// A held lower end must not move. On panels a and b are polynomials, given at the nodes of Gauss's
-/// rule; they need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
-/// rule on panels, or on each piece of the density in a panel, since near a free end it may be a
-/// power of the arc. The order is twice the number of nodes for smooth shapes.
-template <int = 0>  // compiled where it is used
+/// rule. They need not be continuous (a chain of links has one node a panel). Integrals use Gauss's
+/// rule on panels, or on each piece of the density in a panel, since near a free end the density
+/// may be a power of the arc. The order is twice the number of nodes for smooth shapes.
+template <int = 0>  // a template, so that it is compiled only where it is used
 class DisturbedCord {
    public:
     DisturbedCord(const CordProfile& shape, int nodes)
@@ -82,22 +84,25 @@ class DisturbedCord {
         const Index n = wide_.size(), m = static_cast<Index>(points_.size());
         const Vector<double> scale = wide_.cwiseSqrt().cwiseInverse();  // orthonormal basis
         Matrix<double> value = Matrix<double>::Zero(m, n);
-        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: all
+        Matrix<double> along = Matrix<double>::Zero(m + 1, n);  // integrals upwards; last: whole
         Vector<double> mass(m + 1), length(m + 1), tension(m);
         for (Index i = 0; i < m; ++i) {
             const Point& point = points_[static_cast<std::size_t>(i)];
             const Index first = point.panel * nodes_, above = first + nodes_;
             const auto own = scale.segment(first, nodes_);
             value.row(i).segment(first, nodes_) = lagrange(point.at).cwiseProduct(own);
-            along.row(i).segment(first, nodes_) = point.panel_width * integrals(point.at).cwiseProduct(own);
+            along.row(i).segment(first, nodes_) =
+                point.panel_width * integrals(point.at).cwiseProduct(own);
             along.row(i).tail(n - above) = wide_.cwiseProduct(scale).tail(n - above);
             mass[i] = point.mass, length[i] = point.wide, tension[i] = point.wide * point.tension;
             d.doubt = std::max(d.doubt, point.tension);
         }
         along.row(m) = wide_.cwiseProduct(scale);
         mass[m] = shape_.tip, length[m] = 0;
-        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(), Y = -along;
-        const auto weighed = [](const Matrix<double>& left, const Vector<double>& by, const Matrix<double>& right) {
+        const Matrix<double> X = along * cosine_.asDiagonal(), Z = along * sine_.asDiagonal(),
+                             Y = -along;
+        const auto weighed = [](const Matrix<double>& left, const Vector<double>& by,
+                                const Matrix<double>& right) {
             return Matrix<double>(left.transpose() * by.asDiagonal() * right);
         };
         const Matrix<double> across = weighed(X, mass, X), pulled = weighed(value, tension, value);
@@ -112,54 +117,60 @@ class DisturbedCord {
         d.offset = -sine_.cwiseQuotient(scale);
         if (shape_.is_held) {
             d.ends << X.row(m).transpose(), Z.row(m).transpose();
-            const Matrix<double> out = beside(Matrix<double>(Y.row(m).transpose()));
-            d.keep(beside(d.ends), out);
+            const Matrix<double> out = complement(Matrix<double>(Y.row(m).transpose()));
+            d.keep(complement(d.ends), out);
             d.offset = (out.transpose() * d.offset).eval();
         }
         return d;
     }
 
    private:
-    /// Ends of panels: at steps of the path, except those along which the cord hardly turns.
+    /// Returns the ends of panels: ends of steps, except steps along which the cord hardly turns.
     std::vector<double> panel_ends() const {
         const double length = shape_.length, longest = length / (2 * shape_.half_waves + 2);
         std::vector<double> ends{0};
         const auto inclination = [&](double arc) { return shape_.at(arc)[0]; };
         double last = inclination(0);
         const auto add_up_to = [&](double end, double angle) {
-            const double from = ends.back(), turn = std::abs(angle - last) / 0.7, wide = (end - from) / longest;
-            const int parts = std::max(1, static_cast<int>(std::ceil(std::max(wide, std::min(turn, 4.0)) - 0.2)));
-            for (int i = 1; i <= parts; ++i) ends.push_back(i == parts ? end : from + (end - from) * i / parts);
+            const double from = ends.back(), turn = std::abs(angle - last) / 0.7,
+                         wide = (end - from) / longest;
+            const int parts =
+                std::max(1, static_cast<int>(std::ceil(std::max(wide, std::min(turn, 4.0)) - 0.2)));
+            for (int i = 1; i <= parts; ++i)
+                ends.push_back(i == parts ? end : from + (end - from) * i / parts);
             last = angle;
         };
         for (const double at : shape_.steps) {
             if (!(at > ends.back()) || !(at < length)) continue;
             const double angle = inclination(at);
-            if (at - ends.back() > longest / 2 || std::abs(angle - last) > 0.4) add_up_to(at, angle);
+            if (at - ends.back() > longest / 2 || std::abs(angle - last) > 0.4)
+                add_up_to(at, angle);
         }
         add_up_to(length, inclination(length));
         add_jumps(ends);
         return ends;
     }
-    /// Adds the jumps of the density, unless there would be too many unknowns.
+    /// Adds the jumps of the density to `ends`, unless there would be too many unknowns.
     void add_jumps(std::vector<double>& ends) const {
         constexpr std::size_t most = 16;
         std::vector<double> jumps;
         for (const double at : shape_.pieces) {
             const double last = jumps.empty() ? 1000 * narrow() : jumps.back() + 4 * narrow();
             if (!(at > last && at < shape_.length - narrow())) continue;
-            const double below = shape_.density(at - narrow()), above = shape_.density(at + narrow());
+            const double below = shape_.density(at - narrow()),
+                         above = shape_.density(at + narrow());
             if (std::abs(above - below) > 0.01 * std::max(above, below)) jumps.push_back(at);
         }
         if (jumps.size() > most) return;
         const auto has_jump = [&](double at) {
-            return std::any_of(jumps.begin(), jumps.end(), [&](double x) { return std::abs(x - at) < narrow(); });
+            return std::any_of(jumps.begin(), jumps.end(),
+                               [&](double x) { return std::abs(x - at) < narrow(); });
         };
         ends.erase(std::remove_if(ends.begin() + 1, ends.end() - 1, has_jump), ends.end() - 1);
         ends.insert(ends.end() - 1, jumps.begin(), jumps.end());
         std::sort(ends.begin(), ends.end());
     }
-    /// The Lagrange polynomials of the nodes at x, 0 ... 1 over a panel.
+    /// Returns the Lagrange polynomials of the nodes at x, which goes from 0 to 1 over a panel.
     Vector<double> lagrange(double x) const {
         Vector<double> values = Vector<double>::Ones(nodes_);
         for (Index j = 0; j < nodes_; ++j)
@@ -179,21 +190,23 @@ class DisturbedCord {
             const auto& [t, weight] = rule_[static_cast<std::size_t>(i)];
             const double inclination = shape_.at(low + (high - low) * t)[0];
             const Index at = panel * nodes_ + i;
-            wide_[at] = weight * (high - low), cosine_[at] = std::cos(inclination), sine_[at] = std::sin(inclination);
+            wide_[at] = weight * (high - low), cosine_[at] = std::cos(inclination),
+            sine_[at] = std::sin(inclination);
         }
         double from = low;
         for (const double end : shape_.pieces)
-            if (end > from + narrow() && end < high - narrow()) add_points(panel, low, high, from, end), from = end;
+            if (end > from + narrow() && end < high - narrow())
+                add_points(panel, low, high, from, end), from = end;
         add_points(panel, low, high, from, high);
     }
-    /// Points in a part of a panel, with the exact weight of that part.
+    /// Adds points in a part of a panel, with the exact weight of that part.
     void add_points(Index panel, double low, double high, double from, double to) {
         const std::size_t first = points_.size();
         double sum = 0;
         for (const auto& [t, weight] : rule_) {
             const double arc = from + (to - from) * t, wide = weight * (to - from);
-            points_.push_back(
-                {panel, high - low, (arc - low) / (high - low), wide, wide * shape_.density(arc), shape_.at(arc)[1]});
+            points_.push_back({panel, high - low, (arc - low) / (high - low), wide,
+                               wide * shape_.density(arc), shape_.at(arc)[1]});
             sum += points_.back().mass;
         }
         const double whole = shape_.weight_below(to) - shape_.weight_below(from);
@@ -211,20 +224,21 @@ class DisturbedCord {
     Index nodes_;
     std::vector<std::pair<double, double>> rule_;
     Vector<double> wide_, cosine_, sine_;  // at the nodes
-    std::vector<Point> points_;            // at which integrals are taken
+    std::vector<Point> points_;            // points of integration
 };
 
-/// The result on which two discretisations agree.
+/// Returns the stability on which two discretisations agree.
 template <class Shape>
 Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     if (!(std::abs(shape.length - cord.length()) <= 1e-14 * cord.length()))
-        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as", shape.length);
+        detail::throw_invalid("stability", "the shape is not of this cord; it is as long as",
+                              shape.length);
     const CordProfile profile = profile_of(shape);
     const auto found = [&](int nodes) {
         return judged(frame, DisturbedCord(profile, nodes).disturbed(), ChainUnits{});
     };
     const Stability coarse = found(8);
-    detail::look();
+    detail::check_interrupt();
     Stability result = found(10);
     const double apart = std::abs(result.growth_rate - coarse.growth_rate);
     result.margin = std::max({1e-7, 2 * apart, 1e-13 * std::abs(result.exponents.back())});
@@ -234,19 +248,23 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
                          : result.growth_rate < 1e-2 * result.margin ? Verdict::spectrally_stable
                                                                      : Verdict::undecided;
     }
-    if (result.negative_directions != coarse.negative_directions) result.verdict = Verdict::undecided;
-    // the slowest exponents, up to the first that only one discretisation has
+    if (result.negative_directions != coarse.negative_directions)
+        result.verdict = Verdict::undecided;
+    // keep the slowest exponents, up to the first that only one discretisation has
     const auto unconfirmed = [](const Stability& of, const Stability& by) {
         double slowest = std::numeric_limits<double>::infinity();
         for (const std::complex<double>& s : of.exponents) {
             const auto alike = [&](const std::complex<double>& x) {
-                return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 || std::abs(x * x - s * s) <= 1e-9;
+                return std::abs(x - s) <= 1e-6 * std::abs(s) + 1e-9 ||
+                       std::abs(x * x - s * s) <= 1e-9;
             };
-            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike)) slowest = std::min(slowest, std::abs(s));
+            if (std::none_of(by.exponents.begin(), by.exponents.end(), alike))
+                slowest = std::min(slowest, std::abs(s));
         }
         return slowest;
     };
-    const double limit = (1 - 1e-6) * std::min(unconfirmed(result, coarse), unconfirmed(coarse, result));
+    const double limit =
+        (1 - 1e-6) * std::min(unconfirmed(result, coarse), unconfirmed(coarse, result));
     std::vector<std::complex<double>> kept;
     std::vector<double> external, error;
     for (std::size_t i = 0; i < result.exponents.size(); ++i) {
@@ -259,7 +277,8 @@ Stability judged(StabilityFrame frame, const Cord& cord, const Shape& shape) {
     }
     result.exponents = std::move(kept), result.external_damping = std::move(external);
     result.exponent_error = std::move(error);
-    result.internal_damping.assign(result.exponents.size(), std::numeric_limits<double>::quiet_NaN());
+    result.internal_damping.assign(result.exponents.size(),
+                                   std::numeric_limits<double>::quiet_NaN());
     return result;
 }
 

@@ -22,30 +22,30 @@ bool isnan(const DoubleDouble& x) { return std::isnan(x.high()); }
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// An orthonormal basis of the complement of the columns.
+/// Returns an orthonormal basis of the complement of the columns.
 template <class S>
-Matrix<S> beside(const Matrix<S>& columns) {
+Matrix<S> complement(const Matrix<S>& columns) {
     const Matrix<S> whole = Eigen::HouseholderQR<Matrix<S>>(columns).householderQ();
     return whole.rightCols(columns.rows() - columns.cols());
 }
 
 template <class S>
-Matrix<S> within(const Matrix<S>& A, const Matrix<S>& X) {
+Matrix<S> congruent(const Matrix<S>& A, const Matrix<S>& X) {
     return pencil::transposed_product(X, pencil::product(A, X));
 }
 
-/// Links disturbed from a shape by angles q in its plane and angles b out of it, time in 1/n:
+/// Links disturbed from a shape by angles q in its plane and angles b out of it, with time in 1/n:
 ///     A q'' - 2 B b' + (diag(a P) - X'MX) q = 0,
-///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY,
-/// P lambda times the pull along each link, M the masses of the pins, X q and Z q their motions
-/// across and along the axis, Y b those out of the plane, A = X'MX + Z'MZ, B = X'MY - diag(p)/2, p
-/// lambda n times the angular momentum of a link about its own axis. A link moves all pins below
-/// it: X = U diag(a cos), Y = U diag(a), U upper triangular of ones, and G = U'MU is computed link
-/// by link without cancellation. A support that yields moves by the last q and b, which are
-/// lengths: it adds lambda E to both stiffnesses and its carriage to M. So does a lower end on a
-/// spring, by the motion of the lowest pin. Angles are scaled so that stiffness and mass are about
-/// 1, for light links too. Damping adds rates of dissipation: F q', H b' at the pins, drag by
-/// length and velocity.
+///     N b'' + 2 B' q' + (diag(a P) - N) b = 0,    N = Y'MY.
+/// P is lambda times the pull along each link and M the masses of the pins. X q and Z q are the
+/// motions of the pins across and along the axis, Y b those out of the plane. A = X'MX + Z'MZ and B
+/// = X'MY - diag(p)/2, with p lambda n times the angular momentum of a link about its own axis. A
+/// link moves all pins below it: X = U diag(a cos), Y = U diag(a), with U upper triangular of ones.
+/// G = U'MU is computed link by link without cancellation. A support that yields moves by the last
+/// q and b, which are lengths. It adds lambda E to both stiffnesses and its carriage to M. So does
+/// a lower end on a spring, by the motion of the lowest pin. Angles are scaled so that stiffness
+/// and mass are about 1, for light links too. Damping adds rates of dissipation: F q', H b' at the
+/// pins, and drag by length and velocity.
 template <class S>
 struct DisturbedIn {
     Matrix<S> inertia, coupling, mass;  // A, B, N
@@ -55,8 +55,8 @@ struct DisturbedIn {
     Matrix<S> drag_in_plane, drag_coupling, drag_across;
     Matrix<S> ends;               // how the lower end moves with q, across the axis and along it
     Vector<S> lower_end;          // how it moves with b
-    Vector<S> stiffness;          // lambda times that of links and support, against q as against b
-    Vector<S> offset;             // the shape: out of plane, a rotation
+    Vector<S> stiffness;          // lambda times that of links and support, for q and for b
+    Vector<S> offset;             // the shape; as b, it is a rotation
     std::vector<Index> massless;  // pins without mass, lowest first
     double doubt = 0;             // the largest error of a stiffness over that of rounding
     bool turns_freely = true;
@@ -66,11 +66,15 @@ struct DisturbedIn {
         using std::abs, std::sqrt;
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();
-        const auto link = [&](Index m) -> const Link<Fine>& { return shape.links[static_cast<std::size_t>(m)]; };
-        const auto at = [](const std::vector<double>& of, Index m) { return of[static_cast<std::size_t>(m)]; };
+        const auto link = [&](Index m) -> const Link<Fine>& {
+            return shape.links[static_cast<std::size_t>(m)];
+        };
+        const auto at = [](const std::vector<double>& of, Index m) {
+            return of[static_cast<std::size_t>(m)];
+        };
         Matrix<S> G(pins, pins), length(pins, pins);
         Fine below(shape.lower_yields() ? shape.lower_carriage : 0.0), long_below(0.0);
-        for (Index m = 0; m < pins; ++m) {  // sums of masses, and of a third and a half of lengths
+        for (Index m = 0; m < pins; ++m) {  // sums of masses, and thirds and halves of lengths
             const bool is_link = m < n;
             const Fine zero(0.0), a = is_link ? link(m).length : zero;
             const Fine own = is_link ? link(m).moment - link(m).cross : Fine(shape.carriage);
@@ -95,7 +99,8 @@ struct DisturbedIn {
             offset[m] = is_link ? s : S(shape.upper_offset);
             const S size = abs(stiffness[m]) + y[m] * y[m] * G(m, m);
             unit[m] = size > S(0) ? S(1) / sqrt(size) : S(1);
-            x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m], offset[m] /= unit[m];
+            x[m] *= unit[m], y[m] *= unit[m], z[m] *= unit[m], stiffness[m] *= unit[m] * unit[m],
+                offset[m] /= unit[m];
             const double off = is_link ? at(shape.doubt, m) : shape.stiffness;
             const S lever = is_link ? S(link(m).length) : S(1);
             doubt = std::max(doubt, as_double(lever * S(off) * unit[m] * unit[m]));
@@ -105,7 +110,8 @@ struct DisturbedIn {
         }
         const auto spread = [](const Vector<S>& p, const Matrix<S>& of, const Vector<S>& q) {
             Matrix<S> result = of;
-            for (Index j = 0; j < q.size(); ++j) result.col(j) = result.col(j).cwiseProduct(p) * q[j];
+            for (Index j = 0; j < q.size(); ++j)
+                result.col(j) = result.col(j).cwiseProduct(p) * q[j];
             return result;
         };
         const Matrix<S> centrifugal = spread(x, G, x);
@@ -131,45 +137,53 @@ struct DisturbedIn {
             const bool lowest = m == 0 && shape.lower_yields() && shape.lower_carriage > 0;
             const bool lower = m < n && !(is_zero(link(m).moment) && is_zero(link(m).cross));
             const bool upper = m > 0 && !(is_zero(link(m - 1).rest) && is_zero(link(m - 1).cross));
-            if (!lowest && !lower && !upper && !(m == n && shape.carriage > 0)) massless.push_back(m);
+            if (!lowest && !lower && !upper && !(m == n && shape.carriage > 0))
+                massless.push_back(m);
         }
     }
 
     /// Restricts q to the columns of Q and b to those of Y.
     void keep(const Matrix<S>& Q, const Matrix<S>& Y) {
-        for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane}) *of = within(*of, Q);
-        for (Matrix<S>* of : {&coupling, &drag_coupling}) *of = pencil::transposed_product(Q, pencil::product(*of, Y));
-        for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across}) *of = within(*of, Y);
+        for (Matrix<S>* of : {&inertia, &in_plane, &turned, &bending, &drag_in_plane})
+            *of = congruent(*of, Q);
+        for (Matrix<S>* of : {&coupling, &drag_coupling})
+            *of = pencil::transposed_product(Q, pencil::product(*of, Y));
+        for (Matrix<S>* of : {&mass, &out_of_plane, &swivelling, &drag_across})
+            *of = congruent(*of, Y);
     }
 
-    /// Keeps the lower end fixed; on a spring it may move across the axis.
+    /// Keeps the lower end fixed; if it is on a spring it may move across the axis.
     void hold_lower_end(bool yields) {
         const Index count = offset.size();
-        if (yields) return keep(beside(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
-        const Matrix<S> held = beside(Matrix<S>(lower_end));
-        keep(beside(ends), held);
+        if (yields)
+            return keep(complement(Matrix<S>(ends.col(1))), Matrix<S>::Identity(count, count));
+        const Matrix<S> held = complement(Matrix<S>(lower_end));
+        keep(complement(ends), held);
         offset = (held.transpose() * offset).eval();
     }
 
-    /// Eliminates a yielding upper end without mass: spring and top link are in series.
+    /// Eliminates an upper end on a spring and without mass: spring and top link are in series.
     void balance_upper_end() {
         const Index top = offset.size() - 1;
         Matrix<S> kept = Matrix<S>::Identity(top + 1, top);
-        kept(top, top - 1) = stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
+        kept(top, top - 1) =
+            stiffness(top - 1) * lower_end(top) / (lower_end(top - 1) * stiffness(top));
         keep(Matrix<S>::Identity(top + 1, top + 1), kept);
         offset = offset.head(top).eval();
         lower_end = (kept.transpose() * lower_end).eval();
     }
 
    private:
-    /// Twice the dissipation of unit damping at the pins by angles b. A link turns across itself at
-    /// b, and about itself to dissipate least, unless it has a moment of inertia there; so does a
-    /// support without torque about the axis. A rotation dissipates nothing.
+    /// Returns twice the dissipation of unit damping at the pins by angles b. A link turns across
+    /// itself at the rate b. Without a moment of inertia about itself it also turns so that it
+    /// dissipates least. So does a support without torque about the axis. A rotation dissipates
+    /// nothing.
     static Matrix<double> swivelled(const PulledLinks& shape, Index pins) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index joints = n + shape.held;
-        Matrix<double> given = Matrix<double>::Zero(2 * joints, pins), left = Matrix<double>::Zero(2 * joints, n + 2);
-        const auto between = [&](Index m, auto&& place) {  // the joints of link m, below and above
+        Matrix<double> given = Matrix<double>::Zero(2 * joints, pins),
+                       left = Matrix<double>::Zero(2 * joints, n + 2);
+        const auto between = [&](Index m, auto&& place) {  // calls place for both joints of m
             if (m > 0 || shape.held) place(m - 1 + shape.held, 1.0);
             place(m + shape.held, -1.0);
         };

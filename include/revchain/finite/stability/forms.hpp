@@ -7,32 +7,35 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Signs of the second variation of the energy, in and out of the plane: number of negative
-/// directions, whether all are positive, whether all are certain despite rounding.
+/// Signs of the second variation of the energy, in and out of the plane: the number of negative
+/// directions, whether all are positive, and whether one is certainly negative despite rounding.
 struct EnergySigns {
     Index negative;
     bool is_minimum, is_certain;
 };
 REVCHAIN_LAZY
-EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across, Index links) {
+EnergySigns energy_signs(const Matrix<double>& in_plane, const Matrix<double>& across,
+                         Index links) {
     const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
-    const double stiffness =
-        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
-    const double rounding = 1e-14 * as_double(links) * stiffness, least = std::min(inside.least, outside.least);
+    const double stiffness = std::max(in_plane.cwiseAbs().maxCoeff(),
+                                      across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * as_double(links) * stiffness,
+                 least = std::min(inside.least, outside.least);
     return {inside.negative + outside.negative, least > rounding, least < -rounding};
 }
 
-/// p'A q of complex vectors, without conjugation.
+/// Returns p'A q of complex vectors, without conjugation.
 template <class S>
-std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A, const pencil::ComplexColumns<S>& q,
-                         Index j) {
+std::complex<S> bilinear(const pencil::ComplexColumns<S>& p, const Matrix<S>& A,
+                         const pencil::ComplexColumns<S>& q, Index j) {
     const Vector<S> real = A * q.real.col(j), imag = A * q.imag.col(j);
     const auto re = p.real.col(j), im = p.imag.col(j);
     return {re.dot(real) - im.dot(imag), re.dot(imag) + im.dot(real)};
 }
 template <class S>
 double hermitian(const pencil::ComplexColumns<S>& q, const Matrix<S>& A, Index j) {
-    const S real = q.real.col(j).dot(A * q.real.col(j)), imag = q.imag.col(j).dot(A * q.imag.col(j));
+    const S real = q.real.col(j).dot(A * q.real.col(j)),
+            imag = q.imag.col(j).dot(A * q.imag.col(j));
     return std::abs(as_double(real + imag));
 }
 template <class S>

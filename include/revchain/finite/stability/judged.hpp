@@ -16,21 +16,21 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A verdict, and whether an exponent lost digits: estimated error above 5e-11 of the largest
-/// exponent, or 5e-9 near 1; in proportion more beyond 16 unknowns. The estimate is usually about
-/// 1000 times the error; for almost equal motions, as of a light link in and out of the plane, up
-/// to 40 times less (tests/python/test_light_links.py).
+/// A verdict, and whether an exponent lost digits. It lost digits if its estimated error is above
+/// 5e-11 of the largest exponent, or 5e-9 near 1, and in proportion more beyond 16 unknowns. The
+/// estimate is usually about 1000 times the error. For almost equal motions, as of a light link in
+/// and out of the plane, it is up to 40 times less (tests/python/test_light_links.py).
 struct Judgement {
     Stability stability;
     bool is_spoilt = false;
 };
 
-/// The verdict from squares of exponents and their errors. A square farther from the negative
-/// numbers than its error is unstable. A negative square separated from all others stays imaginary:
-/// squares leave the real axis in pairs, and those of a symmetric matrix never.
+/// Returns the verdict from squares of exponents and their errors. A square farther from the
+/// negative numbers than its error is unstable. A negative square separated from all others stays
+/// imaginary. Squares leave the real axis in pairs, and those of a symmetric matrix never leave it.
 REVCHAIN_LAZY
-Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::vector<double>& error,
-                   bool is_symmetric) {
+Verdict verdict_by(const std::vector<std::complex<double>>& square,
+                   const std::vector<double>& error, bool is_symmetric) {
     bool still = true;
     for (std::size_t j = 0; j < square.size(); ++j) {
         const double off = square[j].real() > 0 ? std::abs(square[j]) : std::abs(square[j].imag());
@@ -42,36 +42,40 @@ Verdict verdict_by(const std::vector<std::complex<double>>& square, const std::v
     return still ? Verdict::spectrally_stable : Verdict::undecided;
 }
 
-/// The verdict on a disturbed shape. To first order damping c (F, H) changes an exponent by
+/// Returns the verdict on a disturbed shape; none if rounding leaves a mass matrix indefinite. To
+/// first order damping c (F, H) changes an exponent by
 ///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'N Y - 2 q'B Y)),    Y = s b,
-/// since (q, -b) is the left mode; drag in space adds -2 q'X'E Y to the numerator, X'E the
-/// `drag_coupling`. Changes of the matrices move s^2 alike. The error of s^2 adds the residual of a
-/// mode and its rounding, the error of the eigenvalue solver, and the effect of relative errors of
-/// masses and pulls. None if rounding leaves a mass matrix indefinite.
+/// since (q, -b) is the left mode. Drag in space adds -2 q'X'E Y to the numerator, with X'E the
+/// `drag_coupling`. Changes of the matrices move s^2 by the same formula. The error of s^2 adds the
+/// residual of a mode and its rounding, the error of the eigenvalue solver, and the effect of
+/// relative errors of masses and pulls.
 template <class S>
-std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d, const ChainUnits& units) {
+std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d,
+                                   const ChainUnits& units) {
     using std::sqrt;
     const bool free = frame == StabilityFrame::free, rotates = free && d.turns_freely;
     const Index n = d.in_plane.rows();
-    Matrix<S> in_plane = d.in_plane, others = Matrix<S>::Identity(d.offset.size(), free ? d.offset.size() : 0);
+    Matrix<S> in_plane = d.in_plane,
+              others = Matrix<S>::Identity(d.offset.size(), free ? d.offset.size() : 0);
     Vector<S> b = Vector<S>::Zero(n);
     S turning(1);
     Matrix<S> beside_shape = others;
     if (rotates) {
         const Vector<S> momentum = d.mass * d.offset;
-        others = beside(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
-        beside_shape = beside(Matrix<S>(d.offset));
+        others = complement(Matrix<S>(momentum));  // orthogonal to the rotation in the masses
+        beside_shape = complement(Matrix<S>(d.offset));
         turning = sqrt(S(d.offset.dot(momentum)));
         b = d.coupling * d.offset / turning;
         in_plane += pencil::product<S>(S(4) * b, b.transpose());
     } else if (!free) {
         in_plane -= d.turned;
     }
-    const pencil::MirroredPencil<S> forms{d.inertia, pencil::product(d.coupling, others), within(d.mass, others),
-                                          in_plane, within(d.out_of_plane, others)};
-    const auto found = pencil::mirrored_modes(forms);
+    const pencil::GyroscopicPencil<S> forms{d.inertia, pencil::product(d.coupling, others),
+                                            congruent(d.mass, others), in_plane,
+                                            congruent(d.out_of_plane, others)};
+    const auto found = pencil::gyroscopic_modes(forms);
     if (!found) return std::nullopt;
-    const pencil::MirroredModes<S>& modes = *found;
+    const pencil::GyroscopicModes<S>& modes = *found;
     const pencil::ComplexColumns<S>&q = modes.x, &r = modes.y;
 
     Judgement judgement;
@@ -87,7 +91,8 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     }
     const auto size = [](const Matrix<S>& A) { return as_double(A.norm()); };
     const double in_A = size(forms.A), in_B = size(forms.B), in_M = size(forms.M);
-    const double in_K = size(forms.K), in_C = size(forms.C), rounding = as_double(std::numeric_limits<S>::epsilon());
+    const double in_K = size(forms.K), in_C = size(forms.C),
+                 rounding = as_double(std::numeric_limits<S>::epsilon());
     std::vector<std::complex<double>> square;
     std::vector<double> error;
     struct Mode {
@@ -104,7 +109,8 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         const std::complex<double> turned =
             rounded(of * bilinear(q, d.bending, q, j) - bilinear(Y, d.swivelling, Y, j));
         const double inner = -pins * (turned / norm).real();
-        const std::complex<double> dragged = rounded(form(d.drag_in_plane, d.drag_coupling, d.drag_across));
+        const std::complex<double> dragged =
+            rounded(form(d.drag_in_plane, d.drag_coupling, d.drag_across));
         const double outer = -air * (dragged / norm).real();
 
         const std::complex<double> s2 = rounded(of);
@@ -113,12 +119,14 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
             return far * A + K + 4 * B + M + (far > 0 ? C / far : 0.0);
         };
         const std::complex<S> left = of * bilinear(q, forms.A, q, j) + bilinear(q, forms.K, q, j) -
-                                     two * two * bilinear(q, forms.B, r, j) - bilinear(r, forms.M, r, j) -
-                                     bilinear(r, forms.C, r, j) / of;
+                                     two * two * bilinear(q, forms.B, r, j) -
+                                     bilinear(r, forms.M, r, j) - bilinear(r, forms.C, r, j) / of;
         const double x = squared_norm(q, j), y = squared_norm(r, j);
         const double alpha = hermitian(q, forms.A, j), mu = hermitian(r, forms.M, j);
-        const double given = total(alpha, std::sqrt(alpha * mu), mu, d.doubt * x + alpha, d.doubt * y + mu);
-        const double computed = total(in_A * x, in_B * std::sqrt(x * y), in_M * y, in_K * x, in_C * y);
+        const double given =
+            total(alpha, std::sqrt(alpha * mu), mu, d.doubt * x + alpha, d.doubt * y + mu);
+        const double computed =
+            total(in_A * x, in_B * std::sqrt(x * y), in_M * y, in_K * x, in_C * y);
         const double missing = far > 0 ? std::abs(rounded(left)) : 0.0;
         const double changed = missing + 4 * 0x1p-52 * given + rounding * computed;
         constexpr double safety = 100;
@@ -126,14 +134,15 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
         error.push_back(safety * (modes.error[j] + 2 * far / std::abs(norm) * changed));
         const std::complex<double> s = std::sqrt(s2);
         const double off = error_of_root(far, error.back());
-        for (const std::complex<double>& each : {s, 0.0 - s}) list.push_back({each, inner, outer, off});
+        for (const std::complex<double>& each : {s, 0.0 - s})
+            list.push_back({each, inner, outer, off});
         result.growth_rate = std::max(result.growth_rate, std::abs(s.real()));
         result.margin = std::max(result.margin, off);
     }
     double largest = 0;
     for (std::size_t j = 0; j < square.size(); ++j) {
         largest = std::max(largest, std::sqrt(std::abs(square[j])));
-        for (std::size_t k = 0; k < square.size(); ++k)  // equal ones have no mode each
+        for (std::size_t k = 0; k < square.size(); ++k)  // equal squares have no separate modes
         {
             const double near = 1e-10 * std::abs(square[j]) + 10 * (error[j] + error[k]);
             if (k == j || !(std::abs(square[j] - square[k]) <= near)) continue;
@@ -143,18 +152,25 @@ std::optional<Judgement> judged_in(StabilityFrame frame, const DisturbedIn<S>& d
     }
     const double lost = 5e-11 * std::max(1.0, as_double(square.size()) / 16);
     for (std::size_t j = 0; j < square.size(); ++j) {
-        const double far = std::abs(square[j]), near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
+        const double far = std::abs(square[j]),
+                     near = std::min(largest, 100 * std::max(1.0, std::sqrt(far)));
         judgement.is_spoilt |= error_of_root(far, error[j]) > lost * near;
     }
-    const auto parts = [](const Mode& x) { return std::pair(x.exponent.imag(), x.exponent.real()); };
+    const auto parts = [](const Mode& x) {
+        return std::pair(x.exponent.imag(), x.exponent.real());
+    };
     const auto before = [&](const Mode& x, const Mode& y) { return parts(x) < parts(y); };
     std::sort(list.begin(), list.end(), before);
     for (const Mode& mode : list) {
         result.exponents.push_back(mode.exponent), result.exponent_error.push_back(mode.error);
-        result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
+        result.internal_damping.push_back(mode.internal),
+            result.external_damping.push_back(mode.external);
     }
-    const auto narrow = [](const Matrix<S>& A) { return Matrix<double>(A.template cast<double>()); };
-    const Matrix<double> inside = narrow(in_plane), across = narrow(within(d.out_of_plane, beside_shape));
+    const auto narrow = [](const Matrix<S>& A) {
+        return Matrix<double>(A.template cast<double>());
+    };
+    const Matrix<double> inside = narrow(in_plane),
+                         across = narrow(congruent(d.out_of_plane, beside_shape));
     const Verdict by_squares = verdict_by(square, error, modes.is_symmetric);
     const EnergySigns signs = energy_signs(inside, across, d.ends.rows());
     result.negative_directions = signs.negative;
@@ -171,7 +187,7 @@ Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& uni
     return found ? found->stability : Stability();
 }
 
-/// Disturbed links with the constraints of their ends.
+/// Returns disturbed links with the constraints of their ends.
 template <class S>
 DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     DisturbedIn<S> d(links);
@@ -180,7 +196,7 @@ DisturbedIn<S> disturbed_in(const PulledLinks& links) {
     return d;
 }
 
-/// Throws InvalidArgument if a moving pin has no mass, but for a balanced upper end.
+/// Throws InvalidArgument if a moving pin has no mass, except a balanced upper end.
 REVCHAIN_LAZY
 void require_mass(const PulledLinks& links, const Disturbed& d) {
     constexpr std::string_view place = "stability";
@@ -189,45 +205,52 @@ void require_mass(const PulledLinks& links, const Disturbed& d) {
         if (pin > 0 ? pin < top : !links.held || links.lower_yields())
             detail::throw_invalid(place, "pins must have mass; one that has none is number", pin);
     if (links.top_is_massless() && links.momentum.back() != 0)
-        detail::throw_invalid(place,
-                              "a flywheel must not act on a support without mass; give it a carriage weight, now", 0.0);
+        detail::throw_invalid(
+            place,
+            "a flywheel must not act on a support without mass; give it a carriage weight, now",
+            0.0);
 }
 
-/// The verdict on a shape, in double or, by thorough means and if rounding spoils that, in
-/// double-double.
+/// Returns the verdict on a shape, in double. With thorough means it is in double-double if
+/// rounding spoils the result in double.
 template <class Means>
 Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
     const Disturbed d = disturbed_in<double>(links);
     require_mass(links, d);
-    if (d.in_plane.size() == 0) {  // two links held at both ends: nothing can move but by rotation
+    if (d.in_plane.size() == 0) {  // two links held at both ends can only rotate
         Stability still;
         still.frame = frame, still.verdict = Verdict::minimum;
         return still;
     }
     auto found = judged_in(frame, d, links.units);
-    constexpr Index most_in_words = 100;  ///< unknowns: takes half a second
+    constexpr Index most_in_words = 100;  ///< unknowns; so many take half a second
     if constexpr (detail::is_thorough<Means>)
         if ((!found || found->is_spoilt) && d.in_plane.rows() + d.mass.rows() <= most_in_words)
-            if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units)) found = std::move(finer);
+            if (auto finer = judged_in(frame, disturbed_in<DoubleDouble>(links), links.units))
+                found = std::move(finer);
     if (!found) {
         constexpr std::string_view rule =
-            detail::is_thorough<Means> ? "every motion must move some mass; pins that move"
-                                       : "every motion must move some mass, and in double that is in doubt; "
-                                         "revchain::thorough as the last argument computes with twice the digits; pins "
-                                         "that move";
+            detail::is_thorough<Means>
+                ? "every motion must move some mass; pins that move"
+                : "every motion must move some mass, and in double that is in doubt; "
+                  "revchain::thorough as the last argument computes with twice the digits; pins "
+                  "that move";
         detail::throw_invalid("stability", rule, d.mass.rows());
     }
     return found->stability;
 }
 template <class Shape, class Means>
-Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape, Means means) {
+Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape,
+                 Means means) {
     require_shape_of(chain, shape);
     return judged(frame, pulled_links(links_of(chain), shape), means);
 }
 
-/// The shape of a rig. Momentum p of a link about its own axis adds p/a to the pull.
+/// Returns the shape of a rig as pulled links. Momentum p of a link about itself adds p/a to the
+/// pull.
 REVCHAIN_LAZY
-PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape, double height) {
+PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyShape& shape,
+                         double height) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -given.units.length_exponent); };
     PulledLinks result(given.units);
     result.turns_freely = given.support.symmetric;
@@ -239,13 +262,17 @@ PulledLinks pulled_links(const Rig& rig, const RiggedLinks& given, const SteadyS
     const auto [pull, doubt] = pulls(links, shape, given.units);
     for (Index m = 0; m < rig.size(); ++m) {
         const auto i = static_cast<std::size_t>(m);
-        const double delta = shape.inclination[m], c = std::cos(delta), wheel = rig.flywheel(m).axial_moment.high;
-        const double about = in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
+        const double delta = shape.inclination[m], c = std::cos(delta),
+                     wheel = rig.flywheel(m).axial_moment.high;
+        const double about =
+            in_lengths(in_lengths(std::ldexp(wheel, -given.units.weight_exponent)));
         Link<Fine> link = given.links[i];
-        // as a body: inertia that turns with it had lessened its resistance
+        // as a body: in `given`, inertia that turns with the link lessens its resistance
         link.cross = given.given[i].cross - Fine(about) / (link.length * given.given[i].length);
-        const double kept = height * as_double(given.speed * given.given[i].spin), a = links[i].length;
-        result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a), kept * a + about * c, about);
+        const double kept = height * as_double(given.speed * given.given[i].spin),
+                     a = links[i].length;
+        result.add(link, delta, pull[i] + about / a, doubt[i] + std::abs(about / a),
+                   kept * a + about * c, about);
     }
     result.upper_offset = in_lengths(shape.offset[rig.size()]);
     return result;
@@ -258,8 +285,8 @@ bool displaces_turning_fluid(const Rig& rig) {
     return false;
 }
 
-/// The verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning frame: a
-/// shape with minimal potential energy, but for a rotation, is stable.
+/// Returns the verdict if the kinetic energy is unknown, but positive and 0 at rest in the turning
+/// frame. A shape with minimal potential energy, apart from a rotation, is stable.
 REVCHAIN_LAZY
 Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     const bool free = frame == StabilityFrame::free;
@@ -267,8 +294,8 @@ Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
     if (!free) {
         in_plane -= d.turned;
     } else if (d.turns_freely) {
-        const Matrix<double> others = beside(Matrix<double>(d.offset));
-        across = within(d.out_of_plane, others);
+        const Matrix<double> others = complement(Matrix<double>(d.offset));
+        across = congruent(d.out_of_plane, others);
     } else {
         across = d.out_of_plane;
     }
@@ -284,19 +311,23 @@ Stability judged_by_energy(StabilityFrame frame, const Disturbed& d) {
 }
 
 template <class Means>
-Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Means means) {
+Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options,
+                 Means means) {
     constexpr std::string_view place = "stability";
-    detail::require_positive(place, "gravity", options.gravity, "conical height of the shape", shape.conical_height);
+    detail::require_positive(place, "gravity", options.gravity, "conical height of the shape",
+                             shape.conical_height);
     require_shape_of(rig.chain(), shape);
     const Support& support = rig.support();
     const double end = shape.offset[rig.size()];
-    if (support.is_firm() && !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
+    if (support.is_firm() &&
+        !(std::abs(end - support.radius) <= 1e-12 * (support.radius + rig.chain().total_length())))
         detail::throw_invalid(place, "the shape is not of this rig; its upper end is at", end);
-    const Wide<double> height(shape.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
+    const Wide<double> height(shape.conical_height),
+        speed = sqrt(Wide<double>(options.gravity) / height);
     const bool forward = options.direction == Rotation::forward;
     const RiggedLinks given = rigged_links(rig, height, forward ? speed : -speed);
-    const PulledLinks links =
-        pulled_links(rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
+    const PulledLinks links = pulled_links(
+        rig, given, shape, std::ldexp(shape.conical_height, -given.units.length_exponent));
     if (displaces_turning_fluid(rig)) return judged_by_energy(options.frame, Disturbed(links));
     return judged(options.frame, links, means);
 }

@@ -12,7 +12,8 @@ namespace finite {
 template <class Shape, class Means>
 Stability judged(StabilityFrame frame, const Chain<double>& chain, const Shape& shape, Means means);
 template <class Means>
-Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Means means);
+Stability judged(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options,
+                 Means means);
 }  // namespace finite
 
 REVCHAIN_DEFINE
@@ -26,12 +27,14 @@ Stability stability(const Chain<double>& chain, const HeldShape& shape, Stabilit
 }
 
 REVCHAIN_DEFINE
-Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame, Thorough) {
+Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame,
+                    Thorough) {
     return finite::judged(frame, chain, shape, thorough);
 }
 
 REVCHAIN_DEFINE
-Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame, Thorough) {
+Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame,
+                    Thorough) {
     return finite::judged(frame, chain, shape, thorough);
 }
 
@@ -41,7 +44,8 @@ Stability stability(const Rig& rig, const SteadyShape& shape, const RigStability
 }
 
 REVCHAIN_DEFINE
-Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options, Thorough) {
+Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options,
+                    Thorough) {
     return finite::judged(rig, shape, options, thorough);
 }
 

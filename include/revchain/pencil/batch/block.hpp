@@ -9,28 +9,29 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Chains in one block; each kind of processor uses registers of its own width.
+/// The number of chains in one block. Each processor uses registers of its own width.
 inline constexpr std::ptrdiff_t block_lanes = 16;
 
-/// Numbers of `block_lanes` chains of `size` links, lowest first: [m * block_lanes + lane].
+/// Pointers to numbers of `block_lanes` chains of `size` links, lowest first [m * block_lanes +
+/// lane].
 struct LaneBlock {
     std::ptrdiff_t size = 0;
     const double* weight = nullptr;
     const double* length = nullptr;
-    const double* centroid = nullptr;  ///< null for plummets, with the mass at the lower pin
-    const double* turning = nullptr;   ///< radius of gyration, or pendulum length
+    const double* centroid = nullptr;  ///< null for plummets, which have the mass at the lower pin
+    const double* turning = nullptr;   ///< radius of gyration or pendulum length
     bool turning_is_radius = false;
 };
 
-/// A shape of given mu, carried from one end of the chain: the offset of the pin reached, the force
-/// in the link ahead, and the sums y^T M y and y^T K y over the links passed.
+/// A shape of given mu, carried from one end of the chain. It has the offset of the current pin,
+/// the force in the next link, and the sums y^T M y and y^T K y over the links passed.
 template <class V>
 struct LaneShape {
     V offset, force, inertia{}, stiffness{};
     V earlier_inertia{}, earlier_stiffness{};  // sums of sums: fewer roundings
 };
 
-/// p(x), p'(x), p''(x)/2.
+/// A polynomial's Taylor coefficients at x: p(x), p'(x), p''(x)/2.
 template <class V>
 struct LaneTaylor {
     V value, slope, curvature;
@@ -38,7 +39,7 @@ struct LaneTaylor {
 
 namespace detail {
 
-/// Powers of two that bring total weight and largest length near 1. `ordinary`: no overflow.
+/// Powers of two that scale total weight and largest length to about 1. `ordinary`: no overflow.
 template <class V>
 struct LaneUnits {
     V per_weight, per_length;
@@ -66,7 +67,7 @@ struct LaneUnits {
     }
 };
 
-/// `Stored` numbers for each link of the chains in one register's lanes, in units near 1.
+/// The base of link classes: `Stored` numbers for each link of a register's chains, units near 1.
 template <class V, std::ptrdiff_t Stored>
 class LaneNumbers {
    public:
@@ -77,7 +78,7 @@ class LaneNumbers {
     [[gnu::always_inline]] typename V::Mask ordinary() const { return units_.ordinary; }
 
    protected:
-    /// For lanes lane, lane + 1, ... of the block; `work` has size * stored * block_lanes numbers.
+    /// Handles lanes lane, lane + 1, ...; `work` has size * stored * block_lanes numbers.
     [[gnu::always_inline]] LaneNumbers(const LaneBlock& block, std::ptrdiff_t lane, double* work)
         : size_(block.size), work_(work + lane), units_(block, lane) {}
 
@@ -95,10 +96,12 @@ class LaneNumbers {
     LaneUnits<V> units_;
 };
 
-/// Links after which recurrences are scaled near 1, so that they cannot leave the range.
+/// The number of links after which recurrences are scaled to about 1, so that they cannot overflow.
 inline constexpr std::ptrdiff_t rescaled_every = 8;
 
-[[gnu::always_inline]] inline bool rescaled_after(std::ptrdiff_t m) { return m % rescaled_every == rescaled_every - 1; }
+[[gnu::always_inline]] inline bool rescaled_after(std::ptrdiff_t m) {
+    return m % rescaled_every == rescaled_every - 1;
+}
 
 template <class V>
 [[gnu::always_inline]] inline V rescaling(const V& offset, const V& force) {
@@ -121,7 +124,7 @@ template <class V>
     s.earlier_stiffness = s.earlier_stiffness * (scale * scale);
 }
 
-/// After link m: sums of four links are added up, and the numbers brought near 1.
+/// After every fourth link m: adds up the sums of four links. After every eighth link: rescales.
 template <class V>
 [[gnu::always_inline]] inline void tidy(std::ptrdiff_t m, LaneShape<V>& s) {
     if (m % 4 != 3) return;

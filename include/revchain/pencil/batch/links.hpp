@@ -5,7 +5,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Plummets: force F above and offset y of each pin for a free end at offset 1, with mu = 1/lambda,
+/// Plummets. F is the force above each pin and y the pin's offset, for a free end at offset 1. With
+/// mu = 1/lambda they follow from
 ///
 ///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung above the pin's thread) / a.
 ///
@@ -31,7 +32,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         }
     }
 
-    /// The size() + 1 coefficients of y at the support, lowest first. Cost N^2.
+    /// Writes the size() + 1 coefficients of y at the support, lowest first. Cost N^2.
     [[gnu::always_inline]] void polynomial(V* y) const {
         V f[max_polynomial];  // F / (-mu)
         y[0] = V(1.0);
@@ -46,8 +47,9 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
     }
 
     /// Carries y and F with derivatives up one link. One template for numbers and for truncated
-    /// power series took 1.1 to 1.25 times as long: the terms in x then wait for y.
-    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
+    /// power series took 1.1 to 1.25 times as long, because the terms in x then wait for y.
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y,
+                                     LaneTaylor<V>& f) const {
         const V weight = get(m, 0), flexibility = get(m, 2);
         f.curvature = f.curvature - weight * (x * y.curvature + y.slope);
         f.slope = f.slope - weight * (x * y.slope + y.value);
@@ -69,7 +71,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         stretch(m, s);
     }
 
-    /// Carries the shape down one link; its force has the other sign.
+    /// Carries the shape down one link. The force has the opposite sign.
     [[gnu::always_inline]] void descend(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
         stretch(m, s);
         const V push = get(m, 0) * s.offset;
@@ -77,7 +79,7 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
         s.force = s.force - x * push;
     }
 
-    /// Mass of link m at its lower pin, its stiffness, and its mass at its upper pin.
+    /// These return a link's mass at its lower pin, its stiffness, and its mass at its upper pin.
     [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, 0); }
     [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, 1); }
     [[gnu::always_inline]] V upper_mass(std::ptrdiff_t) const { return V(0.0); }
@@ -91,8 +93,8 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
     }
 };
 
-/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2),
-/// y_G = p y + q y' the offset of its centre of gravity and d = y' - y,
+/// Rigid links. With p = h/a, q = (a - h)/a, t = rho^2/a^2 a link's mass is W (y_G^2 + t d^2),
+/// where y_G = p y + q y' is the offset of its centre of gravity and d = y' - y:
 ///
 ///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - t).
 ///
@@ -141,7 +143,8 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         y[0] = V(1.0);
         f[0] = V(0.0);
         for (std::ptrdiff_t m = 0; m < size(); ++m) {
-            const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper), c = get(m, coupling);
+            const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper),
+                    c = get(m, coupling);
             const V flexibility = get(m, flexibility_);
             f[m + 1] = b * f[m] + c * y[m];
             y[m + 1] = a * y[m] + flexibility * f[m];
@@ -154,14 +157,17 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
     }
 
-    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
-        const V a = get(m, lower), b = get(m, upper), c = get(m, coupling), flexibility = get(m, flexibility_);
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y,
+                                     LaneTaylor<V>& f) const {
+        const V a = get(m, lower), b = get(m, upper), c = get(m, coupling),
+                flexibility = get(m, flexibility_);
         const V on_y = V(1.0) - x * a, on_f = V(1.0) - x * b;
         const V couple = get(m, weight_) - x * c, push = x * couple, push1 = couple - x * c;
         const LaneTaylor<V> above{on_y * y.value + flexibility * f.value,
                                   on_y * y.slope - a * y.value + flexibility * f.slope,
                                   on_y * y.curvature - a * y.slope + flexibility * f.curvature};
-        f.curvature = on_f * f.curvature - b * f.slope - (push * y.curvature + push1 * y.slope - c * y.value);
+        f.curvature =
+            on_f * f.curvature - b * f.slope - (push * y.curvature + push1 * y.slope - c * y.value);
         f.slope = on_f * f.slope - b * f.value - (push * y.slope + push1 * y.value);
         f.value = on_f * f.value - push * y.value;
         y = above;
@@ -181,22 +187,31 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
         pass(m, x, get(m, q_), get(m, p_), s);
     }
 
-    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, lower) * get(m, stiffness_); }
+    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const {
+        return get(m, lower) * get(m, stiffness_);
+    }
     [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, stiffness_); }
-    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const { return get(m, upper) * get(m, stiffness_); }
+    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const {
+        return get(m, upper) * get(m, stiffness_);
+    }
 
    private:
-    static constexpr std::ptrdiff_t weight_ = 0, weight_a = 1, weight_aa = 2, p_ = 3, q_ = 4, turn = 5;
-    static constexpr std::ptrdiff_t stiffness_ = 6, cross = 7, flexibility_ = 8, lower = 9, upper = 10;
+    static constexpr std::ptrdiff_t weight_ = 0, weight_a = 1, weight_aa = 2, p_ = 3, q_ = 4,
+                                    turn = 5;
+    static constexpr std::ptrdiff_t stiffness_ = 6, cross = 7, flexibility_ = 8, lower = 9,
+                                    upper = 10;
     static constexpr std::ptrdiff_t coupling = 11;
 
-    /// From a pin `far` from the centre of gravity to one `near` it, a y_G = near y + far y'.
-    [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
+    /// Carries the shape from a pin at distance `far` from the centroid to a pin at distance
+    /// `near`. The centroid's offset y_G satisfies a y_G = near y + far y'.
+    [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far,
+                                     LaneShape<V>& s) const {
         const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
         const V next = s.offset + (s.force - (x * pull) * s.offset) / (k + x * get(m, cross));
         const V stretched = next - s.offset;  // rounded: second-order error of the quotient
         const V moment = near * s.offset + far * next;
-        s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment + (get(m, turn) * stretched) * stretched);
+        s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment +
+                                 (get(m, turn) * stretched) * stretched);
         s.stiffness = s.stiffness + (k * stretched) * stretched;
         s.force = s.force - x * (get(m, weight_a) * moment);
         s.offset = next;

@@ -9,30 +9,30 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The method of the first approximations. With the recurrence alone all modes of 10 links took 2.5
-/// times as long, of 16 3 times. `modes`, chain by chain, takes 2.2 to 2.8 times as long as the
-/// recurrence for 17 links, 1.2 to 1.5 times for 100.
+/// The method of the first approximations. The recurrence alone took 2.5 times as long for all
+/// modes of 10 links, and 3 times for 16. `modes`, one chain at a time, takes 2.2 to 2.8 times as
+/// long as the recurrence for 17 links, and 1.2 to 1.5 times for 100.
 enum class LaneMethod {
     coefficients,  ///< zeros of the expanded polynomial, deflated: cheapest up to 16 links
-    recurrence,    ///< zeros of the recurrence, known ones divided out: any number of links
+    recurrence,    ///< zeros of the recurrence, divided by the known zeros: any number of links
 };
 
 namespace detail {
 
-/// Rayleigh quotient stiffness / inertia; `imbalance` is its squared residual over the quotient.
+/// A Rayleigh quotient stiffness / inertia. `imbalance` is its squared residual over the quotient.
 template <class V>
 struct LaneQuotient {
     V stiffness, inertia, imbalance;
 };
 
-/// The quotient of a shape with the residual `force` at one pin, which has the mass `mass`.
+/// Returns the quotient of a shape with the residual `force` at one pin, whose mass is `mass`.
 template <class V>
-[[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia, const V& force,
-                                                          const V& mass) {
+[[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia,
+                                                          const V& force, const V& mass) {
     return {stiffness, inertia, force * force * inertia / (mass * (stiffness * stiffness))};
 }
 
-/// The quotient of the shape carried from the free end to the topmost pin below the support.
+/// Returns the quotient of the shape carried from the free end to the topmost free pin.
 template <class V, class Links>
 [[gnu::always_inline]] inline LaneQuotient<V> quotient(const Links& links, const V& x) {
     LaneShape<V> s{1.0, 0.0};
@@ -47,10 +47,12 @@ template <class V, class Links>
                        s.force - x * (mass * s.offset) + k * s.offset, mass);
 }
 
-/// The quotient of the shape from both ends to the pin where they meet best: modes low in the chain
-/// would grow upwards from rounding. `work`: 4 * size * block_lanes numbers.
+/// Returns the quotient of the shape carried from both ends to the pin where they agree best.
+/// (Upwards alone, rounding errors of low modes would grow.) `work` holds 4 * size * block_lanes
+/// numbers.
 template <class V, class Links>
-[[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x, double* work) {
+[[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x,
+                                                               double* work) {
     LaneShape<V> s{1.0, 0.0};
     for (std::ptrdiff_t m = 0; m < links.size(); ++m) {
         double* const here = work + 4 * m * block_lanes;
@@ -70,8 +72,10 @@ template <class V, class Links>
         const V up = V(1.0) / V::load(here), down = V(1.0) / t.offset;
         const V mass = m == 0 ? links.lower_mass(m) : links.lower_mass(m) + links.upper_mass(m - 1);
         const LaneQuotient<V> q =
-            quotient_of(V::load(here + 3 * block_lanes) * up * up + (t.stiffness + t.earlier_stiffness) * down * down,
-                        V::load(here + 2 * block_lanes) * up * up + (t.inertia + t.earlier_inertia) * down * down,
+            quotient_of(V::load(here + 3 * block_lanes) * up * up +
+                            (t.stiffness + t.earlier_stiffness) * down * down,
+                        V::load(here + 2 * block_lanes) * up * up +
+                            (t.inertia + t.earlier_inertia) * down * down,
                         V::load(here + block_lanes) * up + t.force * down, mass);
         const auto better = q.imbalance < best.imbalance;
         best.stiffness = select(better, q.stiffness, best.stiffness);
@@ -81,14 +85,14 @@ template <class V, class Links>
     return best;
 }
 
-/// Squared residual that is accurate: the quotient's error is at most this over the gap (relative).
+/// The squared residual that suffices: the quotient's relative error is at most this over the gap.
 inline constexpr double negligible_imbalance = 1e-18;
 
-/// Whether, by count, `i` modes lie below `low` and one more below `high`. This is `modes_below` at
-/// two points; one loop over an array of points took 1.3 times as long (rods).
+/// Returns true if counts show `i` modes below `low` and one more below `high`. This is
+/// `modes_below` at two points; one loop over an array of points took 1.3 times as long (rods).
 template <class V, class Links>
-[[gnu::always_inline]] inline typename V::Mask numbered(const Links& links, std::ptrdiff_t i, const V& low,
-                                                        const V& high) {
+[[gnu::always_inline]] inline typename V::Mask numbered(const Links& links, std::ptrdiff_t i,
+                                                        const V& low, const V& high) {
     V y(1.0), f(0.0), z(1.0), g(0.0);
     typename V::Mask below{}, above{};
     for (std::ptrdiff_t m = 0; m < links.size(); ++m) {
@@ -103,13 +107,15 @@ template <class V, class Links>
         }
     }
     const V huge(0x1p1000);  // false for NaN
-    return (below == typename V::Mask(i)) & (above == typename V::Mask(i + 1)) & (abs(y) < huge) & (abs(z) < huge);
+    return (below == typename V::Mask(i)) & (above == typename V::Mask(i + 1)) & (abs(y) < huge) &
+           (abs(z) < huge);
 }
 
-/// The `count` smallest mu of lanes from `lane`, as heights 1/mu; `verified` if counts prove each.
+/// Computes the `count` least mu from `lane` on, as heights 1/mu; `verified`: counts prove each.
 template <class V, template <class> class LinksOf>
-[[gnu::always_inline]] inline void spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method,
-                                            std::ptrdiff_t lane, double* work, double* height, std::int64_t* verified) {
+[[gnu::always_inline]] inline void spectrum(const LaneBlock& block, std::ptrdiff_t count,
+                                            LaneMethod method, std::ptrdiff_t lane, double* work,
+                                            double* height, std::int64_t* verified) {
     using Links = LinksOf<V>;
     const Links links(block, lane, work);
     double* const found = work + block.size * Links::stored * block_lanes + lane;
@@ -120,14 +126,15 @@ template <class V, template <class> class LinksOf>
     V x(0.0);
     const V per_length = links.per_length();
     typename V::Mask good = links.ordinary();
-    // Well above the error of the count, a tenth of an ulp for each link.
+    // The margin is well above the count's error, which is a tenth of an ulp for each link.
     const V margin((16.0 + 0.25 * static_cast<double>(block.size)) * 0x1p-52);
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         x = written_out ? next_zero(c, block.size - i, x) : next_zero<V>(links, found, i);
         V mu = x, h(0.0);
         typename V::Mask active(-1);
         for (int round = 0; round < 4 && any(active); ++round) {
-            const LaneQuotient<V> q = written_out ? quotient(links, mu) : twisted_quotient(links, mu, shapes);
+            const LaneQuotient<V> q =
+                written_out ? quotient(links, mu) : twisted_quotient(links, mu, shapes);
             mu = select(active, q.stiffness / q.inertia, mu);
             h = select(active, q.inertia / q.stiffness, h);
             // The quotient's error is at most the square of the residual over the relative gap.
@@ -141,38 +148,41 @@ template <class V, template <class> class LinksOf>
         const V mu = V::load(found + i * block_lanes);
         good = good & numbered<V>(links, i, mu - mu * margin, mu + mu * margin);
     }
-    for (std::size_t j = 0; j < V::size; ++j) verified[lane + static_cast<std::ptrdiff_t>(j)] = good[j];
+    for (std::size_t j = 0; j < V::size; ++j)
+        verified[lane + static_cast<std::ptrdiff_t>(j)] = good[j];
 }
 
 }  // namespace detail
 
-/// The numbers of scratch that `lane_spectrum` needs.
+/// Returns the number of doubles of scratch that `lane_spectrum` needs.
 inline std::size_t lane_work(std::ptrdiff_t size) {
     return static_cast<std::size_t>((RigidLanes<Pack<double>>::stored + 5) * size * block_lanes);
 }
 
-/// The `count` largest conical heights of `block_lanes` chains, descending, [j * block_lanes + i],
-/// in the unit of the lengths. If `verified[i]` is not 0, counts in double at both ends of an
-/// interval of 16 + size/4 ulp (relative) about each height of chain i show that it holds the mode
-/// of that number and no other; otherwise nothing is known.
+/// Computes the `count` largest conical heights of `block_lanes` chains, descending, [j *
+/// block_lanes + i], in the unit of the lengths. If `verified[i]` is not 0, counts in double show
+/// that the mode of that number, and no other, lies within 16 + size/4 ulp of each height of chain
+/// i. If it is 0, nothing is proved.
 ///
-/// First approximations by Laguerre's iteration from the left on y at the support as a polynomial
-/// in mu = 1/lambda, known zeros divided out; then the Rayleigh quotient of the shape there, whose
-/// error is the square of the shape's. A lane depends on its own numbers alone, so results are
-/// bitwise the same wherever a chain stands; another kind of processor may change last digits.
-/// `aberth_spectrum` has its shifts of one chain side by side, this function has chains: a third of
-/// the time for all modes of 10 links (as long for 40). The lumped masses used there would cancel
-/// where centroids lie below their links. Preconditions: weights, lengths and centroids positive
-/// and finite, radii of gyration not negative, pendulum lengths >= centroid; 1 <= count <= size, 16
-/// for `coefficients`.
-inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work,
-                          double* height, std::int64_t* verified) {
+/// Method: Laguerre's iteration from the left on y at the support, a polynomial in mu = 1/lambda,
+/// with known zeros divided out. Then the Rayleigh quotient of the shape there, whose error is the
+/// square of the shape's. A lane depends on its own numbers alone, so results are bitwise
+/// independent of a chain's lane. Another kind of processor may change last digits.
+/// `aberth_spectrum` has the shifts of one chain side by side, and this function has chains: a
+/// third of the time for all modes of 10 links (as long for 40). The lumped masses used there would
+/// cancel where centroids lie below their links. Preconditions: weights, lengths and centroids
+/// positive and finite; radii of gyration not negative; pendulum lengths >= centroid; 1 <= count <=
+/// size; size <= 16 for `coefficients`.
+inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method,
+                          double* work, double* height, std::int64_t* verified) {
     simd([&](auto registers) REVCHAIN_INLINED {
-        // Eight doubles to a register were slower than four (N = 10, Zen 4).
+        // Eight doubles in a register were slower than four (N = 10, Zen 4).
         using V = Pack<double, std::min(registers.doubles, pack_size), 4>;
-        for (std::ptrdiff_t lane = 0; lane < block_lanes; lane += static_cast<std::ptrdiff_t>(V::size)) {
+        for (std::ptrdiff_t lane = 0; lane < block_lanes;
+             lane += static_cast<std::ptrdiff_t>(V::size)) {
             if (block.centroid == nullptr)
-                detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height, verified);
+                detail::spectrum<V, PlummetLanes>(block, count, method, lane, work, height,
+                                                  verified);
             else
                 detail::spectrum<V, RigidLanes>(block, count, method, lane, work, height, verified);
         }

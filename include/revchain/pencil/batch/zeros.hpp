@@ -7,11 +7,12 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 
 namespace detail {
 
-/// The relative step at which Laguerre's iteration ends; the error left is about its cube.
+/// The relative step at which Laguerre's iteration ends. The remaining error is about its cube.
 inline constexpr double last_step = 2e-4;
 
-/// Square root to a relative 1e-10: a first guess from the exponent, three Newton steps for 1/sqrt.
-/// The built-in one is not vectorised where it has to set errno. Precondition: x is normal, or 0.
+/// Returns the square root to a relative 1e-10: a first guess from the exponent, three Newton steps
+/// for 1/sqrt. The built-in function is not vectorised if it must set errno. Precondition: x
+/// normal, or 0.
 template <class V>
 [[gnu::always_inline]] inline V rough_sqrt(const V& x) {
     V r = rough_inverse_root(x);
@@ -22,7 +23,7 @@ template <class V>
     return x * r;
 }
 
-/// y at the support with its derivatives, times a power of two.
+/// Returns y at the support with its derivatives, times a power of two.
 template <class V, class Links>
 [[gnu::always_inline]] inline LaneTaylor<V> taylor(const Links& links, const V& x) {
     LaneTaylor<V> y{V(1.0), V(0.0), V(0.0)}, f{V(0.0), V(0.0), V(0.0)};
@@ -33,7 +34,7 @@ template <class V, class Links>
     return y;
 }
 
-/// The number of modes below x (Sturm): changes of sign of y from pin to pin.
+/// Returns the number of modes below x (Sturm): changes of sign of y from pin to pin.
 template <class V, class Links>
 [[gnu::always_inline]] inline typename V::Mask modes_below(const Links& links, const V& x) {
     V y(1.0), f(0.0);
@@ -47,9 +48,10 @@ template <class V, class Links>
     return changes;
 }
 
-/// Laguerre's step to the next of `left` zeros; from the left of all it never passes the first.
+/// Returns Laguerre's step to the next of `left` zeros. From below all, it never passes the first.
 template <class V>
-[[gnu::always_inline]] inline V laguerre_step(const V& value, const V& slope, const V& square, std::ptrdiff_t left) {
+[[gnu::always_inline]] inline V laguerre_step(const V& value, const V& slope, const V& square,
+                                              std::ptrdiff_t left) {
     const V n(static_cast<double>(left)), rest(static_cast<double>(left - 1));
     V under = rest * square;
     under = select(under < V(0.0), V(0.0), under);
@@ -58,7 +60,7 @@ template <class V>
     return select(abs(step) < V(0x1p1000), step, V(0.0));  // 0 where x is the zero
 }
 
-/// The zero of c[0] + ... + c[degree] x^degree above `from`, to about 1e-10; divides it out.
+/// Returns c[0] + ... + c[degree] x^degree's zero above `from`, to about 1e-10. Divides it out.
 template <class V>
 [[gnu::always_inline]] inline V next_zero(V* c, std::ptrdiff_t degree, const V& from) {
     V x = from;
@@ -71,9 +73,10 @@ template <class V>
             value = value * x + c[j];
         }
         const V n(static_cast<double>(degree)), rest(static_cast<double>(degree - 1));
-        const V step = laguerre_step(value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
+        const V step = laguerre_step(
+            value, slope, rest * (slope * slope) - (n + n) * (value * curvature), degree);
         x = select(active, x - step, x);
-        active = active & (V(last_step) * abs(x) < abs(step));  // its error is about its cube
+        active = active & (V(last_step) * abs(x) < abs(step));  // the error is about its cube
     }
     V carried = c[degree];
     for (std::ptrdiff_t j = degree; j-- > 0;) {
@@ -84,9 +87,11 @@ template <class V>
     return x;
 }
 
-/// A point above the last known zero, far enough to divide that out, and by count below the next.
+/// Returns a point above the last known zero, far enough to divide it out, but by count below the
+/// next.
 template <class V, class Links>
-[[gnu::always_inline]] inline V between_zeros(const Links& links, const double* known, std::ptrdiff_t count) {
+[[gnu::always_inline]] inline V between_zeros(const Links& links, const double* known,
+                                              std::ptrdiff_t count) {
     if (count == 0) return V(0.0);
     const V last = V::load(known + (count - 1) * block_lanes);
     V ahead = last * V(0x1p-3);
@@ -104,9 +109,10 @@ template <class V, class Links>
     return x;
 }
 
-/// The next zero by the recurrence, with the `count` zeros in `known` divided out.
+/// Returns the next zero by the recurrence, with the `count` zeros in `known` divided out.
 template <class V, class Links>
-[[gnu::always_inline]] inline V next_zero(const Links& links, const double* known, std::ptrdiff_t count) {
+[[gnu::always_inline]] inline V next_zero(const Links& links, const double* known,
+                                          std::ptrdiff_t count) {
     const std::ptrdiff_t left = links.size() - count;
     V x = between_zeros<V>(links, known, count);
     typename V::Mask active(-1);

@@ -11,7 +11,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A B and A'B. Eigen compiles products anew for each kind of expression: seconds for two words.
+/// These return A B and A'B. Eigen compiles each kind of expression anew: seconds for two words.
 template <class S>
 Matrix<S> product(const Matrix<S>& A, const Matrix<S>& B) {
     return A * B;
@@ -21,15 +21,17 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
     return product<S>(A.transpose(), B);
 }
 
-/// A gyroscopic system with mirror symmetry: with x, y exp(s t) so is x, -y exp(-s t).
+/// A gyroscopic system with mirror symmetry: if x, y exp(s t) is a motion, x, -y exp(-s t) is one,
+/// too.
 ///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
-/// A and M symmetric and positive definite, K and C symmetric; in units with B about A and M.
+/// A and M are symmetric and positive definite, K and C symmetric. Units make B about as large as A
+/// and M.
 template <class S>
-struct MirroredPencil {
+struct GyroscopicPencil {
     Matrix<S> A, B, M, K, C;
 };
 
-/// Complex columns, real and imaginary parts apart.
+/// Complex columns with separate real and imaginary parts.
 template <class S>
 struct ComplexColumns {
     Matrix<S> real, imag;
@@ -37,23 +39,24 @@ struct ComplexColumns {
 
 /// Squares of the exponents s, estimates of their rounding errors, and columns x and s y.
 template <class S>
-struct MirroredModes {
+struct GyroscopicModes {
     Vector<std::complex<S>> square;
     Vector<double> error;
     ComplexColumns<S> x, y;
-    bool is_symmetric = false;  ///< a symmetric matrix: all squares are real
+    bool is_symmetric = false;  ///< true if the matrix is symmetric: all squares are then real
 };
 
-/// In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state falls into two halves u =
-/// (x, r), v = (p, -y):
+/// Returns the modes. In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state splits
+/// into two halves u = (x, r), v = (p, -y):
 ///     u' = diag(1, C) v,    v' = -Q u,    Q = [K + 4 B B', -2 B; -2 B', 1],
-/// so that s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. If C is positive
-/// definite they are those of a symmetric matrix: real, and no oscillation grows. As Q u is the
-/// left eigenvector, a change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|. Dense,
-/// backward stable; a defective s^2 spreads by the square root of rounding, and so does an s next
-/// to 0. Cost about 30 n^3, symmetric 10 n^3. Nothing if rounding leaves A or M indefinite.
+/// so s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. If C is positive
+/// definite they are those of a symmetric matrix: they are real, and no oscillation grows. Q u is
+/// the left eigenvector, so a change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|.
+/// The method is dense and backward stable. A defective s^2 spreads by the square root of rounding,
+/// and so does an s near 0. Cost: about 30 n^3, symmetric 10 n^3. The result is empty if rounding
+/// makes A or M indefinite.
 template <class S>
-std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) {
+std::optional<GyroscopicModes<S>> gyroscopic_modes(const GyroscopicPencil<S>& pencil) {
     using std::abs, std::sqrt;
     const Index n = pencil.K.rows(), k = pencil.C.rows();
     const Eigen::LLT<Matrix<S>> root(pencil.A), other(pencil.M);
@@ -67,9 +70,10 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
     const Matrix<S> C = reduced(other, pencil.C, other);
     Matrix<S> Q(n + k, n + k);
     const Matrix<S> twice = S(-2) * B;
-    Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(), Matrix<S>::Identity(k, k);
+    Q << K + product<S>(twice, twice.transpose()), twice, twice.transpose(),
+        Matrix<S>::Identity(k, k);
     const auto rounding = static_cast<double>(std::numeric_limits<S>::epsilon());
-    MirroredModes<S> modes;
+    GyroscopicModes<S> modes;
     modes.error.resize(n + k);
     ComplexColumns<S> u{Matrix<S>(n + k, n + k), Matrix<S>::Zero(n + k, n + k)};
     if (const Eigen::LLT<Matrix<S>> factor(C); factor.info() == Eigen::Success) {
@@ -82,7 +86,7 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         modes.is_symmetric = true;
         modes.error.setConstant(rounding * static_cast<double>(symmetric.norm()));
     } else {
-        // Each r in a unit in which it is as large as its x: light links have fast motions.
+        // Each r has a unit that makes it as large as its x: light links have fast motions.
         Vector<S> unit = Vector<S>::Ones(n + k);
         for (Index i = 0; i < k; ++i) unit[n + i] = sqrt(S(1) + abs(C(i, i)));
         Matrix<S> T = -Q;
@@ -90,10 +94,11 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index i = 0; i < n + k; ++i) T.col(i) *= unit[i], T.row(i) /= unit[i];
         const Eigen::EigenSolver<Matrix<S>> solver(T);
         modes.square = solver.eigenvalues();
-        const Matrix<S> parts = solver.pseudoEigenvectors();  // a pair: real, imaginary
+        const Matrix<S> parts = solver.pseudoEigenvectors();  // of a pair: real, imaginary
         ComplexColumns<S> right = u, left;
         for (Index j = 0; j < n + k; ++j) {
-            const bool first = modes.square[j].imag() > S(0), second = modes.square[j].imag() < S(0);
+            const bool first = modes.square[j].imag() > S(0),
+                       second = modes.square[j].imag() < S(0);
             right.real.col(j) = parts.col(second ? j - 1 : j);
             if (first) right.imag.col(j) = parts.col(j + 1);
             if (second) right.imag.col(j) = -parts.col(j);
@@ -108,21 +113,24 @@ std::optional<MirroredModes<S>> mirrored_modes(const MirroredPencil<S>& pencil) 
         for (Index j = 0; j < n + k; ++j) {
             const auto p = right.real.col(j), q = right.imag.col(j);
             const auto l = left.real.col(j), m = left.imag.col(j);
-            const S squares = (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
+            const S squares =
+                (p.squaredNorm() + q.squaredNorm()) * (l.squaredNorm() + m.squaredNorm());
             const double sizes = static_cast<double>(sqrt(squares));
-            const double overlap =
-                std::hypot(static_cast<double>(p.dot(l) - q.dot(m)), static_cast<double>(p.dot(m) + q.dot(l)));
+            const double overlap = std::hypot(static_cast<double>(p.dot(l) - q.dot(m)),
+                                              static_cast<double>(p.dot(m) + q.dot(l)));
             modes.error[j] = whole * sizes / overlap;
         }
     }
-    const auto back = [](const auto& factor, const Matrix<S>& of) { return Matrix<S>(factor.matrixU().solve(of)); };
+    const auto back = [](const auto& factor, const Matrix<S>& of) {
+        return Matrix<S>(factor.matrixU().solve(of));
+    };
     const Matrix<S> to_y = Q.bottomRows(k);
     modes.x = {back(root, u.real.topRows(n)), back(root, u.imag.topRows(n))};
     modes.y = {back(other, product(to_y, u.real)), back(other, product(to_y, u.imag))};
     return modes;
 }
 
-/// The number of negative eigenvalues of a symmetric matrix, and the least eigenvalue.
+/// The number of negative eigenvalues of a symmetric matrix, and its least eigenvalue.
 struct Inertia {
     Index negative = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -7,10 +7,10 @@
 
 #include "revchain/pencil/complex/isolation.hpp"
 
-/// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign.
+/// This header finds all x with det Q(x) = 0, real or not; the numbers of Q may have any sign.
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A root x with the radius of a disc that holds the exact root.
+/// A root x, and the radius of a disc that holds the exact root.
 struct EnclosedRoot {
     ComplexWord x{};                                          ///< to about 30 digits if isolated
     std::complex<double> value{};                             ///< rounded
@@ -18,7 +18,7 @@ struct EnclosedRoot {
     bool is_real = false;
 };
 
-/// Roots by size, largest first. `proved`: each disc holds exactly one root, all others are 0.
+/// Roots by size, largest first. `proved`: each disc holds exactly one root, and all others are 0.
 struct ComplexSpectrum {
     std::vector<EnclosedRoot> roots;
     bool proved = false;
@@ -26,16 +26,17 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// Steps of Weierstrass's method: from approximate roots x_j to x_j - w_j with w_j = P(x_j)/(c prod
-/// (x_j - x_k)), c the leading coefficient of P = det Q without its zeros at 0.
+/// Steps of Weierstrass's method from approximate roots x_j to x_j - w_j: w_j = P(x_j)/(c prod (x_j
+/// - x_k)), with c the leading coefficient of P = det Q without its zeros at 0.
 struct WeierstrassSteps {
     std::vector<std::complex<double>> step;
-    std::vector<double> blur;  ///< the relative error of a step; infinite where unknown
+    std::vector<double> blur;  ///< the relative error of a step; infinite if unknown
 };
 
-/// Calls f(lanes, number of lanes in use) for all of `which`.
+/// Calls f(lanes, number of lanes in use) for all numbers in `which`.
 template <class F>
-void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance, const F& f) {
+void for_lanes(const std::vector<std::size_t>& which, const std::function<void(double)>& advance,
+               const F& f) {
     constexpr std::size_t L = value_lanes;
     revchain::detail::parallel_for(which.size(), L, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += L) {
@@ -80,17 +81,20 @@ inline WeierstrassSteps steps(const SignedPencil<Wide<double>>& pencil, Index ze
             const double exponent = value.exponent - under.exponent - leading.exponent;
             const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
             const std::complex<double> ratio = value.fraction / under.fraction;
-            result.step[lane[i]] = {std::ldexp(ratio.real(), shift), std::ldexp(ratio.imag(), shift)};
-            result.blur[lane[i]] = (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
+            result.step[lane[i]] = {std::ldexp(ratio.real(), shift),
+                                    std::ldexp(ratio.imag(), shift)};
+            result.blur[lane[i]] =
+                (value.error + leading.error + under.error + sums) * (1 + 0x1p-32);
         }
     });
     return result;
 }
 
-/// Moves the roots that are `meant` until they converge, by Weierstrass's steps, each divided by 1
-/// plus the sum of w_j/(x_i - x_j) over the others (Börsch-Supan); this also separates close roots.
-inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
-                   const std::vector<bool>& meant, const std::function<void(double)>& advance) {
+/// Moves the roots in `meant` until they converge: Weierstrass's steps, each divided by 1 plus the
+/// sum of w_j/(x_i - x_j) over the others (Börsch-Supan). This also separates close roots.
+inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                   std::vector<ComplexWord>& roots, const std::vector<bool>& meant,
+                   const std::function<void(double)>& advance) {
     constexpr int sweeps = 60;
     std::vector<double> last(roots.size(), std::numeric_limits<double>::infinity());
     std::vector<ScaledValue> values(roots.size());
@@ -110,7 +114,7 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
             const double share = std::abs(step) / size_of(roots[i]);
             if (!std::isfinite(share)) continue;
             next[i] = roots[i] - ComplexWord(step);
-            // At the last digits steps no longer shrink.
+            // At the last digits the steps stop shrinking.
             if (!(share < 1e-29 || (share < 1e-20 && share > last[i] / 4))) left.push_back(i);
             last[i] = share;
         }
@@ -118,8 +122,8 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
     }
 }
 
-/// Roots of the real polynomial: first those on the real axis, within the share `flat`, then pairs.
-/// Absent unless as many roots are above the axis as below.
+/// Roots of the real polynomial: first the roots on the real axis, within the share `flat`, then
+/// pairs. The result is empty unless as many roots lie above the axis as below.
 struct Conjugates {
     std::vector<ComplexWord> roots;
     std::size_t real = 0;
@@ -134,16 +138,19 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
             above.push_back(x);
     result.real = result.roots.size();
     if (result.real + 2 * above.size() != roots.size()) return std::nullopt;
-    for (const ComplexWord& x : above) result.roots.push_back(x), result.roots.push_back({x.real, -x.imag});
+    for (const ComplexWord& x : above)
+        result.roots.push_back(x), result.roots.push_back({x.real, -x.imag});
     return result;
 }
 
-/// Discs that hold exactly one root each. All roots lie within d |w_j| of the x_j, d the degree and
-/// w_j Weierstrass's steps; where such discs are apart each holds one (Smith). Then x_j - root =
-/// w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum of r_k/(|x_j -
-/// x_k| - r_k). Returns the discs that meet others; if none, `found` has the roots.
-inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
-                                 std::vector<EnclosedRoot>& found, const std::function<void(double)>& advance) {
+/// Computes discs that hold exactly one root each. All roots lie within d |w_j| of the x_j; d is
+/// the degree and w_j are Weierstrass's steps. A disc that meets no other holds one root (Smith).
+/// Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1). Here s
+/// is the sum of r_k/(|x_j - x_k| - r_k). Returns marks of the discs that meet others; without any,
+/// `found` is valid.
+inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                                 Conjugates& at, std::vector<EnclosedRoot>& found,
+                                 const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
     const std::size_t n = at.roots.size();
@@ -151,7 +158,7 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (std::size_t i = 0; i < n; i += i < at.real ? 1 : 2) heads.push_back(i);
     std::vector<std::size_t> left = heads;
     std::vector<ScaledValue> values(n);
-    // At the exact root, or where a pivot vanishes, nothing is proved: then beside it.
+    // At the exact root, or where a pivot vanishes, there is no proof: points beside it are tried.
     for (const double aside : {0.0, 0x1p-64, 0x1p-56, 0x1p-48, 0x1p-40}) {
         for (const std::size_t i : left) {
             ComplexWord& x = at.roots[i];
@@ -176,8 +183,10 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     std::vector<double> nearest(n), shares(n);
     for_lanes(heads, advance, [&](const std::size_t* lane, std::size_t count) {
         double near[value_lanes], sums[value_lanes];
-        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
-        for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
+        simd([&](auto where)
+                 REVCHAIN_INLINED { distances_in_lanes(where, split, lane, near, sums); });
+        for (std::size_t i = 0; i < count; ++i)
+            nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
     });
     std::vector<bool> meets(n, false);
     bool apart = true;
@@ -185,7 +194,8 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
     for (const std::size_t i : heads) {
         const ComplexWord& x = at.roots[i];
         const double radius = split.radius[i], size = size_of(x);
-        const bool far = nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size && radius < size / 2;
+        const bool far =
+            nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size && radius < size / 2;
         const bool alone = known[i] && far && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
         apart = apart && alone;
         meets[i] = !alone;
@@ -209,12 +219,13 @@ inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index
 
 }  // namespace detail
 
-/// Every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least one
-/// element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two halves),
-/// then one step in two words, with discs proved to hold one root each; where discs meet, roots are
-/// first refined in two words. A disc about a real approximation holds a real root, because it
-/// would also hold the conjugate of another. Cost, N elements (AVX-512): 0.15 microseconds N^2,
-/// with momentum 0.3. `advance(share)` is called after every sweep and may throw, on any thread.
+/// Returns every x with det Q(x) = 0 except `zeros` that are certainly at 0. Precondition: at least
+/// one element. Method: all roots at once in double (Ehrlich and Aberth, from the roots of two
+/// halves), then one step in two words, with discs proved to hold one root each. Where discs meet,
+/// roots are first refined in two words. A disc about a real approximation holds a real root,
+/// because it would also hold the conjugate of a complex one. Cost, N elements (AVX-512): 0.15
+/// microseconds N^2, with momentum 0.3. `advance(share)` is called after every sweep and may throw,
+/// on any thread.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
     const Index degree = detail::leading_term(pencil).degree - zeros;
@@ -233,7 +244,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);
-            // Two roots on the real axis may be a pair off it, and a pair two on it.
+            // Two roots on the real axis may be a complex pair, and a pair may be two real roots.
             for (std::size_t i = 0; i < words.size(); ++i) {
                 if (!meets[i]) continue;
                 if (i < there->real)
@@ -247,9 +258,11 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
         if (flat < 0x1p-40 || work > most_work) break;
         detail::refine(pencil, zeros, words, meets, advance);
     }
-    std::sort(result.roots.begin(), result.roots.end(), [](const EnclosedRoot& x, const EnclosedRoot& y) {
-        return std::pair(std::abs(x.value), x.value.imag()) > std::pair(std::abs(y.value), y.value.imag());
-    });
+    std::sort(result.roots.begin(), result.roots.end(),
+              [](const EnclosedRoot& x, const EnclosedRoot& y) {
+                  return std::pair(std::abs(x.value), x.value.imag()) >
+                         std::pair(std::abs(y.value), y.value.imag());
+              });
     return result;
 }
 

@@ -11,13 +11,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A run of links condensed to its two end pins, exact up to rounding and truncation: a spring
-/// between the pins and a mass at each, depending on mu = 1/lambda. With z = -mu, t = 1 + b1 z + b2
-/// z^2 + ...:
+/// A run of links condensed to its two end pins, exact up to rounding and truncation. It is a
+/// spring between the pins and a mass at each, which depend on mu = 1/lambda. With z = -mu and
+/// t = 1 + b1 z + b2 z^2 + ... the spring and the two masses are
 ///
 ///     lambda k / t + cross,    (lower + a1 z + ...) / t,    (upper + d1 z + ...) / t.
 ///
-/// The leading numbers are in `Wide<T>`; the rest, smaller by mu (mass)/(stiffness), in T.
+/// The leading numbers are in `Wide<T>`. The rest, smaller by mu (mass)/(stiffness), is in T.
 template <Real T>
 struct Block {
     static constexpr std::size_t degree = 6;
@@ -28,16 +28,16 @@ struct Block {
     Index links = 0;
 };
 
-/// Blocks, lowest first; the last one's upper pin is held. Valid for lambda >= `least_shift`.
+/// Blocks, lowest first; the upper pin of the last is held. Valid for lambda >= `least_shift`.
 template <Real T>
 struct CondensedPencil {
     std::vector<Block<T>> blocks;
     T least_shift{};
-    /// Eigenvalues are within this (relative) of the exact chain's: docs/theory/blocks.md.
+    /// Bound on the relative difference to the exact chain's eigenvalues: docs/theory/blocks.md.
     T error{};
 };
 
-/// Dynamic stiffness lambda K - M of a block at one shift:
+/// The dynamic stiffness lambda K - M of a block at one shift,
 ///
 ///     spring [ 1 -1 ; -1 1 ]  -  [ lower 0 ; 0 upper ].
 template <class S>
@@ -47,12 +47,13 @@ struct LumpedElement {
 
 namespace detail {
 
-/// A number of `Wide<T>` in S, a scalar or pack of T or a double word of one.
+/// Returns a number of `Wide<T>` in S, which is a scalar or pack of T, or a double word of one.
 template <class S, class W>
 [[gnu::always_inline]] inline S spread(const W& x) {
     if constexpr (IsPack<S>) {
         return S(static_cast<Lane<S>>(x));
-    } else if constexpr (revchain::detail::is_double_word<S> && revchain::detail::is_double_word<W>) {
+    } else if constexpr (revchain::detail::is_double_word<S> &&
+                         revchain::detail::is_double_word<W>) {
         using N = Narrow<S>;
         return {N(x.high), N(x.low)};
     } else {
@@ -69,8 +70,8 @@ template <class N, class T, std::size_t Count>
 
 }  // namespace detail
 
-/// The block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words of
-/// packs, one shift a lane. The corrections are small and evaluated in T.
+/// Returns the block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words
+/// of packs, one shift a lane. The corrections are small and evaluated in T.
 template <class S, Real T>
 [[gnu::always_inline]] inline LumpedElement<S> element_at(const Block<T>& block, const S& shift) {
     using N = Narrow<S>;
@@ -84,17 +85,19 @@ template <class S, Real T>
             upper + upper * change};
 }
 
-/// The elements of all blocks. Cost: 7 ns per block in packs of doubles, 35 in double words.
+/// Returns elements of all blocks. Cost: 7 ns per block in packs of doubles, 35 in double words.
 template <class S, Real T>
 std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
     std::vector<LumpedElement<S>> elements(pencil.blocks.size());
     simd([&](auto) REVCHAIN_INLINED {
-        for (std::size_t m = 0; m < elements.size(); ++m) elements[m] = element_at<S>(pencil.blocks[m], shift);
+        for (std::size_t m = 0; m < elements.size(); ++m)
+            elements[m] = element_at<S>(pencil.blocks[m], shift);
     });
     return elements;
 }
 
-/// The number of eigenvalues above each shift, >= least_shift. Cost: 15 ns per block for 8 shifts.
+/// Returns the number of eigenvalues above each shift >= least_shift. Cost: 15 ns a block (8
+/// shifts).
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
@@ -113,22 +116,25 @@ std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::ar
                 below[i] = e.spring * (hung / pivot) - e.upper;
             }
         std::array<Index, L> result;
-        for (std::size_t i = 0; i < L; ++i) result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
+        for (std::size_t i = 0; i < L; ++i)
+            result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
         return result;
     });
 }
 
-/// Counts at the shifts of a pack of double words, in numbers of T; `proved` is 1 or 0.
+/// Counts at the shifts of a pack of double words, as numbers of T. `proved` is 1 or 0.
 template <class V>
 struct CertifiedCounts {
     V above{}, proved{};
 };
 
-/// The count with a running bound on the rounding error, for the chain of exactly these blocks.
-/// `proved` as in sturm.hpp, with fewer terms: elements change with the shift and have no cross
-/// mass. The loop of sturm.hpp would need more lines. Cost: 40 ns per block for four shifts.
+/// Returns the count with a running bound on the rounding error, for the chain of exactly these
+/// blocks. `proved` is as in sturm.hpp, with fewer terms, because elements change with the shift
+/// and have no cross mass. The loop of sturm.hpp would need more lines. Cost: 40 ns per block for
+/// four shifts.
 template <Real T>
-CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil,
+                                         const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
     return simd([&](auto) REVCHAIN_INLINED {
@@ -159,10 +165,11 @@ CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const
     });
 }
 
-/// Offsets of the pins between blocks, free end first, the held pin last (0), from their elements
-/// at an eigenvalue in each lane; 1 at the pin where upper and lower part balance best. S: a pack,
-/// or a double word of one. Cost: 30 ns per block in packs of doubles, 150 in double words of
-/// packs, for four modes; `eigenvector` of one would take 2.8 times as long.
+/// Returns offsets of the pins between blocks, free end first, the held pin last (0), from the
+/// elements at an eigenvalue in each lane. The offset is 1 at the pin where upper and lower part
+/// balance best. S is a pack, or a double word of one. Cost for four modes: 30 ns per block in
+/// packs of doubles, 150 in double words of packs; `eigenvector` of one mode would take 2.8 times
+/// as long.
 template <class S>
 std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     using V = Narrow<S>;
@@ -186,7 +193,8 @@ std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
         const auto forces = [&](std::size_t m) REVCHAIN_INLINED {
             const V own = static_cast<V>(elements[m].spring) + static_cast<V>(elements[m].lower);
             if (m == 0) return own;
-            return own + (static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper));
+            return own +
+                   (static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper));
         };
         return detail::twisted<S>(elements.size(), rise, sink, forces).offset;
     });
@@ -198,9 +206,9 @@ struct Improved {
     Narrow<S> change{};
 };
 
-/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y the twisted vector at
-/// `shift`: next to a single eigenvalue it cubes the error. S, a pack or a double word of one, is
-/// the accuracy of the form's sum. Cost: 100 to 200 ns per block.
+/// Makes one step of Newton's method on  y^T (lambda K - M) y = 0  in each lane, with y the twisted
+/// vector at `shift`. Next to a single eigenvalue it cubes the error. S is the accuracy of the
+/// form's sum: a pack or a double word of one. Cost: 100 to 200 ns per block.
 template <class S, Real T>
 Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;
@@ -209,7 +217,7 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     const std::vector<LumpedElement<S>> here = elements_at(pencil, shift);
     const std::vector<LumpedElement<V>> there = elements_at(pencil, at + step);
     return simd([&](auto) REVCHAIN_INLINED {
-        // The form at the shift, in S; its derivative from a second value, in T.
+        // The form at the shift is in S; its derivative follows from a second value, in T.
         S form{};
         V ahead{};
         for (std::size_t m = 0; m < here.size(); ++m) {
@@ -219,7 +227,8 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
             const S inertia = S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper;
             form = form + (stretch * stretch * e.spring - inertia);
             const LumpedElement<V>& f = there[m];
-            ahead += f.spring * stretched * stretched - (f.lower * lower * lower + f.upper * upper * upper);
+            ahead += f.spring * stretched * stretched -
+                     (f.lower * lower * lower + f.upper * upper * upper);
         }
         const S change = form / S((ahead - static_cast<V>(form)) / step);
         return Improved<S>{shift - change, -static_cast<V>(change)};

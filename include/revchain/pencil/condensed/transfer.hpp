@@ -6,7 +6,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-/// Unrolls short loops for GCC (a factor of two), which warns without optimisation.
+/// Unrolls short loops for GCC (twice as fast); without optimisation GCC warns about the pragma.
 #if defined(__OPTIMIZE__)
 #define REVCHAIN_UNROLL _Pragma("GCC unroll 8")
 #else
@@ -15,14 +15,14 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// Transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin, as
-/// polynomials in z = -mu = -1/lambda:
+/// The transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin,
+/// as polynomials in z = -mu = -1/lambda:
 ///
 ///     y' = A y + B q,   q' = C y + D q,
 ///     A = 1 + a1 z + ...,  B = b1 z + ...,  C = c0 + c1 z + ...,  D = 1 + d1 z + ...,
 ///
-/// with A D - B C = 1. A mass w at a pin adds w y to q; a spring of flexibility f adds z f q to y.
-/// No coefficient is negative, so that building and merging never cancel. V is a number or a pack.
+/// with A D - B C = 1. A mass w at a pin adds w y to q. A spring of flexibility f adds z f q to y.
+/// No coefficient is negative, so building and merging never cancel. V is a number or a pack.
 template <class V, std::size_t Degree>
 struct Transfer {
     static constexpr std::size_t degree = Degree;
@@ -47,7 +47,7 @@ inline void append_spring(Transfer<V, Degree>& run, const V& flexibility) {
     for (std::size_t i = 1; i <= Degree; ++i) run.b[i] += flexibility * run.d[i - 1];
 }
 
-/// Adds the spring of a link with inertia, of flexibility f / (1 + mu cross); `cross` = X f >= 0.
+/// Adds the spring of a link with inertia: flexibility f / (1 + mu cross), `cross` = X f >= 0.
 template <class V, std::size_t Degree>
 inline void append_spring(Transfer<V, Degree>& run, const V& flexibility, const V& cross) {
     V to_a = flexibility * run.c[0], to_b = flexibility;
@@ -63,10 +63,11 @@ inline void append_spring(Transfer<V, Degree>& run, const V& flexibility, const 
     }
 }
 
-/// The transfer of `lower` followed by `upper`: the product of the two matrices, cut off at the
-/// degree of `lower`. Missing coefficients of `upper` count as 0.
+/// Returns the transfer of `lower` followed by `upper`: the product of the two matrices, truncated
+/// at the degree of `lower`. Missing coefficients of `upper` count as 0.
 template <class V, std::size_t Degree, std::size_t Upper>
-inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transfer<V, Upper>& upper) {
+inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower,
+                                  const Transfer<V, Upper>& upper) {
     static_assert(Upper <= Degree);
     Transfer<V, Degree> run = lower;
     REVCHAIN_UNROLL

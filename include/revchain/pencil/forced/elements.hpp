@@ -8,17 +8,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A drive: height and, if a stiffness depends on the speed, height times speed, to two roundings.
+/// A drive to two roundings: the height and, if a stiffness depends on the speed, height times
+/// speed.
 struct Driving {
     Wide<double> height, spin;
 };
 
-/// The response of a string of elements to one moved end; offsets are relative to that end's.
+/// The response of a string of elements to one moved end. Offsets are relative to the moved end's.
 struct Driven {
-    bool decided = false;    ///< else maybe at resonance, and only `negative` is valid
-    double error_bound = 0;  ///< of unrounded offsets, over the largest of a pin
-    bool reversed = false;   ///< whether the lowest pin moves against the moved end
-    Index negative = 0;      ///< negative pivots, without those in doubt
+    bool decided = false;    ///< if false, perhaps at resonance: only `negative` is valid
+    double error_bound = 0;  ///< error of unrounded offsets over the largest offset of a pin
+    bool reversed = false;   ///< true if the lowest pin moves against the moved end
+    Index negative = 0;      ///< negative pivots, without uncertain ones
     double stiffness = 0;    ///< force over offset at the moved end, in units of the last element
     double stiffness_error = 0;
 };
@@ -31,7 +32,7 @@ inline Interval<Wide<double>> rescaled(const Interval<Wide<double>>& x, int step
     return {ldexp(x.low, step), ldexp(x.high, step)};
 }
 
-/// How a pin's offset follows from the next pin's or, if that is nearly a node, the next but one.
+/// The ratio of a pin's offset to the next pin's or, if that is nearly a node, to the next but one.
 struct Follows {
     Interval<Wide<double>> ratio;
     int pins = 1;
@@ -39,26 +40,30 @@ struct Follows {
 
 }  // namespace detail
 
-/// Offsets of the pins below the moved end, lowest first, by intervals of two words: for drives
-/// that `driven_lanes` leaves undecided. Dynamic stiffness D of all below a pin is carried up,
+/// Returns the response, and offsets of the pins below the moved end, lowest first, by intervals of
+/// two words: for drives that `driven_lanes` leaves undecided. It carries up D, the dynamic
+/// stiffness below:
 ///
-///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p,
+///     p = D + L - A,    D' = (L - B) - (L + X)^2 / p,    y = y' (L + X) / p.
 ///
-/// and where p vanishes, the pin above being a node, for one link its reciprocal C' = p / ((L - B)
-/// p - (L + X)^2). D enters each step once: intervals widen only as the error grows. `end` is the
-/// offset of the moved end, 1, if that is a pin of the chain, else 0: errors are relative to the
-/// largest offset of a pin. Cost: about 1.5 microseconds for each element.
+/// If p vanishes, the pin above is a node. Then it carries for one link the reciprocal of D',
+/// C' = p / ((L - B) p - (L + X)^2). D enters each step once, so intervals widen only as the error
+/// grows. `end` is 1, the offset of the moved end, if that is a pin of the chain, else 0: errors
+/// are relative to the largest offset of a pin. Cost: about 1.5 microseconds for each element.
 template <class Offsets>
-Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset, double end = 1) {
+Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const Offsets& offset,
+              double end = 1) {
     using S = Wide<double>;
     using I = Interval<S>;
     const double unit = operation_error<S>();
     const std::size_t n = pencil.elements.size();
     std::vector<detail::Follows> follows(n);
     I below(S(0.0)), earlier_pivot, earlier_square, earlier_rest;
-    bool compliant = false;  // `below` is the reciprocal
+    bool compliant = false;  // true if `below` is the reciprocal
     Driven result;
-    const auto two = [](const S& x, double part) { return detail::around(x, std::abs(x.high) * part); };
+    const auto two = [](const S& x, double part) {
+        return detail::around(x, std::abs(x.high) * part);
+    };
     const I height = two(at.height, 2 * unit), spin = two(at.spin, 2 * unit);
     for (std::size_t m = 0; m < n; ++m) {
         const SignedElement<S>& e = pencil.elements[m];
@@ -72,12 +77,12 @@ Driven driven(const SignedPencil<Wide<double>>& pencil, const Driving& at, const
         const I square = revchain::square(coupling);
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;
-            // p here times p below: its sign does not depend on the small one
-            const I pair =
-                earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) - detail::rescaled(earlier_square, step);
+            // the sign of p times the lower p does not depend on the small p
+            const I pair = earlier_pivot * (detail::rescaled(earlier_rest, step) + lower) -
+                           detail::rescaled(earlier_square, step);
             if (pair.negative()) ++result.negative;
             if (!pair.negative() || whole.may_vanish()) return result;
-            const I force = coupling / whole;  // of all below, over the offset of the pin above
+            const I force = coupling / whole;  // force of all below over the upper pin's offset
             const I ratio = below * force;
             follows[m] = {ratio, 1};
             const I node = detail::rescaled(earlier_rest, step) * below - I(S(1.0));

@@ -6,7 +6,7 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// The pins wanted, and room for the ratios between them.
+/// The requested pins, and scratch for the ratios between them.
 struct DrivenPins {
     std::vector<std::size_t> pins;  ///< ascending, all below the moved end
     std::vector<double> ratio{};
@@ -15,12 +15,14 @@ struct DrivenPins {
 namespace detail {
 
 template <bool fused, class V>
-[[gnu::always_inline]] inline DoubleWord<V> product(const DoubleWord<V>& x, const DoubleWord<V>& y) {
+[[gnu::always_inline]] inline DoubleWord<V> product(const DoubleWord<V>& x,
+                                                    const DoubleWord<V>& y) {
     const DoubleWord<V> p = two_product<fused>(x.high, y.high);
     return fast_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
 }
 template <bool fused, class V>
-[[gnu::always_inline]] inline DoubleWord<V> quotient(const DoubleWord<V>& x, const DoubleWord<V>& y) {
+[[gnu::always_inline]] inline DoubleWord<V> quotient(const DoubleWord<V>& x,
+                                                     const DoubleWord<V>& y) {
     const V q = x.high / y.high;
     const DoubleWord<V> p = two_product<fused>(y.high, q);
     const DoubleWord<V> r = fast_two_sum(p.high, p.low + y.low * q);
@@ -31,13 +33,13 @@ template <bool fused, class V>
 template <class V>
 struct DrivenWalk {
     DoubleWord<V> height, spin, below, product;
-    V error;  ///< of `below`
+    V error;  ///< error of `below`
     V row;    ///< the part of `error` from the last element
     V doubt;  ///< sum of the relative errors of the ratios
     typename V::Mask proved, negative, turned;
 };
 
-/// For the sharper bound of a pin: y over y above, one over the pivot, errors of the row and of D.
+/// Numbers for a pin's sharper bound: y over y above, 1 over the pivot, errors of the row and of D.
 template <class V>
 struct DrivenRow {
     V ratio, inverse, row, below;
@@ -54,8 +56,8 @@ template <class V>
 }
 
 template <bool turning, bool fused, class V>
-[[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept, DrivenWalk<V>& w,
-                                        DrivenRow<V>* row) {
+[[gnu::always_inline]] inline void rise(const SignedElement<Wide<double>>& e, bool kept,
+                                        DrivenWalk<V>& w, DrivenRow<V>* row) {
     constexpr double unit = operation_error<Wide<double>>();
     const DoubleWord<V> k = in_all_lanes<V>(e.stiffness), mass = in_all_lanes<V>(e.lower);
     DoubleWord<V> stiffness = product<fused>(w.height, k);
@@ -68,13 +70,14 @@ template <bool turning, bool fused, class V>
     const DoubleWord<V> pivot = (w.below - mass) + stiffness;
     const DoubleWord<V> coupling = stiffness + in_all_lanes<V>(e.cross);
     const DoubleWord<V> ratio = quotient<fused>(coupling, pivot);
-    const DoubleWord<V> carried = (stiffness - in_all_lanes<V>(e.upper)) - product<fused>(coupling, ratio);
+    const DoubleWord<V> carried =
+        (stiffness - in_all_lanes<V>(e.upper)) - product<fused>(coupling, ratio);
 
     constexpr double tiny = 0x1p-960;
     const V of_stiffness = w.height.high * V(e.error.stiffness) + V(12 * unit) * size + V(tiny);
     const V coupled = of_stiffness + V(e.error.cross + 12 * unit * std::abs(e.cross.high));
-    const V local =
-        of_stiffness + V(e.error.lower + 12 * unit * std::abs(e.lower.high)) + V(12 * unit) * abs(w.below.high);
+    const V local = of_stiffness + V(e.error.lower + 12 * unit * std::abs(e.lower.high)) +
+                    V(12 * unit) * abs(w.below.high);
     const V above = of_stiffness + V(e.error.upper + 12 * unit * std::abs(e.upper.high));
     const V gain = abs(coupling.high) * V(1 + 0x1p-50) + coupled;
     const V least = abs(pivot.high) * V(1 - 0x1p-50) - (local + w.error);
@@ -83,10 +86,13 @@ template <bool turning, bool fused, class V>
     const V inherited = inverse * (local + w.error);
     w.proved = w.proved & (V(0.0) < least) & (coupled < V(0x1p-80) * abs(coupling.high));
     w.doubt = w.doubt + (inherited + V(4 * unit + 0x1p-80));
-    const V own = above + coupled * ratio_size * V(2.0) + V(8 * unit) * (abs(carried.high) + gain * ratio_size);
+    const V own = above + coupled * ratio_size * V(2.0) +
+                  V(8 * unit) * (abs(carried.high) + gain * ratio_size);
     if (row != nullptr)
-        *row = {ratio.high, V(1.0) / pivot.high,
-                w.row + local + V(8 * unit) * abs(pivot.high) + coupled * V(1 + 0x1p-40) / ratio_size, w.error};
+        *row = {
+            ratio.high, V(1.0) / pivot.high,
+            w.row + local + V(8 * unit) * abs(pivot.high) + coupled * V(1 + 0x1p-40) / ratio_size,
+            w.error};
     w.row = own;
     w.error = V(1 + 0x1p-46) * (gain * (ratio_size * inherited + inverse * coupled) + own);
     w.below = carried;
@@ -101,22 +107,22 @@ template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
 inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 
-/// `driven` for `driven_together` drives, one to a SIMD lane, in words of two doubles, with a
-/// running bound like that of `certified_count`. All elements are in one unit. Drives near a
+/// Computes `driven` for `driven_together` drives, one in a SIMD lane, in words of two doubles,
+/// with a running bound like that of `certified_count`. All elements are in one unit. Drives near a
 /// resonance, or with a pin nearly a node, are left undecided. Calls `offset(lane, which, value)`
-/// for each pin wanted, highest first; the bound is the relative error of the value. Cost a link
+/// for each requested pin, highest first. The bound is the relative error of the value. Cost a link
 /// and drive: 8 to 20 ns with AVX-512, 26 to 40 ns with two doubles (`bench_response`).
 template <bool turning, bool fused, class V, class Offsets>
-[[gnu::always_inline]] inline void driven_lanes(const std::vector<SignedElement<Wide<double>>>& elements,
-                                                const Driving* at, DrivenPins& wanted, Driven* result,
-                                                const Offsets& offset) {
+[[gnu::always_inline]] inline void driven_lanes(
+    const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at, DrivenPins& wanted,
+    Driven* result, const Offsets& offset) {
     constexpr std::size_t P = 2, L = V::size;
     detail::DrivenWalk<V> walks[P];
     for (std::size_t p = 0; p < P; ++p) detail::start(walks[p], at + p * L);
     const std::size_t n = elements.size(), count = wanted.pins.size();
     wanted.ratio.resize(std::max(wanted.ratio.size(), count * 2 * P * L));
     double* const ratios = wanted.ratio.data();
-    std::size_t next = 0;  // of the pins wanted
+    std::size_t next = 0;  // the index of the next requested pin
     const auto put_away = [&](std::size_t which) REVCHAIN_INLINED {
         for (std::size_t p = 0; p < P; ++p) {
             walks[p].product.high.store(ratios + (which * P + p) * 2 * L);
@@ -129,7 +135,8 @@ template <bool turning, bool fused, class V, class Offsets>
         if (next < count && wanted.pins[next] == m) ++next;
 #pragma GCC unroll 2
         for (std::size_t p = 0; p < P; ++p)
-            detail::rise<turning, fused>(elements[m], kept, walks[p], static_cast<detail::DrivenRow<V>*>(nullptr));
+            detail::rise<turning, fused>(elements[m], kept, walks[p],
+                                         static_cast<detail::DrivenRow<V>*>(nullptr));
     }
     if (count > 0) put_away(count - 1);
     DoubleWord<V> y[P];
@@ -141,7 +148,8 @@ template <bool turning, bool fused, class V, class Offsets>
             const double* from = ratios + (which * P + p) * 2 * L;
             y[p] = detail::product<fused>(y[p], DoubleWord<V>(V::load(from), V::load(from + L)));
             finite[p] = finite[p] & (abs(y[p].high) < V(std::numeric_limits<double>::max()));
-            for (std::size_t i = 0; i < L; ++i) offset(p * L + i, which, Wide<double>(y[p].high[i], y[p].low[i]));
+            for (std::size_t i = 0; i < L; ++i)
+                offset(p * L + i, which, Wide<double>(y[p].high[i], y[p].low[i]));
         }
     for (std::size_t p = 0; p < P; ++p)
         for (std::size_t i = 0; i < L; ++i) {
@@ -157,19 +165,21 @@ template <bool turning, bool fused, class V, class Offsets>
         }
 }
 
-/// Sharper bounds for drives that `driven_lanes` decided: of first order in the errors, and
-/// rigorous by the known bounds of ratios and pivots. With G = (height K - M)^-1, the moved end
-/// held, its diagonal g from the top down by  g = 1/p + (y/y')^2 g',  r the error of each row over
-/// its offset, and E the error of D, which contains the rows below,
+/// Computes sharper bounds for drives that `driven_lanes` decided. They are of first order in the
+/// errors, and rigorous by the known bounds of ratios and pivots. Let G = (height K - M)^-1 with
+/// the moved end held. Its diagonal g follows from the top down by  g = 1/p + (y/y')^2 g'.  Let r
+/// be the error of each row over its offset, and E the error of D, which contains the rows below.
+/// Then
 ///
 ///     |error of y_i| <= |y_i| (sum over j >= i of |g_j| r_j  +  |g_i| E_i).
 ///
-/// The error of a coupling enters the row of its lower pin by the offset of the upper one. `end` as
+/// A coupling's error enters the row of its lower pin by the offset of the upper one. `end` is as
 /// for `driven`. The errors of ratios that `driven_lanes` adds up count both sides of a node twice,
 /// without signs. Cost: about that of `driven_lanes` and four numbers an element.
 template <bool turning, bool fused, class V>
-[[gnu::always_inline]] inline void sharpen(const std::vector<SignedElement<Wide<double>>>& elements, const Driving* at,
-                                           Driven* result, std::vector<double>& scratch, double end = 1) {
+[[gnu::always_inline]] inline void sharpen(const std::vector<SignedElement<Wide<double>>>& elements,
+                                           const Driving* at, Driven* result,
+                                           std::vector<double>& scratch, double end = 1) {
     constexpr std::size_t P = 2, L = V::size, stored = detail::DrivenRow<V>::stored;
     detail::DrivenWalk<V> walks[P];
     for (std::size_t p = 0; p < P; ++p) detail::start(walks[p], at + p * L);
@@ -181,7 +191,8 @@ template <bool turning, bool fused, class V>
             detail::DrivenRow<V> row;
             detail::rise<turning, fused>(elements[m], true, walks[p], &row);
             double* const to = scratch.data() + (m * P + p) * stored * L;
-            row.ratio.store(to), row.inverse.store(to + L), row.row.store(to + 2 * L), row.below.store(to + 3 * L);
+            row.ratio.store(to), row.inverse.store(to + L), row.row.store(to + 2 * L),
+                row.below.store(to + 3 * L);
         }
     }
     for (std::size_t p = 0; p < P; ++p) {
@@ -192,7 +203,8 @@ template <bool turning, bool fused, class V>
             const V ratio = V::load(from), inverse = V::load(from + L), row = V::load(from + 2 * L);
             const V below = V::load(from + 3 * L), square = ratio * ratio;
             y = y * abs(ratio);
-            slack = V(1 + 0x1p-40) * (V(1.0) + known) * (square * slack + known * (abs(inverse) + square * abs(g)));
+            slack = V(1 + 0x1p-40) * (V(1.0) + known) *
+                    (square * slack + known * (abs(inverse) + square * abs(g)));
             g = inverse + square * g;
             const V size = abs(g) + slack;
             sum = sum + size * row;
@@ -200,7 +212,8 @@ template <bool turning, bool fused, class V>
             largest = max(largest, y);
         }
         const V multiplied(static_cast<double>(n) * 8 * operation_error<Wide<double>>());
-        const V bound = (worst / largest) * (V(1.0) + V(4.0) * walks[p].doubt) * V(1 + 0x1p-20) + multiplied;
+        const V bound =
+            (worst / largest) * (V(1.0) + V(4.0) * walks[p].doubt) * V(1 + 0x1p-20) + multiplied;
         for (std::size_t i = 0; i < L; ++i)
             if (bound[i] < result[p * L + i].error_bound) result[p * L + i].error_bound = bound[i];
     }

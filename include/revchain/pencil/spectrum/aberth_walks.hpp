@@ -7,14 +7,15 @@
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/simd/pack.hpp"
 
-/// All eigenvalues of a small pencil of lumped links, four to a pack: the steps from link to link.
-/// The walks of quotient.hpp cut long chains into legs and use the heap: all modes of 10 plummets
-/// take 0.7 microseconds here and 19 there, of 40 11 and 44, of 100 49 and 134.
+/// This header has the steps from link to link for all eigenvalues of small pencils of lumped
+/// links, four to a pack. The walks of quotient.hpp cut long chains into legs and use the heap. All
+/// modes of 10 plummets take 0.7 microseconds here and 19 there, of 40 11 and 44, of 100 49 and
+/// 134.
 namespace revchain::inline REVCHAIN_BUILD::pencil::aberth {
 
-/// The largest chain served; its numbers are on the stack.
+/// The largest number of links of a chain; its numbers are on the stack.
 inline constexpr std::size_t most_links = 128;
-/// Links between two checks of sizes and sums.
+/// The number of links between two checks of sizes and sums.
 inline constexpr std::size_t leg = 16;
 
 /// Bounds on the relative rounding errors in `LumpedLinks`, in units of u = 2^-53.
@@ -30,7 +31,7 @@ struct Roundings {
 struct LumpedLinks {
     using Numbers = std::array<double, most_links>;
     std::size_t size = 0;
-    bool rigid = false;      ///< whether the five columns from `cross_ratio` on are set; else X = 0
+    bool rigid = false;      ///< true if `cross_ratio` ... `turn` are set; else X = 0
     Numbers mass;            ///< of the lower pin of link m
     Numbers stiffness;       ///< k
     Numbers flexibility;     ///< 1/k
@@ -39,17 +40,17 @@ struct LumpedLinks {
     Numbers lower_share;     ///< h/a: the share of the lower pin's offset in the centroid's
     Numbers upper_share;     ///< 1 - h/a
     Numbers turn;            ///< W rho^2/a^2
-    double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie between these
+    double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie from here to `greatest_shift`
     double greatest_shift = 0;
     Roundings roundings;
 };
 
 using Four = Pack<double>;
 
-/// Packs that are walked side by side: they share loads and fill each other's waits.
+/// The number of packs walked side by side: they share loads, and one runs while another waits.
 inline constexpr std::size_t packs_at_once = 3;
-/// Whether there is also code for one and two packs, and for chains of one leg: 20 to 40 % faster
-/// up to 16 links (10 plummets: 0.86 us, else 1.05), but six times as much to compile. So only
+/// True if there is also code for one and two packs, and for chains of one leg. It is 20 to 40 %
+/// faster up to 16 links (10 plummets: 0.86 us, else 1.05), but compiles six times as much. So only
 /// builds that choose the instruction set at run time have it, and not for the oldest processors.
 template <class Registers>
 inline constexpr bool any_packs =
@@ -59,7 +60,7 @@ inline constexpr bool any_packs =
     false;
 #endif
 
-/// The number of shifts walked for `count` of them.
+/// Returns the number of shifts computed for `count` shifts, which fills whole packs.
 template <bool several>
 constexpr std::size_t walked(std::size_t count) {
     constexpr std::size_t together = several ? 4 : 4 * packs_at_once;
@@ -78,11 +79,13 @@ template <bool several, class F>
         else if (i < count)
             f(std::integral_constant<std::size_t, 1>(), i);
     } else {
-        for (; i < count; i += 4 * packs_at_once) f(std::integral_constant<std::size_t, packs_at_once>(), i);
+        for (; i < count; i += 4 * packs_at_once)
+            f(std::integral_constant<std::size_t, packs_at_once>(), i);
     }
 }
 
-/// y at the support for a free end at 1, without division: a polynomial in mu, 0 at eigenvalues.
+/// The offset at the support, with free end at 1, without division: a polynomial in mu with zeros
+/// at eigenvalues.
 template <bool rigid>
 struct Offset {
     Four value{1.0}, force{0.0};
@@ -106,7 +109,7 @@ struct OffsetAndSlope {
     [[gnu::always_inline]] void rise(const LumpedLinks& links, std::size_t m, const Four& mu) {
         const Four mass(links.mass[m]), flexibility(links.flexibility[m]), pull = mass * mu;
         force += pull * value;
-        force_slope = (force_slope + mass * value) + pull * slope;  // the slope was last to come
+        force_slope = (force_slope + mass * value) + pull * slope;  // `slope` is ready last
         if constexpr (rigid) {
             const Four cross_ratio(links.cross_ratio[m]), stretch = Four(1.0) + mu * cross_ratio;
             slope = (stretch * slope + cross_ratio * value) - flexibility * force_slope;
@@ -120,22 +123,29 @@ struct OffsetAndSlope {
     }
 };
 
-/// A vector from one end, link by link: offset y, spring force G of the link ahead, mu y^T M y and
+/// A vector from one end, link by link: offset y, spring force G of the next link, mu y^T M y and
 /// y^T K y so far. The sums belong to the stored offsets and their differences, however rounded.
 template <bool rigid, bool tall>
 struct Walk {
-    Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0}, earlier_stiffness{0.0};
+    Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0},
+        earlier_stiffness{0.0};
 
-    [[gnu::always_inline]] Four all_inertia() const { return tall ? inertia + earlier_inertia : inertia; }
-    [[gnu::always_inline]] Four all_stiffness() const { return tall ? stiffness + earlier_stiffness : stiffness; }
+    [[gnu::always_inline]] Four all_inertia() const {
+        return tall ? inertia + earlier_inertia : inertia;
+    }
+    [[gnu::always_inline]] Four all_stiffness() const {
+        return tall ? stiffness + earlier_stiffness : stiffness;
+    }
 
-    [[gnu::always_inline]] void pass_pin(const LumpedLinks& links, std::size_t m, const Four& mu, bool up) {
+    [[gnu::always_inline]] void pass_pin(const LumpedLinks& links, std::size_t m, const Four& mu,
+                                         bool up) {
         const Four pull = Four(links.mass[m]) * (mu * offset);
         force = up ? force + pull : force - pull;
         if constexpr (!rigid) inertia += pull * offset;
     }
-    /// `yield`: 1/(k + mu X).
-    [[gnu::always_inline]] void pass_link(const LumpedLinks& links, std::size_t m, const Four& yield, bool up) {
+    /// Passes a link; `yield` is 1/(k + mu X).
+    [[gnu::always_inline]] void pass_link(const LumpedLinks& links, std::size_t m,
+                                          const Four& yield, bool up) {
         const Four before = offset;
         Four d = yield * force;
         offset = up ? before - d : before + d;
@@ -148,7 +158,7 @@ struct Walk {
             inertia += Four(links.weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
         }
     }
-    /// Adds up the sums of a leg and scales the larger number to 1 ... 2, by a power of two.
+    /// Adds up the sums of a leg, and scales the larger number to 1 ... 2 by a power of two.
     [[gnu::always_inline]] void tidy() {
         earlier_inertia += inertia;
         earlier_stiffness += stiffness;
@@ -156,7 +166,7 @@ struct Walk {
         const Four by = inverse_power(max(abs(offset), abs(force)));
         offset = offset * by;
         force = force * by;
-        earlier_inertia = (earlier_inertia * by) * by;  // by * by may leave the range
+        earlier_inertia = (earlier_inertia * by) * by;  // by * by may overflow or underflow
         earlier_stiffness = (earlier_stiffness * by) * by;
     }
 };
@@ -169,8 +179,8 @@ struct Quotients {
     Four scale;   ///< the smaller of the two factors that joined the energies of the walks
 };
 
-/// For some packs of shifts the quotients of vectors from both ends, joined at the pin where the
-/// residual is least. `flexibility_above[t]`: sum of 1/k from link t up.
+/// Returns, for some packs of shifts, the quotients of vectors from both ends, joined at the pin
+/// where the residual is least. `flexibility_above[t]` is the sum of 1/k from link t up.
 template <bool rigid, bool tall, std::size_t P>
 [[gnu::always_inline]] inline std::array<Quotients, P> quotients(const LumpedLinks& links,
                                                                  const double* flexibility_above,
@@ -192,7 +202,8 @@ template <bool rigid, bool tall, std::size_t P>
             here[2] = up.all_inertia();
             here[3] = up.all_stiffness();
             Four yield(links.flexibility[m]);
-            if constexpr (rigid) here[4] = yield = yield / (Four(1.0) + mu[p] * Four(links.cross_ratio[m]));
+            if constexpr (rigid)
+                here[4] = yield = yield / (Four(1.0) + mu[p] * Four(links.cross_ratio[m]));
             up.pass_link(links, m, yield, true);
             if (tall && m % leg == leg - 1) up.tidy();
         }
@@ -211,13 +222,14 @@ template <bool rigid, bool tall, std::size_t P>
             Quotients& joined = best[p];
             const Four* const here = at_pins + kept * (P * m + p);
             down.pass_link(links, m, rigid ? here[kept - 1] : Four(links.flexibility[m]), false);
-            // Each is scaled by the other's offset, so that they meet.
+            // Each vector is scaled by the other's offset, so that they meet.
             const Four scale_up = down.offset * down.offset, scale_down = here[0] * here[0];
             const Four gap = here[1] * down.offset - down.force * here[0];
             const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
             const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
             const Four square = gap * gap * Four(flexibility_above[m]);
-            const Four other = joined.square * energy, own = square * joined.energy;  // comparisons with NaN are false
+            const Four other = joined.square * energy,
+                       own = square * joined.energy;  // comparisons with NaN are false
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);
@@ -229,7 +241,8 @@ template <bool rigid, bool tall, std::size_t P>
 #pragma GCC unroll 3
     for (std::size_t p = 0; p < P; ++p) {
         const Four inertia = rigid ? mu[p] * best[p].ratio : best[p].ratio;
-        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy, best[p].scale};
+        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy,
+                   best[p].scale};
     }
     return best;
 }

@@ -17,7 +17,7 @@ struct Chebyshev {
     static double node(std::size_t i, std::size_t n) {
         return std::cos((static_cast<double>(i) + 0.5) * M_PI / static_cast<double>(n));
     }
-    /// Value and derivative (Clenshaw).
+    /// Computes value and derivative at x (Clenshaw).
     template <class V>
     [[gnu::always_inline]] void at(const V& x, V& value, V& slope) const {
         const V twice = x + x;
@@ -43,7 +43,7 @@ struct Chebyshev {
     }
 };
 
-/// `V::size` of the numbers x from `begin` on, padded with the last.
+/// Returns `V::size` of the numbers x from `begin` on, padded with the last number.
 template <class V>
 [[gnu::always_inline]] inline V part(const std::vector<double>& x, std::size_t begin) {
     if (begin + V::size <= x.size()) return V::load(&x[begin]);
@@ -52,7 +52,7 @@ template <class V>
     return V::load(numbers);
 }
 
-/// The polynomial of degree n - 1 with these n values at node(i, n).
+/// Returns the polynomial of degree n - 1 with these n values at node(i, n).
 template <class V>
 [[gnu::always_inline]] inline Chebyshev interpolant(const std::vector<double>& values) {
     const std::size_t n = values.size(), padded = (n + V::size - 1) / V::size * V::size;
@@ -79,10 +79,10 @@ template <class V>
     return p;
 }
 
-/// Value and q'/q of q = p/product of (x - known), the value up to a positive factor.
+/// Computes the value and q'/q of q = p/product of (x - known), the value up to a positive factor.
 template <class V>
-[[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known, const V& x, V& value,
-                                            V& slope) {
+[[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known,
+                                            const V& x, V& value, V& slope) {
     p.at(x, value, slope);
     slope = slope / value;
     for (const double zero : known) {
@@ -92,12 +92,14 @@ template <class V>
     }
 }
 
-/// Zeros of p besides `known` between `low` and `high`, where p/product of (x - known) has
-/// different signs: Newton's steps or halves, until a step is below `precision`.
+/// Returns the zeros of p besides `known` between `low` and `high`, where p/product of (x - known)
+/// has different signs. Newton's steps or halves continue until a step is below `precision`.
 template <class V>
-[[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& known,
+[[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p,
+                                                          const std::vector<double>& known,
                                                           const std::vector<double>& low,
-                                                          const std::vector<double>& high, double precision) {
+                                                          const std::vector<double>& high,
+                                                          double precision) {
     std::vector<double> root(low.size());
     for (std::size_t begin = 0; begin < low.size(); begin += V::size) {
         V a = part<V>(low, begin), b = part<V>(high, begin), left, value, slope;
@@ -110,7 +112,8 @@ template <class V>
             a = select(same, x, a);
             b = select(same, b, x);
             const V newton = x - 1.0 / slope;
-            const V next = select((newton < a) | (newton > b) | ~equal(newton, newton), 0.5 * (a + b), newton);
+            const V next =
+                select((newton < a) | (newton > b) | ~equal(newton, newton), 0.5 * (a + b), newton);
             const V change = abs(next - x);
             x = next;
             if (!any(change > precision)) break;
@@ -120,10 +123,11 @@ template <class V>
     return root;
 }
 
-/// A point in (a, b) where q = p/product of (x - known) has the other sign than at both ends, next
-/// to a minimum of |q|; NaN if there is none. Cuts intervals into V::size + 1 at a time.
+/// Returns a point in (a, b), next to a minimum of |q|, where q = p/product of (x - known) has the
+/// other sign than at both ends; NaN if there is none. Cuts intervals into V::size + 1 at a time.
 template <class V>
-[[gnu::always_inline]] inline double between_pair(const Chebyshev& p, const std::vector<double>& known, double a,
+[[gnu::always_inline]] inline double between_pair(const Chebyshev& p,
+                                                  const std::vector<double>& known, double a,
                                                   double b) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     V x, value, slope;
@@ -145,10 +149,11 @@ template <class V>
     return none;
 }
 
-/// All zeros of the polynomial on [-1, 1] if there are `count`, ascending; else those found.
+/// Returns, ascending, all zeros of the polynomial on [-1, 1] if there are `count`, else some.
 template <class V>
 [[gnu::always_inline]] inline std::vector<double> zeros(const Chebyshev& p, Index count) {
-    const std::size_t points = (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
+    const std::size_t points =
+        (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
     std::vector<double> x(points), f(points), low, high;
     for (std::size_t i = 0; i < points; ++i)
         x[i] = -std::cos(static_cast<double>(i) * M_PI / static_cast<double>(points - 1));
@@ -163,7 +168,8 @@ template <class V>
             slope.store(&f[i]);
         }
         low.clear(), high.clear();
-        for (std::size_t i = 1; i < points && static_cast<Index>(root.size() + low.size()) < count; ++i) {
+        for (std::size_t i = 1; i < points && static_cast<Index>(root.size() + low.size()) < count;
+             ++i) {
             if (!(f[i - 1] < 0 && f[i] > 0)) continue;
             const double middle = between_pair<V>(p, root, x[i - 1], x[i]);
             if (std::isnan(middle)) continue;
@@ -178,7 +184,7 @@ template <class V>
     return root;
 }
 
-/// Whether every root is known to 1/1000 of its distance to the next, by the last coefficients.
+/// Returns true if last coefficients show each root to 1/1000 of its distance to the next.
 template <class V>
 [[gnu::always_inline]] inline bool certain(const Chebyshev& p, const std::vector<double>& root) {
     double noise = 0;

@@ -13,24 +13,26 @@ namespace revchain::inline REVCHAIN_BUILD::pencil {
 namespace spectrum {
 
 struct Candidate {
-    double shift = 0;           ///< mu the vector was computed at
-    ProvedRoot<double> root{};  ///< its Rayleigh quotient, and the rounding error of that
-    /// An eigenvalue lies within this of the quotient, relative.
+    double shift = 0;           ///< the shift mu of the vector
+    ProvedRoot<double> root{};  ///< the Rayleigh quotient and its rounding error
+    /// The relative distance from the quotient within which an eigenvalue lies.
     double residual = std::numeric_limits<double>::infinity();
     double rounding = 0;    ///< the part of `residual` due to rounding
     std::size_t place = 0;  ///< links below the mode's largest offsets
 };
 
-/// Relative rounding error of a Rayleigh quotient: plain sums over 16 links, one or two terms each.
+/// Returns the relative rounding error of a Rayleigh quotient: plain sums of 16 links, 1 or 2 terms
+/// each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
-    const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
+    const double skewed =
+        std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
     const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
-/// Vectors and quotients at the candidates' shifts; walks join at pins that `longest` divides.
-inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                     bool placed, std::size_t longest) {
+/// Computes vectors and quotients at the candidates' shifts. Walks join at multiples of `longest`.
+inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all,
+                     const std::vector<std::size_t>& which, bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
@@ -41,7 +43,7 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
     for (std::size_t j = 0; j < which.size(); ++j) {
         Candidate& c = all[which[j]];
         const Quotient& q = quotients[j];
-        if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector is useless
+        if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // false for a NaN: the vector is useless
         const double value = q.ratio / c.shift;
         c.root = {DoubleWord<double>(value), rounding_quotient(chain, c.shift) * value};
         // The residual is least at the quotient; 2^-40 covers its rounding and the change of scale.
@@ -52,9 +54,9 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
     }
 }
 
-/// Refines the quotients found to twice the digits; walks join at pins that `longest` divides.
-inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                   bool placed, std::size_t longest) {
+/// Refines the found quotients to twice the digits; walks join at pins that `longest` divides.
+inline void refine(const LumpedChain& chain, std::vector<Candidate>& all,
+                   const std::vector<std::size_t>& which, bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
@@ -66,7 +68,7 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
         Candidate& c = all[which[j]];
         const FineQuotient& q = quotients[j];
         if (!(std::abs(q.excess) < 0x1p-10 && q.residual < 0x1p-10)) continue;
-        // 1/mu = high (1 + left) but for squares of roundings
+        // 1/mu = high (1 + left), up to squares of roundings
         const double shift = shifts[j], high = 1 / shift;
         const DoubleWord<double> product = two_product(high, shift);
         const double left = (1 - product.high) - product.low;
@@ -78,10 +80,10 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
     }
 }
 
-/// Below this tolerance quotients in double are not accurate enough.
+/// The tolerance below which quotients in double are not accurate enough.
 inline constexpr double loosest_fine = 40 * 0x1p-52;
 
-/// Proves eigenvalues number `first` ... `last - 1` of `total`, and those that share their windows.
+/// Proves eigenvalues number `first` ... `last - 1` of `total`, and all others in their windows.
 template <Real S>
 class Candidates {
    public:
@@ -93,7 +95,7 @@ class Candidates {
           worst_(std::min(tolerance, 0x1p-32) * (1 - 0x1p-20) - epsilon<double>() / 2),
           leg_(std::bit_floor(std::clamp(chain.size() / 8, std::size_t(1), longest_leg))) {}
 
-    /// By windows and quotients; nothing where these prove too little.
+    /// Returns eigenvalues by windows and quotients, or nothing if these prove too little.
     std::optional<std::vector<Certified<double>>> solve(Index first, Index last, Index total) {
         if (!chain_.fit || chain_.size() < 2 || !separate(first, last, total)) return std::nullopt;
         improve();
@@ -113,7 +115,7 @@ class Candidates {
     }
 
    private:
-    /// First shifts. Proved counts at both ends show that there are as many eigenvalues.
+    /// Sets the first shifts. Proved counts at both ends show that there are as many eigenvalues.
     bool separate(Index first, Index last, Index total) {
         std::vector<Window> found;
         if (!isolate(chain_, first, last, found, all_)) return false;
@@ -150,20 +152,22 @@ class Candidates {
                 const double next = 1 / c.root.root.high, apart = room(i);
                 const bool rough = c.residual > 4 * c.rounding;
                 if (!rough || c.residual * c.residual < 0x1p-57 * apart / starts_[i]) continue;
-                // On to the quotient, unless a vector joined at a bad pin led astray.
-                const bool near = std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
+                // Continue at the quotient, unless a vector joined at a bad pin gave a wrong one.
+                const bool near =
+                    std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
                 c.shift = near ? next : starts_[i];
-                (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray).push_back(i);
+                (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray)
+                    .push_back(i);
             }
             which = std::move(again);
         }
     }
 
-    /// Once, and again where the vector's error is still relevant: at the better shift or, if that
-    /// led astray, at the first shift, joined at any pin near the mode, at last at any pin.
+    /// Refines once, and again where the vector's error is still relevant: at the better shift or,
+    /// if that was wrong, at the first shift, joined at any pin near the mode, at last at any pin.
     void refine_roots() {
         for (int round = 0; round < 3; ++round) {
-            // The bounds that `proved` will give if counts between intervals are as expected.
+            // These are the bounds of `proved` if counts between intervals are as expected.
             const double infinity = std::numeric_limits<double>::infinity();
             const auto foreseen = roots_between(-infinity, infinity, [&](double x) {
                 const auto below = std::lower_bound(starts_.begin(), starts_.end(), 1 / x);
@@ -180,17 +184,19 @@ class Candidates {
                 if (!(std::abs(1 / value - starts_[i]) < 0.4 * room(i))) {
                     if (round == 0) continue;
                     c.root.root = DoubleWord<double>(1 / starts_[i]);
-                    c.residual = infinity;  // nothing is known of this root
+                    c.residual = infinity;  // nothing is proved for this root
                 }
                 some.push_back(i);
             }
-            refine(chain_, all_, some, round < 2, round == 1 || (round == 2 && chain_.size() < 4096) ? 1 : leg_);
+            refine(chain_, all_, some, round < 2,
+                   round == 1 || (round == 2 && chain_.size() < 4096) ? 1 : leg_);
         }
     }
 
-    /// The candidates' roots as `prove` leaves them.
+    /// Returns the candidates' roots with the bounds of `prove`.
     template <class Count>
-    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above, const Count& count) const {
+    std::optional<std::vector<ProvedRoot<double>>> roots_between(double below, double above,
+                                                                 const Count& count) const {
         std::vector<ProvedRoot<double>> roots;
         std::vector<double> reach;
         for (const Candidate& c : all_) {
@@ -210,11 +216,12 @@ class Candidates {
             const Index j = begin_ + static_cast<Index>(i);
             sure[i] = counted(j, j + 1, c.root.root.high).front();
             const double bound = sure[i]->error_bound;  // relative to the exact eigenvalue
-            c.root = {sure[i]->unrounded, bound < 1 ? bound / (1 - bound) * sure[i]->eigenvalue : bound};
+            c.root = {sure[i]->unrounded,
+                      bound < 1 ? bound / (1 - bound) * sure[i]->eigenvalue : bound};
             c.residual = 0;
         }
-        const auto roots =
-            roots_between(bottom_, top_, [&](double x) { return certified_count<S, 1>(wide_, {S(x)})[0]; });
+        const auto roots = roots_between(
+            bottom_, top_, [&](double x) { return certified_count<S, 1>(wide_, {S(x)})[0]; });
         if (!roots) return std::nullopt;
         std::vector<Certified<double>> result;
         for (Index j = first; j < last; ++j) {
@@ -239,7 +246,7 @@ class Candidates {
     ElementPencil<double> pencil_;
     const LumpedChain& chain_;
     bool fine_;
-    double worst_;  // how far a root may be off, relative, before it is rounded
+    double worst_;  // largest relative error of a root before rounding
     std::size_t leg_;
     Index begin_ = 0;  // number of all_.front()
     std::vector<Candidate> all_;
@@ -249,25 +256,27 @@ class Candidates {
 
 }  // namespace spectrum
 
-/// The eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total`
-/// positive ones, each with a bound proved by theorems and counts (docs/theory/spectrum.md), at
-/// most `tolerance` (2 ulp or more) or what two words can prove. For several eigenvalues of a dozen
-/// links or more.
+/// Returns the eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with
+/// `total` positive eigenvalues. Each has a bound proved by theorems and counts
+/// (docs/theory/spectrum.md), at most `tolerance` (2 ulp or more) or the least that two words can
+/// prove. Use it for several eigenvalues of a dozen links or more.
 ///
-/// Method: windows of about 60 eigenvalues by counts; the characteristic polynomial, without
-/// division, at 2.4 shifts per eigenvalue and the zeros of its Chebyshev interpolant; at each the
-/// Rayleigh quotient of a twisted vector, its residual and those of its neighbours; one shift to a
-/// SIMD lane. Clusters and negative cross masses are left to bisection and counts in two words.
-/// Accuracy, measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded
-/// mostly 1e-20 (2e-18 proved); else within 4 ulp for the chains of the tests (N up to 10,000,
-/// there a sample of the modes); random compound pendulums up to 45 ulp with a tolerance of 1e-11,
-/// 6 with 128 ulp. Proved: 28 ulp plummets, 36 rods, more where neighbours nearly coincide. Cost
-/// (AVX-512, N = 10,000) per mode and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5
-/// and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
-/// Preconditions: 0 <= first, last <= total <= size.
+/// Method: counts give windows of about 60 eigenvalues. The characteristic polynomial, without
+/// division, is computed at 2.4 shifts per eigenvalue, and its Chebyshev interpolant gives the
+/// zeros. Bounds follow from the Rayleigh quotient of a twisted vector at each zero, its residual
+/// and those of its neighbours, one shift in a SIMD lane. Clusters and negative cross masses are
+/// solved by bisection and counts in two words. Accuracy, measured: with a tolerance below 40 ulp
+/// the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18 proved). Otherwise within 4
+/// ulp for the chains of the tests (N up to 10,000, there a sample of the modes), and random
+/// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with 128 ulp. Proved: 28 ulp
+/// plummets, 36 rods, more where neighbours nearly coincide. Cost (AVX-512, N = 10,000) per mode
+/// and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5 and 2.0 for rods, portable build
+/// (bench_all_modes); to the last digit 1.3 to 2 more. Preconditions: 0 <= first, last <= total <=
+/// size.
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
-                                               Index first, Index last, Index total, double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide,
+                                               const spectrum::LumpedChain& chain, Index first,
+                                               Index last, Index total, double tolerance) {
     if (first >= last) return {};
     spectrum::Candidates<S> candidates(wide, chain, tolerance);
     if (auto found = candidates.solve(first, last, total)) return *found;
@@ -275,8 +284,8 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
 }
 
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                               double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first,
+                                               Index last, Index total, double tolerance) {
     return all_eigenvalues(wide, spectrum::lumped(wide), first, last, total, tolerance);
 }
 

@@ -10,15 +10,16 @@
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
 /// One link of the all-modes engine: an elastic, massless link between two pins with lumped mass,
-/// and the mass -X on the difference of the two offsets. A link's own inertia is
+/// and the mass -X on the difference of the two offsets. With p = h/a and q = 1 - p its own inertia
+/// is
 ///
-///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W (p y_l + q y_u)^2 + turn (y_l - y_u)^2,    p = h/a, q = 1 - p,
+///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W (p y_l + q y_u)^2 + turn (y_l - y_u)^2,
 ///
-/// motion of the centroid and rotation about it: two squares, whatever the sign of X.
+/// the motion of the centroid and the rotation about it: two squares, whatever the sign of X.
 struct LumpedLink {
     double flexibility;  ///< 1/k
     double stiffness;    ///< k
-    double mass;         ///< of the pin above: B + X of this link and A + X of the next
+    double mass;         ///< mass of the pin above: B + X of this link and A + X of the next
     double cross_ratio;  ///< X/k
     double weight;       ///< W
     double lower_share;  ///< (A + X)/W = h/a
@@ -26,7 +27,7 @@ struct LumpedLink {
     double turn;         ///< the element's c = W rho^2/a^2
 };
 
-/// The pencil's numbers minus the rounded ones of `LumpedLink`; and the cross mass X.
+/// The pencil's numbers minus the rounded numbers of `LumpedLink`, and the cross mass X.
 struct LumpedRest {
     double stiffness, mass, cross, cross_rest;
 };
@@ -34,27 +35,28 @@ struct LumpedRest {
 /// The largest number of links between two checks of sizes and sums.
 inline constexpr std::size_t longest_leg = 16;
 
-/// Largest X/k, root = (k/m)^1/2 (m the mass of the pin above), and root X/k of a run of links.
+/// Bounds of a run of links: largest X/k, largest root = (k/m)^1/2 (m is the mass of the pin
+/// above), and largest root X/k.
 struct Bounds {
     double cross_ratio = 0, root = 0, cross_root = 0;
 };
 
-/// The pencil as lumped pins and links; every number is within the relative `data_error`.
+/// The pencil as lumped pins and links. Every number is within the relative `data_error`.
 struct LumpedChain {
     std::vector<LumpedLink> links;
     std::vector<LumpedRest> rests;          ///< of each link
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
-    double tip_mass = 0;                    ///< of pin 0
+    double tip_mass = 0;                    ///< mass of pin 0
     double tip_mass_rest = 0;
-    double rounding_root = 0;           ///< root of C (docs/theory/spectrum.md)
+    double rounding_root = 0;           ///< square root of C (docs/theory/spectrum.md)
     std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
     double largest_cross_ratio = 0;     ///< max X/k
-    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k, growth in a link over mu
+    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: growth in a link, over mu
     double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): cancellation
     double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
     double data_error = 0;              ///< relative error from the wide entries
-    bool has_cross = false;             ///< whether some X is not 0
-    bool fit = true;                    ///< masses >= 0, and squares of all numbers are normal
+    bool has_cross = false;             ///< true if some X is not 0
+    bool fit = true;                    ///< masses are >= 0, and squares of all numbers are normal
 
     std::size_t size() const { return links.size(); }
 };
@@ -80,7 +82,7 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         carried = e.upper + cross;
         carried_size = static_cast<double>(e.upper) + cross_size;
         const double pin = static_cast<double>(mass), rest = static_cast<double>(mass - S(pin));
-        // negative masses are not served, nor sums that cancel to less than 2^-30
+        // Negative masses are not supported, nor sums that cancel to less than 2^-30.
         chain.fit = chain.fit && (pin == 0 || in_range(pin));
         if (pin != 0) cancelled = std::max(cancelled, size / pin);
         (m == 0 ? chain.tip_mass : chain.links[m - 1].mass) = pin;
@@ -89,17 +91,21 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         const double cross_ratio = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);
         const bool massless = e.weight == 0;
-        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, cross_ratio, e.weight,
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, cross_ratio,
+                               e.weight,
                                massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
-        chain.rests.push_back({static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
+        chain.rests.push_back(
+            {static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
         const LumpedLink& last = chain.links.back();
         const double shares = last.lower_share * last.upper_share;
         if (shares != 0 && last.lower_share != 0.5) {
             const double skewed = shares * std::sqrt(e.weight);
-            chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
-            chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
+            chain.skew_against_turn =
+                std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
+            chain.skew_against_stiffness =
+                std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
         chain.has_cross = chain.has_cross || x != 0;
         chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
@@ -124,17 +130,21 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
         chain.flexibility_above[m] = chain.flexibility_above[m + 1] + link.flexibility;
         square += link.stiffness * chain.flexibility_above[m];
         const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
-        const double mass = std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness;
-        chain.max_mass_to_stiffness = std::max(chain.max_mass_to_stiffness, mass * link.flexibility);
+        const double mass =
+            std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness;
+        chain.max_mass_to_stiffness =
+            std::max(chain.max_mass_to_stiffness, mass * link.flexibility);
     }
     chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
     return chain;
 }
 
-/// A power of 2: links that may be walked between checks of sizes; growth stays below 2^300.
-inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift, std::size_t longest) {
+/// Returns the number of links between checks of sizes, a power of 2. Growth stays below 2^300.
+inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift,
+                                  std::size_t longest) {
     const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.max_mass_to_stiffness);
-    return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
+    return std::bit_floor(
+        std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
 }
 
 template <class V>

@@ -16,13 +16,14 @@ struct Quotient {
     std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
-/// Packs of shifts walked together. With the quotients of `proved_roots`, which take 2.4 to 6 times
-/// as long, all modes of 300 links took 1.2 to 1.5 times as long, of 1000 1.6 to 2.2 times.
+/// The number of packs of shifts walked together. The quotients of `proved_roots` take 2.4 to 6
+/// times as long; with them all modes of 300 links took 1.2 to 1.5 times as long, of 1000 1.6 to
+/// 2.2 times.
 inline constexpr std::size_t quotient_packs = 4;
 
 /// Vectors from one end, one for each shift of a pack: offset y, mu times the spring force G of the
-/// link ahead, and y^T M y (without cross masses mu times it) and y^T K y so far. The sums belong
-/// to the stored offsets and their differences: they are its energies.
+/// next link, and y^T M y (without cross masses mu times it) and y^T K y so far. The sums belong to
+/// the stored offsets and their differences: they are the energies of these offsets.
 template <class V>
 struct Walk {
     V mu, offset, force;
@@ -32,10 +33,10 @@ struct Walk {
 };
 
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin
-/// `end`. Upwards a walk has passed the mass of its pin, downwards not.
+/// `end`. Upwards a walk has passed the mass of its pin, downwards it has not.
 template <bool has_cross, bool up, class V>
-[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
-                                             Walk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin,
+                                             std::size_t end, Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
     for (std::size_t p = 0; p < P; ++p)
@@ -90,7 +91,7 @@ template <bool has_cross, bool up, class V>
     }
 }
 
-/// A walk at a pin where it may be joined to one from the other end.
+/// The state of a walk at a pin where it may be joined to a walk from the other end.
 template <class V>
 struct AtPin {
     V offset, force, inertia, stiffness, forces, offsets;
@@ -99,40 +100,46 @@ struct AtPin {
     }
 };
 
-/// The residual from rounding and the pencil's error; `forces`, `offsets`: sums over |y|^2.
+/// Returns the residual from rounding and the pencil's error; `forces`, `offsets`: sums over |y|^2.
 template <bool has_cross>
 double vector_rounding(const LumpedChain& chain, double mu, double forces, double offsets) {
-    // for pins without mass: y_m^2 <= Phi_m |y|_K^2
+    // This bound covers pins without mass: y_m^2 <= Phi_m |y|_K^2.
     const double most = (1 + mu * chain.largest_cross_ratio) * chain.rounding_root;
     const double force_part = has_cross ? std::sqrt(forces) : 1.0;
-    const double offset_part = has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
+    const double offset_part =
+        has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
     const double unit = epsilon<double>() / 2 + chain.data_error;
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// `leg` links between checks; twists at pins 0, leg, ... `last` leg < n, number `low` to `high`.
+/// `leg` links between checks. Twists are at pins 0, leg, ... `last` leg < n, number `low` to
+/// `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
 
-inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t count, std::size_t lowest,
-                    std::size_t highest, std::size_t longest) {
+inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t count,
+                    std::size_t lowest, std::size_t highest, std::size_t longest) {
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest), last = (chain.size() - 1) / leg;
+    const std::size_t leg = stretch_length(chain, largest, longest),
+                      last = (chain.size() - 1) / leg;
     return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
 }
 
-/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined
-/// at the pin of least residual from `lowest` to `highest` that `longest`, a power of 2, divides.
-/// Its error is the square of the vector's. Cost (AVX-512): 0.45, with cross masses 0.86 ns a link.
+/// Computes for each shift the Rayleigh quotient of its twisted vector, whose error is the square
+/// of the vector's. Recurrences from both ends are joined at the pin of least residual from
+/// `lowest` to `highest` that `longest`, a power of 2, divides. Cost (AVX-512) a link: 0.45 ns,
+/// with cross masses 0.86 ns.
 template <bool has_cross, class V>
-[[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
-                                             std::size_t highest, std::size_t longest, Quotient* result,
+[[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts,
+                                             std::size_t lowest, std::size_t highest,
+                                             std::size_t longest, Quotient* result,
                                              std::vector<AtPin<V>>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
-    const auto [leg, legs, low, high] = legs_of(chain, shifts, P * V::size, lowest, highest, longest);
+    const auto [leg, legs, low, high] =
+        legs_of(chain, shifts, P * V::size, lowest, highest, longest);
     scratch.resize((high - low + 1) * P);
 
     Walk<V> walk[P];
@@ -163,19 +170,22 @@ template <bool has_cross, class V>
         for (std::size_t p = 0; p < P; ++p) {
             const AtPin<V>& up = scratch[(at - low) * P + p];
             const AtPin<V> down = AtPin<V>::of(walk[p]);
-            // each scaled by the other's offset, so that they meet
+            // Each vector is scaled by the other's offset, so that they meet.
             const V gap = up.force * down.offset - down.force * up.offset;
             const V scale_up = down.offset * down.offset, scale_down = up.offset * up.offset;
             const V energy = up.stiffness * scale_up + down.stiffness * scale_down;
             const V square = gap * gap * above / energy;
             const auto better = square < least[p];  // false for a NaN: no twist at a node
             least[p] = select(better, square, least[p]);
-            inertia[p] = select(better, up.inertia * scale_up + down.inertia * scale_down, inertia[p]);
+            inertia[p] =
+                select(better, up.inertia * scale_up + down.inertia * scale_down, inertia[p]);
             stiffness[p] = select(better, energy, stiffness[p]);
             twist[p] = select(better, V(static_cast<double>(begin)), twist[p]);
             if constexpr (has_cross) {
-                forces[p] = select(better, up.forces * scale_up + down.forces * scale_down, forces[p]);
-                offsets[p] = select(better, up.offsets * scale_up + down.offsets * scale_down, offsets[p]);
+                forces[p] =
+                    select(better, up.forces * scale_up + down.forces * scale_down, forces[p]);
+                offsets[p] =
+                    select(better, up.offsets * scale_up + down.offsets * scale_down, offsets[p]);
             }
         }
     }
@@ -183,55 +193,65 @@ template <bool has_cross, class V>
         const V ratio = (has_cross ? walk[p].mu * inertia[p] : inertia[p]) / stiffness[p];
         for (std::size_t i = 0; i < V::size; ++i) {
             const double energy = stiffness[p][i];
-            const double rounding =
-                vector_rounding<has_cross>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
-            // Terms of second order are covered by the factor 1.01 only where this is small.
-            const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
-                                                       : std::numeric_limits<double>::infinity();
-            result[p * V::size + i] = {ratio[i], residual, rounding, static_cast<std::size_t>(twist[p][i])};
+            const double rounding = vector_rounding<has_cross>(
+                chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
+            // The factor 1.01 covers terms of second order only where `rounding` is small.
+            const double residual = rounding < 0x1p-10
+                                        ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
+                                        : std::numeric_limits<double>::infinity();
+            result[p * V::size + i] = {ratio[i], residual, rounding,
+                                       static_cast<std::size_t>(twist[p][i])};
         }
     }
 }
 
-/// For any number of shifts the results of `solve(registers, has_cross, shifts, lowest, highest,
-/// results)` for `packs` packs of them, each joined near its entry in `places`, or anywhere if that
-/// is empty. Shifts are sorted by place, because links between the places are walked twice.
+/// Returns the results of `solve(registers, has_cross, shifts, lowest, highest, results)` for any
+/// number of shifts; each call takes `packs` packs. Each shift is joined near its entry in
+/// `places`, or anywhere if that is empty. Shifts are sorted by place, because links between the
+/// places are walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {
     std::vector<std::size_t> order(shifts.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     if (!places.empty())
-        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Result> result(shifts.size());
-    revchain::detail::parallel_for(shifts.size(), packs * most_doubles, [&](std::size_t begin, std::size_t end) {
-        simd([&](auto registers) REVCHAIN_INLINED {
-            constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
-            Result found[together];
-            double padded[together];
-            for (std::size_t i = begin; i < end; i += together) {
-                revchain::detail::look();
-                const std::size_t taken = std::min(together, end - i);
-                for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
-                const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
-                const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-                if (chain.has_cross)
-                    solve(registers, std::true_type(), padded, lowest, highest, found);
-                else
-                    solve(registers, std::false_type(), padded, lowest, highest, found);
-                for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
-            }
+    revchain::detail::parallel_for(
+        shifts.size(), packs * most_doubles, [&](std::size_t begin, std::size_t end) {
+            simd([&](auto registers) REVCHAIN_INLINED {
+                constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
+                Result found[together];
+                double padded[together];
+                for (std::size_t i = begin; i < end; i += together) {
+                    revchain::detail::check_interrupt();
+                    const std::size_t taken = std::min(together, end - i);
+                    for (std::size_t j = 0; j < together; ++j)
+                        padded[j] = shifts[order[i + (j < taken ? j : 0)]];
+                    const std::size_t lowest =
+                        places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
+                    const std::size_t highest =
+                        places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
+                    if (chain.has_cross)
+                        solve(registers, std::true_type(), padded, lowest, highest, found);
+                    else
+                        solve(registers, std::false_type(), padded, lowest, highest, found);
+                    for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
+                }
+            });
         });
-    });
     return result;
 }
 
-inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
+inline std::vector<Quotient> quotients_all(const LumpedChain& chain,
+                                           const std::vector<double>& shifts,
                                            const std::vector<std::size_t>& places = {},
                                            std::size_t longest = longest_leg) {
-    return in_packs<Quotient, quotient_packs>(chain, shifts, places,
-        [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
-            Quotient* found) REVCHAIN_INLINED {
+    return in_packs<Quotient, quotient_packs>(
+        chain, shifts, places,
+        [&](auto registers, auto has_cross, const double* some, std::size_t lowest,
+            std::size_t highest, Quotient* found) REVCHAIN_INLINED {
             std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
             quotients<has_cross.value>(chain, some, lowest, highest, longest, found, scratch);
         });

@@ -5,10 +5,10 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The results of a twisted vector at a shift mu to more digits than double: see `Quotient`.
+/// The results of a twisted vector at a shift mu, to more digits than double: see `Quotient`.
 struct FineQuotient {
     double excess = 0;    ///< Rayleigh quotient times mu, less 1
-    double error = 0;     ///< bound of its error, with the pencil's own
+    double error = 0;     ///< bound of its error, with the pencil's error
     double residual = 0;  ///< as in `Quotient`, but evaluated, with a bound of second order
     std::size_t twist = 0;
 };
@@ -16,19 +16,19 @@ struct FineQuotient {
 inline constexpr std::size_t fine_packs = 2;
 
 /// A vector as in `Walk`: offset y, and the sum of m y over pins in two words. Rounding residuals
-/// are evaluated: with d the difference of the stored offsets, f = mu (sum of m y) - (k + mu X) d
+/// are evaluated. With d the difference of the stored offsets, f = mu (sum of m y) - (k + mu X) d
 /// of each link is the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
 template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
     V excess, squares, stiffness;  ///< sums of f d, f^2 / k, k d^2
-    V forces;   ///< sum of (force/k)^2 k; with cross masses only
+    V forces;                      ///< sum of (force/k)^2 k; with cross masses only
     V offsets;  ///< sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 template <bool has_cross, bool up, bool fused, class V>
-[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
-                                             FineWalk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin,
+                                             std::size_t end, FineWalk<V>* walk) {
     constexpr std::size_t P = fine_packs;
     FineWalk<V> at[P];
     for (std::size_t p = 0; p < P; ++p) at[p] = walk[p];
@@ -67,7 +67,8 @@ template <bool has_cross, bool up, bool fused, class V>
                 const DoubleWord<V> swung = two_product<fused>(w.mu, d.high);
                 const DoubleWord<V> inertia = two_product<fused>(V(rest.cross), swung.high);
                 const DoubleWord<V> remains = two_sum(force.high, -spring.high);
-                f = (remains.high - inertia.high) + ((remains.low + (force.low - spring.low)) - inertia.low) +
+                f = (remains.high - inertia.high) +
+                    ((remains.low + (force.low - spring.low)) - inertia.low) +
                     (f - ((rest.stiffness * d.high + rest.cross_rest * swung.high) +
                           (rest.cross * swung.low + (e.stiffness + w.mu * rest.cross) * d.low)));
             } else {
@@ -96,16 +97,18 @@ template <bool has_cross, bool up, bool fused, class V>
     }
 }
 
-/// `quotients` to twice the digits: the same vector but for rounding, with a residual that includes
-/// roundings. Walks join at a pin that `longest`, a power of 2, divides. Accuracy:
+/// Computes `quotients` to twice the digits: the same vector up to rounding, with a residual that
+/// includes roundings. Walks join at a pin that `longest`, a power of 2, divides. Accuracy:
 /// docs/theory/spectrum.md, "To the last digit". Cost: about three times `quotients`.
 template <bool has_cross, bool fused, class V>
-[[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
-                                                  std::size_t highest, std::size_t longest, FineQuotient* result,
+[[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts,
+                                                  std::size_t lowest, std::size_t highest,
+                                                  std::size_t longest, FineQuotient* result,
                                                   std::vector<FineWalk<V>>& scratch) {
     constexpr std::size_t P = fine_packs;
     const std::size_t n = chain.size();
-    const auto [leg, legs, low, high] = legs_of(chain, shifts, P * V::size, lowest, highest, longest);
+    const auto [leg, legs, low, high] =
+        legs_of(chain, shifts, P * V::size, lowest, highest, longest);
     scratch.resize((high - low + 1) * P);
 
     FineWalk<V> walk[P];
@@ -137,11 +140,11 @@ template <bool has_cross, bool fused, class V>
         for (std::size_t p = 0; p < P; ++p) {
             const FineWalk<V>&a = scratch[(at - low) * P + p], &b = walk[p];
             FineWalk<V>& j = joined[p];
-            // each scaled by the other's offset, so that they meet
+            // Each vector is scaled by the other's offset, so that they meet.
             const DoubleWord<V> up = two_product<fused>(a.sum, b.offset);
             const DoubleWord<V> down = two_product<fused>(b.sum, a.offset);
-            const V gap =
-                b.mu * ((up.high - down.high) + ((up.low - down.low) + (a.rest * b.offset - b.rest * a.offset)));
+            const V gap = b.mu * ((up.high - down.high) +
+                                  ((up.low - down.low) + (a.rest * b.offset - b.rest * a.offset)));
             const V scale_up = b.offset * b.offset, scale_down = a.offset * a.offset;
             const V energy = a.stiffness * scale_up + b.stiffness * scale_down;
             const V square = gap * gap * above / energy;
@@ -164,31 +167,36 @@ template <bool has_cross, bool fused, class V>
     for (std::size_t p = 0; p < P; ++p)
         for (std::size_t i = 0; i < V::size; ++i) {
             const double mu = shifts[p * V::size + i], energy = joined[p].stiffness[i];
-            const double rounding =
-                vector_rounding<has_cross>(chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
+            const double rounding = vector_rounding<has_cross>(
+                chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
             const double sums = 8 * epsilon<double>() * (static_cast<double>(n) + 16);
             const double second = rounding * (sums + 2 * chain.data_error / epsilon<double>());
-            const double evaluated = std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i]);
+            const double evaluated =
+                std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i]);
             const double residual = evaluated * (1 + 0x1p-20) + second;
-            // at least mu X d^2 over |y|^2
+            // This is at least mu X d^2 over |y|^2.
             const double swung = has_cross ? std::sqrt(joined[p].forces[i] / energy) : 1.0;
             const double data = chain.data_error * (3 + 3 * swung);
             const double error = second + sums * residual + data;
-            const bool good = rounding < 0x1p-10 && residual < 0x1p-10 && energy > 0x1p-900 && energy < 0x1p1000;
+            const bool good =
+                rounding < 0x1p-10 && residual < 0x1p-10 && energy > 0x1p-900 && energy < 0x1p1000;
             result[p * V::size + i] = {joined[p].excess[i] / energy, error,
                                        good ? residual : std::numeric_limits<double>::infinity(),
                                        static_cast<std::size_t>(twist[p][i])};
         }
 }
 
-inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
+inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain,
+                                                    const std::vector<double>& shifts,
                                                     const std::vector<std::size_t>& places,
                                                     std::size_t longest = longest_leg) {
-    return in_packs<FineQuotient, fine_packs>(chain, shifts, places,
-        [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
-            FineQuotient* found) REVCHAIN_INLINED {
+    return in_packs<FineQuotient, fine_packs>(
+        chain, shifts, places,
+        [&](auto registers, auto has_cross, const double* some, std::size_t lowest,
+            std::size_t highest, FineQuotient* found) REVCHAIN_INLINED {
             std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
-            fine_quotients<has_cross.value, registers.fused>(chain, some, lowest, highest, longest, found, scratch);
+            fine_quotients<has_cross.value, registers.fused>(chain, some, lowest, highest, longest,
+                                                             found, scratch);
         });
 }
 

@@ -9,7 +9,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// The characteristic polynomial at a shift, value * 2^exponent, and the eigenvalues mu below.
+/// The characteristic polynomial at a shift, value * 2^exponent, and the count of lower eigenvalues
+/// mu.
 struct Sample {
     double value = 0;
     int exponent = 0;
@@ -22,24 +23,25 @@ inline std::size_t history_words(std::size_t links) { return links / history_ste
 inline constexpr std::size_t sample_packs = 6;
 
 /// The offset of the held pin for a free end at 1, as a function of mu = 1/lambda, times the
-/// product of s = 1 + mu X/k over the links: a polynomial whose zeros are the eigenvalues.
-/// Division-free:
+/// product of s = 1 + mu X/k over the links. It is a polynomial whose zeros are the eigenvalues,
+/// without division:
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// With `count` it also counts eigenvalues below the shift. Without, it stores in `history` the sign
-/// of the offset after every `history_step` links from the free end: 64 signs in a word, the first
-/// sign in the highest of the bits that are used. Cost per shift and link (AVX-512): 0.13 ns without
-/// cross masses, 0.23 ns with them.
+/// With `count` this function also counts eigenvalues below the shift. Without, it stores in
+/// `history` the sign of the offset after every `history_step` links from the free end: 64 signs in
+/// a word, the first sign in the highest used bit. Cost per shift and link (AVX-512): 0.13 ns
+/// without cross masses, 0.23 ns with them.
 template <class V, bool has_cross, bool count>
-[[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts, Sample* samples,
-                                          std::uint64_t* history) {
+[[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts,
+                                          Sample* samples, std::uint64_t* history) {
     V mu[sample_packs], offset[sample_packs], force[sample_packs];
     typename V::Mask changes[sample_packs], exponents[sample_packs], signs[sample_packs];
     double largest = 0;
     for (std::size_t p = 0; p < sample_packs; ++p) {
         mu[p] = V::load(shifts + p * V::size);
-        for (std::size_t i = 0; i < V::size; ++i) largest = std::max(largest, shifts[p * V::size + i]);
+        for (std::size_t i = 0; i < V::size; ++i)
+            largest = std::max(largest, shifts[p * V::size + i]);
         offset[p] = V(1.0);
         force[p] = mu[p] * chain.tip_mass;
     }
@@ -79,7 +81,7 @@ template <class V, bool has_cross, bool count>
             least = min(least, size[p]), most = max(most, size[p]);
         }
         if (!strays(least, most)) continue;
-        for (std::size_t p = 0; p < sample_packs; ++p) {  // powers of two: nothing is rounded
+        for (std::size_t p = 0; p < sample_packs; ++p) {  // powers of two: exact
             exponents[p] += exponent(size[p]);
             const V scale = inverse_power(size[p]);
             offset[p] *= scale;
@@ -92,42 +94,49 @@ template <class V, bool has_cross, bool count>
                                         static_cast<Index>(changes[p][i])};
 }
 
-/// Samples any number of shifts, with counts or, given `history`, `history_words` for each.
+/// Samples any number of shifts, with counts or, given `history`, with `history_words` for each.
 inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                       std::vector<std::uint64_t>* history = nullptr) {
     std::vector<Sample> samples(shifts.size());
     const std::size_t words = history_words(chain.size());
     if (history != nullptr) history->assign(shifts.size() * words, 0);
-    revchain::detail::parallel_for(shifts.size(), sample_packs * most_doubles, [&](std::size_t begin, std::size_t end) {
-        simd([&](auto registers) REVCHAIN_INLINED {
-            using V = Pack<double, registers.doubles>;
-            constexpr std::size_t together = sample_packs * V::size;
-            double padded[together];
-            Sample found[together];
-            std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
-            for (std::size_t i = begin; i < end; i += together) {
-                revchain::detail::look();
-                const std::size_t taken = std::min(together, end - i);
-                for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
-                if (history == nullptr && chain.has_cross) sample<V, true, true>(chain, padded, found, nullptr);
-                if (history == nullptr && !chain.has_cross) sample<V, false, true>(chain, padded, found, nullptr);
-                if (history != nullptr && chain.has_cross) sample<V, true, false>(chain, padded, found, signs.data());
-                if (history != nullptr && !chain.has_cross) sample<V, false, false>(chain, padded, found, signs.data());
-                for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
-                if (history != nullptr)
-                    for (std::size_t j = 0; j < taken * words; ++j) (*history)[i * words + j] = signs[j];
-            }
+    revchain::detail::parallel_for(
+        shifts.size(), sample_packs * most_doubles, [&](std::size_t begin, std::size_t end) {
+            simd([&](auto registers) REVCHAIN_INLINED {
+                using V = Pack<double, registers.doubles>;
+                constexpr std::size_t together = sample_packs * V::size;
+                double padded[together];
+                Sample found[together];
+                std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
+                for (std::size_t i = begin; i < end; i += together) {
+                    revchain::detail::check_interrupt();
+                    const std::size_t taken = std::min(together, end - i);
+                    for (std::size_t j = 0; j < together; ++j)
+                        padded[j] = shifts[i + (j < taken ? j : 0)];
+                    if (history == nullptr && chain.has_cross)
+                        sample<V, true, true>(chain, padded, found, nullptr);
+                    if (history == nullptr && !chain.has_cross)
+                        sample<V, false, true>(chain, padded, found, nullptr);
+                    if (history != nullptr && chain.has_cross)
+                        sample<V, true, false>(chain, padded, found, signs.data());
+                    if (history != nullptr && !chain.has_cross)
+                        sample<V, false, false>(chain, padded, found, signs.data());
+                    for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
+                    if (history != nullptr)
+                        for (std::size_t j = 0; j < taken * words; ++j)
+                            (*history)[i * words + j] = signs[j];
+                }
+            });
         });
-    });
     return samples;
 }
 
-/// The number of links below the mode whose eigenvalue is the only one between two shifts: a guess,
-/// because nearby modes interfere. The chain below some pin has an eigenvalue between the shifts
-/// too only if it contains the mode; from there on the offsets, given by signs, differ.
+/// Returns the number of links below a mode whose eigenvalue is the only one between two shifts: a
+/// guess, because nearby modes interfere. The chain below some pin also has an eigenvalue between
+/// the shifts only if it contains the mode. From there on the offsets, given by signs, differ.
 inline std::size_t place(const std::uint64_t* one, const std::uint64_t* other, std::size_t links) {
     const std::size_t steps = links / history_step;
-    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and their least
+    std::ptrdiff_t balance = 0, least = 0;  // differences minus agreements, and the least balance
     std::size_t at = 0;
     for (std::size_t i = 0; i < steps; ++i) {
         const std::size_t word = i / 64, used = std::min<std::size_t>(64, steps - word * 64);

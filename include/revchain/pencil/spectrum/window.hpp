@@ -14,9 +14,10 @@ struct Window {
     Index size() const { return last - first; }
 };
 
-/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`; drops pieces without eigenvalues.
+/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`. Omits pieces without eigenvalues.
 template <class Cuts, class At>
-std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows, const Cuts& cuts, const At& at) {
+std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows,
+                        const Cuts& cuts, const At& at) {
     std::vector<double> shifts;
     for (const Window& w : windows)
         for (int c = 1; c <= cuts(w); ++c) shifts.push_back(at(w, c, cuts(w)));
@@ -26,7 +27,8 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
     for (const Window& w : windows) {
         Window rest = w;
         for (int c = 1; c <= cuts(w); ++c, ++next) {
-            // rounding may shift counts within a few ulp: clamped, no eigenvalue is lost
+            // Rounding may shift counts within a few ulp. Clamping prevents the loss of
+            // eigenvalues.
             const Index below = std::clamp(counted[next].below, rest.first, rest.last);
             if (below > rest.first) pieces.push_back({rest.lower, shifts[next], rest.first, below});
             rest.lower = shifts[next], rest.first = below;
@@ -37,12 +39,12 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
 }
 
 /// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
-/// `most` eigenvalues, by counts; the end ones may hold more. Cost: about 2 (last - first)/most
+/// `most` eigenvalues, by counts. The end ones may hold more. Cost: about 2 (last - first)/most
 /// counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
-    // The whole range: mu by powers of 4 until the count suffices. Not round numbers: part of a
-    // chain of equal links may have an eigenvalue there, and no count is proved.
+    // The whole range: mu grows by powers of 4 until the count suffices. Round numbers are avoided:
+    // part of a chain of equal links may have an eigenvalue there, and no count is proved.
     double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
@@ -64,7 +66,8 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     const auto at = [](const Window& w, int number, int of) {
         const double share = number / static_cast<double>(of + 1);
         const bool wide = w.upper > 4 * w.lower && w.lower > 0;
-        return wide ? w.lower * std::pow(w.upper / w.lower, share) : w.lower + (w.upper - w.lower) * share;
+        return wide ? w.lower * std::pow(w.upper / w.lower, share)
+                    : w.lower + (w.upper - w.lower) * share;
     };
     std::vector<Window> work{whole}, done;
     while (!work.empty()) {
@@ -77,7 +80,8 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
         }
         work = std::move(next);
     }
-    std::sort(done.begin(), done.end(), [](const Window& a, const Window& b) { return a.first < b.first; });
+    std::sort(done.begin(), done.end(),
+              [](const Window& a, const Window& b) { return a.first < b.first; });
     std::vector<Window> merged;
     for (const Window& w : done) {
         Window* last_one = merged.empty() ? nullptr : &merged.back();
@@ -90,17 +94,20 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     return merged;
 }
 
-/// Nodes for a window, a multiple of 8: pi/2 a zero, as for a sine, and a margin (cube root).
+/// Returns a number of nodes, a multiple of 8: pi/2 a zero, as for a sine, plus a margin (cube
+/// root).
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
 }
 
-/// Approximate eigenvalues of a window, ascending, from samples of the characteristic polynomial f
-/// at its Chebyshev nodes: zeros of the interpolant of f exp(-trend), whose trend, quadratic in the
-/// shift, removes the exponential growth of f. Empty if their number is not that of the counts or,
-/// with `sure`, if one is less certain than 1/1000 of its distance to the next.
-inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n, bool sure) {
+/// Returns approximate eigenvalues of a window, ascending, from samples of the characteristic
+/// polynomial f at its Chebyshev nodes. They are zeros of the interpolant of f exp(-trend); the
+/// trend, quadratic in the shift, removes the exponential growth of f. The result is empty if their
+/// number differs from the counts or, with `sure`, if one is less certain than 1/1000 of its
+/// distance to the next.
+inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n,
+                                        bool sure) {
     std::vector<double> values(n), nodes(n);
     std::vector<int> exponents(n);
     double t0 = 0, t1 = 0, t2 = 0;
@@ -114,11 +121,12 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     const double count = static_cast<double>(n);
     const int level = static_cast<int>(t0 / count);
     t1 *= 2 / count, t2 *= 2 / count;
-    for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
-        values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
+    for (std::size_t i = 0; i < n; ++i)  // large exponents cancel before any rounding
+        values[i] *= std::exp2((exponents[i] - level) -
+                               (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
     std::vector<double> roots;
     simd([&](auto registers) REVCHAIN_INLINED {
-        // As many lanes as fill the latency of one fused multiply-add and fit in registers.
+        // The lanes fill the latency of one fused multiply-add and fit in registers.
         using V = Pack<double, registers.doubles, registers.bytes / 16>;
         const Chebyshev p = interpolant<V>(values);
         roots = zeros<V>(p, window.size());
@@ -129,9 +137,10 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     return roots;
 }
 
-/// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows,
-/// ascending, into `candidates[.].shift`, and the links below the mode into `.place`. Windows whose
-/// interpolant has too few or too many zeros are cut up; false if that does not end.
+/// Finds approximate shifts of the eigenvalues `first` ... `last - 1` and all others in their
+/// windows, ascending, in `candidates[.].shift`, and the links below the mode in `.place`. Windows
+/// whose interpolant has too few or too many zeros are cut. Returns false if the windows do not
+/// cover the range.
 template <class Candidate>
 bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
@@ -144,7 +153,9 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         return w.lower + (w.upper - w.lower) * (0.25 * number + 0.01);
     };
     for (int round = 0; round < 12 && !work.empty(); ++round) {
-        if (round > 0) work = cut(chain, work, [](const Window&) { return 3; }, quarter);
+        if (round > 0)
+            work = cut(
+                chain, work, [](const Window&) { return 3; }, quarter);
         std::vector<double> shifts;
         std::vector<std::size_t> starts;
         for (const Window& w : work) {
@@ -165,7 +176,8 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         std::vector<std::vector<double>> roots_of(work.size());
         revchain::detail::parallel_for(work.size(), 1, [&](std::size_t from, std::size_t to) {
             for (std::size_t k = from; k < to; ++k)
-                roots_of[k] = interpolated(work[k], &samples[starts[k]], node_count(work[k].size()), round < 3);
+                roots_of[k] = interpolated(work[k], &samples[starts[k]], node_count(work[k].size()),
+                                           round < 3);
         });
         for (std::size_t k = 0; k < work.size(); ++k) {
             const Window& w = work[k];
@@ -182,7 +194,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
                 candidates[number].shift = roots[i];
                 Neighbours around{number, at + cell, at + cell - 1};
-                if (i > 0 && before == cell) {  // two between nodes: another sample
+                if (i > 0 && before == cell) {  // two lie between nodes: another sample
                     placed.back().above = around.below = samples.size() + between_roots.size();
                     between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
                 }
@@ -194,13 +206,15 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         history.resize(samples.size() * words);
         history.insert(history.end(), more.begin(), more.end());
         for (const Neighbours& i : placed)
-            candidates[i.number].place = place(&history[i.below * words], &history[i.above * words], chain.size());
+            candidates[i.number].place =
+                place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
-    // What is left has a bracket too narrow for the interpolant: counts have to separate its zeros.
+    // The remaining brackets are too narrow for the interpolant: counts must separate their zeros.
     for (const Window& w : work)
         for (Index j = w.first; j < w.last; ++j)
-            candidates[static_cast<std::size_t>(j - begin)].shift = w.lower + (w.upper - w.lower) / 2;
+            candidates[static_cast<std::size_t>(j - begin)].shift =
+                w.lower + (w.upper - w.lower) / 2;
     return true;
 }
 
