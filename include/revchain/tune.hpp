@@ -79,10 +79,10 @@ struct Tuned {
 /// provably skip none.
 /// Accuracy: `error_bound`, proved. Measured: 1 to 4 ulp of the value if its logarithmic derivative
 /// is not small (tests/cpp/tune.cpp). If no value is found, the extremes are those of 33 sampled
-/// values and, for a weight, of those searched. Cost: about 10 to 60 counts of O(N); for a weight about 10 to 100 heights.
-/// Throws InvalidArgument for numbers out of range, for weights more than 1e123 apart, and unless
-/// exactly one of height and speed is given. Also throws for a range in which the link always
-/// stands; a part of a range in which it stands is cut off.
+/// values and, for a weight, of those searched. Cost: about 10 to 60 counts of O(N); for a weight
+/// about 10 to 100 heights. Throws InvalidArgument for numbers out of range, for weights more than
+/// 1e123 apart, and unless exactly one of height and speed is given. Also throws for a range in
+/// which the link always stands; a part of a range in which it stands is cut off.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 

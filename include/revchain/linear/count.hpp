@@ -35,7 +35,8 @@ class LazyCounter {
     }
     const Pencils<T>& pencils() { return counter().pencils_; }
     bool is_of(const Chain<T>& chain) const { return &chain == &chain_; }
-    /// The pencils, if they are assembled and small enough to be kept with a result (0.6 MB); else null.
+    /// The pencils, if they are assembled and small enough to be kept with a result (0.6 MB); else
+    /// null.
     std::shared_ptr<const Pencils<T>> kept_pencils() const {
         constexpr Index most_links = 4096;
         if (!counter_ || chain_.size() > most_links) return nullptr;

@@ -85,8 +85,8 @@ inline constexpr Index most_in_lanes = 20000;
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
 /// Roots of a range of numbers, eight at a time, of a chain's or a rig's pencil in two words and
-/// rounded. A root that this does not prove to the relative error `worst` is `alone(number, bracket)`.
-/// Nothing where the counts `certified(x)` leave numbers in doubt.
+/// rounded. A root that this does not prove to the relative error `worst` is `alone(number,
+/// bracket)`. Nothing where the counts `certified(x)` leave numbers in doubt.
 template <bool Spins, class Certified, class Alone>
 std::optional<Heights<double>> roots_in_lanes(
     const pencil::ElementPencil<Wide<double>, Spins>& elements,

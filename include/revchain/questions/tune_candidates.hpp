@@ -55,11 +55,11 @@ Link<double> with_datum(Link<double> link, Datum datum, double x) {
 
 /// Returns a bound of |d ln(height)/d ln(weight)| for the link at index `link`. It holds while its
 /// weight W is between `low` and `high` and the height is at least `least`. The bound is the larger
-/// of the shares that the weight can have in y^T M y and in y^T K y, or their sum if a centroid of this
-/// link or one above is above its pin. Both follow from the ends, because w^2 <= sum of a^2/kappa and s^2 <= 1/kappa
-/// times y^T K y, with kappa = W_r h_r + a_r S_r, W included, and W/kappa is monotone in W. The
-/// bound is at most 1 if all centroids are at or below their pins, since W dM <= M and W dK <= K.
-/// Cost O(N).
+/// of the shares that the weight can have in y^T M y and in y^T K y, or their sum if a centroid of
+/// this link or one above is above its pin. Both follow from the ends, because w^2 <= sum of
+/// a^2/kappa and s^2 <= 1/kappa times y^T K y, with kappa = W_r h_r + a_r S_r, W included, and
+/// W/kappa is monotone in W. The bound is at most 1 if all centroids are at or below their pins,
+/// since W dM <= M and W dK <= K. Cost O(N).
 REVCHAIN_LAZY
 double weight_influence(const Chain<double>& chain, Index link, double low, double high,
                         double least) {

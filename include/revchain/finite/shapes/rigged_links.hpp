@@ -11,7 +11,8 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// with H the momentum of flywheels. `moment`, `rest` and `cross` are of the moving weights.
 ///
 /// With a negative pull the tangent decreases as the load grows. A link of length -a and pull
-/// -sigma at the opposite inclination obeys the same equations: `links_for_sweep` returns that link.
+/// -sigma at the opposite inclination obeys the same equations: `links_for_sweep` returns that
+/// link.
 struct RiggedLinks : Links<Fine> {
     std::vector<detail::RigLink> given;
     std::vector<Posture> posture;
