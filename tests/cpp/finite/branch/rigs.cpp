@@ -65,7 +65,7 @@ void check_cut(const Branches& diagram, const SteadyShapes& list, double height)
 /// The function of EnclosedDiagram, by the numbers of the links.
 Quad miss(const revchain::finite::BranchSystem& system, int side, Quad x, Quad height) {
     const auto& from = system.links;
-    const Quad n = support::quad(from.speed) / sqrtq(height), b = side * support::quad(from.radius);
+    const Quad n = support::quad(from.pace) / sqrtq(height), b = side * support::quad(from.radius);
     Quad y = 0, sum = 0, moving = 0;
     for (std::size_t m = 0; m < from.bodies(); ++m) {
         const auto& link = from.links[m];
