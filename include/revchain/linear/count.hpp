@@ -3,10 +3,30 @@
 
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "revchain/count.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD {
+
+namespace detail {
+
+/// Returns the number of roots above x, by the proved counts `count(x)`. A root within 2^20
+/// roundings of x counts as equal to it. Throws InvalidArgument if the number is not proved; `place`
+/// and `value` are for the message.
+template <Real S, class T, class Count>
+Index number_above(S x, std::string_view place, const T& value, const Count& count) {
+    if (const pencil::CertifiedCount found = count(x); found.proved) return found.above;
+    x = x + x * S(operation_error<S>() * Narrow<S>(1 << 20));
+    if (const pencil::CertifiedCount found = count(x); found.proved) return found.above;
+    throw_invalid(
+        place,
+        "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
+        "a little beside it",
+        value);
+}
+
+}  // namespace detail
 
 template <Real T>
 Index ModeCounter<T>::above(const Wide<T>& height, const T& rough) const {
@@ -15,11 +35,9 @@ Index ModeCounter<T>::above(const Wide<T>& height, const T& rough) const {
     using limits = std::numeric_limits<T>;
     if (!(scaled < ldexp(T(1), limits::max_exponent - limits::digits))) return 0;
     if (scaled < ldexp(T(1), limits::min_exponent + limits::digits)) return mode_count_;
-    const Wide<T> shift = pencils_.scaled(height);
-    const auto sure = pencils_.template certified_count<1>({shift});
-    if (sure[0].proved) return sure[0].above;
-    const Wide<T> tie(operation_error<Wide<T>>() * Narrow<Wide<T>>(1 << 20));
-    return pencil::certified_count<Wide<T>, 1>(pencils_.wide(), {shift + shift * tie})[0].above;
+    return detail::number_above(
+        pencils_.scaled(height), "count_modes: conical height", rough,
+        [&](const Wide<T>& x) { return pencils_.template certified_count<1>({x})[0]; });
 }
 
 namespace detail {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <string_view>
 
+#include "revchain/linear/count.hpp"
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
@@ -125,23 +126,13 @@ class CountedRoots {
 REVCHAIN_LAZY
 RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// Returns the number of roots above x, by the proved counts `count(x)`. A root within 2^20
-/// roundings of x counts as equal to it; x is limited to `least_root` and its reciprocal. Throws
-/// InvalidArgument if the number is not proved; `place` and `value` are for the message.
+/// Returns the number of roots above x as `number_above` does, with x limited to `least_root` and its
+/// reciprocal.
 template <class Count>
 Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value,
                    const Count& count) {
     const RigWord least = least_root(quadratic);
-    RigWord at = std::min(std::max(x, least), RigWord(1.0) / least);
-    for (const double tie : {0.0, operation_error<RigWord>() * 0x1p20}) {
-        at = at + at * RigWord(tie);
-        if (const auto found = count(at); found.proved) return found.above;
-    }
-    throw_invalid(
-        place,
-        "rounding leaves in doubt how many whirl speeds of this system lie below it; use one "
-        "a little beside it",
-        value);
+    return number_above(std::min(std::max(x, least), RigWord(1.0) / least), place, value, count);
 }
 
 /// The roots of one sense of rotation, counted without finding them.
