@@ -227,9 +227,10 @@ static_assert(Tunable<Chain<double>> && !Tunable<revchain::Rig> && !Tunable<revc
 
 TEST_CASE("a weight is not reduced so far that a link above would stand", "[linear]") {
     // The upper link's centroid is 2 above its pin: it hangs if the lower weight exceeds 2.
-    const Chain<double> chain({revchain::plummet(10.0, 0.5),
-                               revchain::compound_pendulum<double>(
-                                   {.weight = 1.0, .length = 1.0, .centroid = -2.0, .radius_of_gyration = 0.1})});
+    const auto leaning = revchain::compound_pendulum<double>(
+        {.weight = 1.0, .length = 1.0, .centroid = -2.0, .radius_of_gyration = 0.1});
+    const auto below = [&](double weight) { return Chain<double>({revchain::plummet(weight, 0.5), leaning}); };
+    const Chain<double> chain = below(10);
     double lowest = std::numeric_limits<double>::infinity();
     for (const double height : {0.3, 0.9, 2.0, 2.12, 2.5, 5.0, 50.0}) {
         const auto tuned = revchain::tune(chain, {.link = 0, .conical_height = height});
@@ -243,17 +244,13 @@ TEST_CASE("a weight is not reduced so far that a link above would stand", "[line
         } else {
             // no weight of the range reaches it: all heights lie on one side, and do at both ends
             const auto end = [&](double weight) {
-                auto links = revchain::detail::links_of(chain);
-                links[0].weight = weight;
-                return revchain::modes(Chain<double>(links), {.count = 1}).conical_height[0];
+                return revchain::modes(below(weight), {.count = 1}).conical_height[0];
             };
             CHECK((end(tuned.low) > height) == (end(tuned.high) > height));
         }
     }
     CHECK(lowest < 2.2);
     // Two such links: the upper one, with more above it, limits the weight.
-    const auto leaning = revchain::compound_pendulum<double>(
-        {.weight = 1.0, .length = 1.0, .centroid = -2.0, .radius_of_gyration = 0.1});
     const Chain<double> three({revchain::plummet(10.0, 0.5), leaning, revchain::plummet(0.5, 1.0),
                                revchain::compound_pendulum<double>(
                                    {.weight = 2.0, .length = 1.0, .centroid = -3.0, .radius_of_gyration = 0.1})});

@@ -382,7 +382,7 @@ class HeldCells : public HeldBounds {
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
             if (!(find_direction(near, R.middle(), V.middle(), way) > 0)) return result;
             Direction<Span> all;  // by Newton's method in intervals about the middle's inclination
-            const Span growth = enclose_direction(link, R, V, way, all);
+            const Span growth = enclose_rigid_direction(link, R, V, way, all);
             if (!growth.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));
             result.pull = sqrt(square(V + turning * result.cosine) + square(R));

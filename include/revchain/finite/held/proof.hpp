@@ -21,7 +21,7 @@ Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
         way = {R / pull, V / pull};
         return pull;
     }
-    return enclose_direction(link, R, V, found, way);
+    return enclose_rigid_direction(link, R, V, found, way);
 }
 
 /// Encloses the upper end for forces at the lower end within `radius` of those of a state with

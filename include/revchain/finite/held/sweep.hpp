@@ -99,8 +99,8 @@ S find_direction(const Link<S>& link, const S& across, const S& along, Direction
 /// one of the loads, by Newton's method in intervals. Returns the derivative as `find_direction`
 /// does. It is not positive if the link may be slack or have another inclination.
 template <Real T, class Span = Interval<T>>
-Span enclose_direction(const Link<Span>& link, const Span& R, const Span& V,
-                       const Direction<T>& found, Direction<Span>& direction) {
+Span enclose_rigid_direction(const Link<Span>& link, const Span& R, const Span& V,
+                             const Direction<T>& found, Direction<Span>& direction) {
     const Span turn = link.length * link.cross, sine(found.sine), cosine(found.cosine);
     const Span size = sqrt(square(sine) + square(cosine)), s = sine / size, c = cosine / size;
     const Span left = V * s + turn * s * c - R * c;
