@@ -106,7 +106,7 @@ class ModeCounter {
     /// and finite.
     [[nodiscard]] Index above_height(const T& height) const {
         detail::require_positive("count_modes", "conical height", height);
-        return above(Wide<T>(height), height);
+        return above(Wide<T>(height), height, "count_modes: conical height", height);
     }
 
     /// The number of whirl speeds below `angular_speed`: conical heights are compared with g / n^2
@@ -115,7 +115,8 @@ class ModeCounter {
         detail::require_positive("count_modes", "angular speed", angular_speed);
         detail::require_positive("count_modes", "gravity", gravity);
         return above(Wide<T>(gravity) / Wide<T>(angular_speed) / Wide<T>(angular_speed),
-                     gravity / angular_speed / angular_speed);
+                     gravity / angular_speed / angular_speed, "count_modes: angular speed",
+                     angular_speed);
     }
 
     /// The modes whose heights lie in the window. Adjacent windows share no mode and miss none.
@@ -135,8 +136,9 @@ class ModeCounter {
 
    private:
     friend detail::LazyCounter<T>;
-    /// `rough` is `height` in T, which may leave the range of T.
-    Index above(const Wide<T>& height, const T& rough) const;
+    /// `rough` is `height` in T, which may leave the range of T; `given` names what the caller gave.
+    Index above(const Wide<T>& height, const T& rough, std::string_view given,
+                const T& value) const;
 
     Index mode_count_;
     detail::Pencils<T> pencils_;
@@ -152,7 +154,8 @@ struct CountOptions {
 
 /// The number of modes slower than a speed, proved; Greenhill (1908) §8 (21). Accuracy and ties:
 /// see `ModeCounter`, which is faster for many counts of one chain. Cost: 0.1 microseconds a link.
-/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and
+/// as `ModeCounter`.
 template <Real T>
 [[nodiscard]] Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
     detail::require_one_speed("count_modes", options);

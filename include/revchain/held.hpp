@@ -198,14 +198,14 @@ struct HeldDiagramOptions {
 };
 
 /// The branches of a chain or cord held at a span, one for each number of half waves from 1 to the
-/// last with a shape at the greatest speed, at most 1000. A branch begins at that speed, at the
-/// first shape that `steady_shapes` lists, and goes to slower speeds, through folds. It ends where
-/// a link becomes slack or turns over (`slack`), the cord hangs folded along the axis (`folded`),
-/// the greatest speed is reached again (`speed`), the conical height is 10,000 lengths (`rest`: off
-/// the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the branches. Between
-/// ends off the axis each number k has two branches: mode 2 k - 1, whose lowest link first leads
-/// outwards, and mode 2 k, whose lowest link first leads inwards. A branch that returns to the
-/// greatest speed where another would begin stands for both.
+/// last with a shape at the greatest speed (for a cord at most 1000). A branch begins at that
+/// speed, at the first shape that `steady_shapes` lists, and goes to slower speeds, through folds.
+/// It ends where a link becomes slack or turns over (`slack`), the cord hangs folded along the axis
+/// (`folded`), the greatest speed is reached again (`speed`), the conical height is 10,000 lengths
+/// (`rest`: off the axis), or 3000 steps are done (`budget`). `HeldBranch::mode` numbers the
+/// branches. Between ends off the axis each number k has two branches: mode 2 k - 1, whose lowest
+/// link first leads outwards, and mode 2 k, whose lowest link first leads inwards. A branch that
+/// returns to the greatest speed where another would begin stands for both.
 ///
 /// Method: arc continuation in (force across, force along, height) at constant span; shapes are
 /// refined in double-double, at folds in double. Branches that begin elsewhere or leave the plane

@@ -100,7 +100,7 @@ struct RigModes {
     Index other_available = 0;  ///< number of solutions that are not steady motions, listed or not
     std::vector<OtherMode> other;  ///< filled if `RigModesOptions::other` or `discs`
     std::vector<SlackLink> slack;  ///< slowest first, up to the fastest mode in that direction
-    bool complete = false;         ///< whether both `available` and `other_available` are proved
+    bool complete = false;         ///< whether the three numbers available are proved
     RigMethod method = RigMethod::counts;
     Status status = Status::success;  ///< `tolerance_not_met`: a bound or `complete` is unproved
 };

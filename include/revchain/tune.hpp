@@ -63,7 +63,7 @@ struct Tuned {
     /// the quadratic to a mode. Always false for a weight: only the nearest solution on each side
     /// is searched.
     bool complete = false;
-    double low{}, high{};  ///< the range searched, without the part in which the link would stand
+    double low{}, high{};  ///< the range searched, without the part in which a link would stand
     /// Extremes of the mode's height seen in that range, for a weight, and if no value is found.
     double lowest_height = std::numeric_limits<double>::infinity();
     double highest_height = 0;
@@ -82,7 +82,8 @@ struct Tuned {
 /// values and, for a weight, of those searched. Cost: about 10 to 60 counts of O(N); for a weight
 /// about 10 to 100 heights. Throws InvalidArgument for numbers out of range, for weights more than
 /// 1e123 apart, and unless exactly one of height and speed is given. Also throws for a range in
-/// which the link always stands; a part of a range in which it stands is cut off.
+/// which a link always stands: this one or, for a weight, one above. A part of a range in which one
+/// stands is cut off.
 REVCHAIN_DECLARE
 [[nodiscard]] Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 

@@ -16,7 +16,8 @@ namespace revchain::inline REVCHAIN_BUILD::detail {
 
 using RigWord = Wide<double>;
 
-/// A root x > 0; the error bound is relative to its rounded value.
+/// A root x > 0 before it was rounded, and a bound of its relative error. Some bounds cover the
+/// rounding of the height or speed that is returned; `set_mode` adds what they leave out.
 using FoundRoot = pencil::Certified<double>;
 
 /// Roots x > 0 of Q(side x), 0 the largest: base + sign (number of negative eigenvalues of Q)
@@ -126,8 +127,8 @@ class CountedRoots {
 REVCHAIN_LAZY
 RigWord least_root(bool quadratic) { return std::ldexp(1.0, quadratic ? -200 : -400); }
 
-/// Returns the number of roots above x as `number_above` does, with x limited to `least_root` and its
-/// reciprocal.
+/// Returns the number of roots above x as `number_above` does, with x limited to `least_root` and
+/// its reciprocal.
 template <class Count>
 Index number_above(const RigWord& x, bool quadratic, std::string_view place, double value,
                    const Count& count) {

@@ -54,6 +54,7 @@ std::optional<std::vector<FoundRoot>> roots_in_lanes(
     const pencil::ElementPencil<RigWord, Spins>& elements, const CountedRoots& roots,
     const ModeRange& range, Index available, double guess,
     const std::function<void(Index)>& finished) {
+    if (elements.size() > most_in_lanes) return std::nullopt;
     return roots_in_lanes(
         elements, pencil::rounded<double>(elements),
         [&](double x) { return roots.certified(RigWord(x)); }, range, available, guess,

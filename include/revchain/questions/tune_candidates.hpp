@@ -120,21 +120,23 @@ TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index n
     // A link hangs if W h + a S > 0. The range ends a part in 1e6 before that limit.
     constexpr double inside = 1e-6;
     const double W = link.weight, a = link.length, h = link.centroid;
+    double least = range.low, most = range.high;
     if (datum == Datum::centroid && W > 0)
-        range.low = std::max(range.low, below > 0 ? -a * below / W * (1 - inside) : a * inside);
-    if (datum == Datum::weight && h < 0)
-        range.high = std::min(range.high, -a * below / h * (1 - inside));
-    if (datum == Datum::length && h < 0)
-        range.low = std::max(range.low, -W * h / below * (1 + inside));
+        least = below > 0 ? -a * below / W * (1 - inside) : a * inside;
+    if (datum == Datum::weight && h < 0) most = -a * below / h * (1 - inside);
+    if (datum == Datum::length && h < 0) least = -W * h / below * (1 + inside);
     // Links above whose centroids are above their pins need a weight below them.
     for (Index m = number + 1; datum == Datum::weight && m < chain.size(); ++m) {
         const Link<double> above = chain.link(m);
         if (above.centroid >= 0) continue;
         const double needed = -above.weight * above.centroid / above.length * (1 + inside);
         const Wide<double> others = chain.weight_below(m) - Wide<double>(W);
-        range.low = std::max(range.low, needed - static_cast<double>(others));
+        least = std::max(least, needed - static_cast<double>(others));
     }
-    if (!(range.low < range.high)) refuse("a link would stand, not hang, up to", range.high);
+    if (!(least < range.high)) refuse("a link would stand, not hang, up to", least);
+    if (!(range.low < most)) refuse("the link would stand, not hang, from", most);
+    range.low = std::max(range.low, least), range.high = std::min(range.high, most);
+    if (!(range.low < range.high)) refuse("a link would stand, not hang, beyond", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }

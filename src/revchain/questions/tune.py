@@ -85,8 +85,8 @@ def tune(
     Raises
     ------
     ValueError
-        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, the link
-        would be inverted somewhere in the range, or there is no such mode; if a system held at a span comes without
+        If not exactly one of speed and height is given; if a number is out of its range, the path is unknown, a link
+        would be inverted everywhere in the range, or there is no such mode; if a system held at a span comes without
         `top_tension`, or another system with it.
     TypeError
         If `system` is not a `Chain`, a `Rig`, a `Cord` or a `Held`.
@@ -97,8 +97,8 @@ def tune(
     centroid or a length are then roots of a quadratic, those of a radius of gyration or a length in proportion the root of
     a linear equation. Proved counts select the values of this mode and bound their errors. The height rises with a length
     in proportion and with a radius of gyration; with other data it may have extrema. A mass loads every link above; the
-    search then takes steps that cannot miss a value, because the relative change of a height never exceeds that of the
-    mass.
+    search then takes steps that cannot miss a value, because the relative change of a height has a bound (that of the
+    mass, if no centre of gravity is above its pin). The range leaves out masses with which a link would be inverted.
 
     A rig has one stiffness, one momentum and one spin of a link for each speed, computed in double-double to 1e-15; the
     modes of the new rig give the number of the mode.
