@@ -251,7 +251,7 @@ TEST_CASE("a weight is not reduced so far that a link above would stand", "[line
     }
     CHECK(lowest < 2.2);
     CHECK_THROWS_WITH(revchain::tune(chain, {.link = 0, .conical_height = 1.0, .low = 0.1, .high = 1.0}),
-                      ContainsSubstring("a link would stand, not hang, up to"));
+                      Catch::Matchers::ContainsSubstring("a link would stand, not hang, up to"));
     // Two such links: the upper one, with more above it, limits the weight.
     const Chain<double> three({revchain::plummet(10.0, 0.5), leaning, revchain::plummet(0.5, 1.0),
                                revchain::compound_pendulum<double>(
