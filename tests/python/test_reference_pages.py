@@ -43,7 +43,7 @@ def test_a_new_header_is_missed(repository, reference, tmp_path):
 
 def test_walks_through_the_code_lead_on(repository):
     """Each table of docs/design.md has at most eight files; each file has the functions named and is called above."""
-    text = (repository / "docs/design.md").read_text("utf-8").split("### Two walks through the code")[1].split("\n## ")[0]
+    text = (repository / "docs/design.md").read_text("utf-8").split("### Two walks through the code")[1].split("\n#")[0]
     tables = text.strip().split("\n\n")[1:]
     assert len(tables) == 2
     for table in tables:
