@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/linear/pencils.hpp"
