@@ -137,7 +137,8 @@ class ModeCounter {
 
    private:
     friend detail::LazyCounter<T>;
-    /// `rough` is `height` in T, which may leave the range of T; `given` names what the caller gave.
+    /// `rough` is `height` in T, which may leave the range of T; `given` names what the caller
+    /// gave.
     Index above(const Wide<T>& height, const T& rough, std::string_view given,
                 const T& value) const;
 

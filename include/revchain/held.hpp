@@ -128,12 +128,13 @@ struct HeldCordShapesOptions {
 /// bound. Completeness is proved by splitting all pulls along the lowest link and all its
 /// inclinations until each part has exactly one shape or none (finite/held/search.hpp). For cords:
 /// power series of degree 24; without gravity y = b sn(K x/a), §5.
-/// Of lists in tests/cpp/held.cpp, 99 of 108 are proved complete for 3, 6 and 9 links with l <= a
-/// and one half wave. None are for chains with l > a or with massless links between others, and few
-/// for two or more half waves. If several links are slack at once, as beads can be without gravity,
-/// a range of about 1e-7 stays undecided. On arms and springs all of 36 are proved for 3 links and
-/// two half waves, and 25 of 36 for 4 links and three. Above the resonance of a carriage on its
-/// spring it is 8 of 24 for 3 links and three (some are in tests/python/test_held_ends.py).
+/// The tests count how many lists are proved complete (tests/cpp/held.cpp). For 3, 6 and 9 links
+/// with l <= a and one half wave, 99 of 108 lists are proved. With l > a or with massless links
+/// between others no list is proved, and with two or more half waves few are. If several links are
+/// slack at once, as beads can be without gravity, a range of about 1e-7 stays undecided. On arms
+/// and springs, 36 of 36 lists are proved for 3 links and two half waves, and 25 of 36 for 4 links
+/// and three half waves. Above the resonance of a carriage on its spring, 8 of 24 lists are proved
+/// for 3 links and three half waves (some are in tests/python/test_held_ends.py).
 /// Accuracy: inclinations of chains are correctly rounded up to an error of 1e-20, with a bound
 /// that is mostly proved (tests/cpp/held.cpp). Positions on cords are within 1e-13 of the length,
 /// with an estimated bound. A given tension is met to 1e-15, relative.

@@ -91,8 +91,8 @@ struct SteadyShapes {
 /// `hanging_only` every link of a shape is within a right angle of the downward vertical; without
 /// it any posture is listed. Other postures, and links that hang at several inclinations under one
 /// load, need `thorough` as the last argument, or revchain::compiled. Straight shapes are omitted.
-/// Of two mirror images the one with the free end at a positive offset is listed (if that is 0, the
-/// one whose lowest inclined link has a positive inclination).
+/// Only one of two mirror images is listed: the one whose free end has a positive offset. If that
+/// offset is 0, it is the one whose lowest inclined link has a positive inclination.
 ///
 /// Method: the offset of the support is a function of the tangent t of the lowest link's
 /// inclination, Greenhill (1908) §8 (4), (12). The range of t is split, in interval arithmetic with

@@ -157,8 +157,8 @@ template <Real T>
                                  detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
-/// A steady shape of two links, lowest first. Of two mirror images it is the one whose free end (or
-/// lowest centre of oscillation) has a positive offset.
+/// A steady shape of two links, lowest first. It stands for itself and for its mirror image: its
+/// free end (or lowest centre of oscillation) has a positive offset.
 template <Real T>
 struct PairShape {
     std::array<T, 2> inclination;  ///< to the vertical

@@ -152,8 +152,8 @@ CordModes modes_of(const StraightCord& straight, const CordModesOptions& options
         lowest = window_of_heights(*options.angular_speed, options.gravity).low;
     if (!(lowest > 0))
         throw_invalid("modes",
-                      "a cord has infinitely many modes; the window must end at a height "
-                      "above 0, or at a finite speed; its lowest height is",
+                      "a cord has infinitely many modes; the window must end at a height above 0, "
+                      "or at a finite speed; its lowest height is",
                       lowest);
     const auto above = [&](double height) { return modes_above(straight, height); };
     const ModeRange range = chosen(all_modes, options, above, [&](double speed) {

@@ -101,10 +101,10 @@ CordFunction function_of(const std::string& name, const Start& start, const Vect
             if (!std::isfinite(y)) throw_invalid(place, name + " must be finite", y);
         const double last = places[places.size() - 1];
         if (places[0] != 0 || last != length)
-            throw_invalid(place,
-                          "places at which offsets are given must begin at 0 and end at the "
-                          "length, not at",
-                          places[0] != 0 ? places[0] : last);
+            throw_invalid(
+                place,
+                "places at which offsets are given must begin at 0 and end at the length, not at",
+                places[0] != 0 ? places[0] : last);
         given = [v = *values, places](double s) {
             const double* after =
                 std::upper_bound(places.data() + 1, places.data() + places.size() - 1, s);

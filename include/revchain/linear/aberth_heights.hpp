@@ -105,9 +105,9 @@ bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
 
 /// Returns a range of the roots in `all`, to the relative error `worst`; nothing if a proof fails.
 REVCHAIN_LAZY
-pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& pencil,
-                                    const ModeRange& range, Index modes,
-                                    const pencil::AberthSpectrum& all, double worst) {
+std::optional<Heights<double>> refined(const pencil::ElementPencil<Wide<double>>& pencil,
+                                       const ModeRange& range, Index modes,
+                                       const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
         return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
@@ -116,13 +116,17 @@ pencil::ProvedRoots<double> refined(const pencil::ElementPencil<Wide<double>>& p
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
     const double below = last == modes ? 0.0 : end(last, 1);
     const double above = first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1);
-    auto roots =
+    const auto roots =
         pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, below, above, worst,
                              [](double) { return pencil::CertifiedCount{}; });
-    if (roots)
-        for (const auto& root : *roots)
-            if (!std::isfinite(root.off)) return std::nullopt;
-    return roots;
+    if (!roots) return std::nullopt;
+    Heights<double> found;
+    found.reserve(roots->size());
+    for (const auto& root : *roots) {
+        if (!std::isfinite(root.off)) return std::nullopt;
+        found.push_back({root.root.high, root.bound(), root.root});
+    }
+    return found;
 }
 
 /// Does stage 1 of `modes` for small chains, or returns nothing if `pencil::aberth_spectrum`
@@ -143,15 +147,10 @@ std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain,
     if (!lump(links, chain)) return std::nullopt;
     pencil::AberthSpectrum all;
     if (!pencil::aberth_spectrum(links, goal < loose ? 0x1p-40 : goal, all)) return std::nullopt;
+    if (goal < loose)
+        return refined(assembled.pencils().wide(), range, chain.mode_count(), all, worst_unrounded);
     Heights<double> result;
     result.reserve(static_cast<std::size_t>(range.count));
-    if (goal < loose) {
-        const auto roots =
-            refined(assembled.pencils().wide(), range, chain.mode_count(), all, worst_unrounded);
-        if (!roots) return std::nullopt;
-        for (const auto& root : *roots) result.push_back({root.root.high, root.bound(), root.root});
-        return result;
-    }
     const auto first = static_cast<std::size_t>(range.first - 1);
     for (std::size_t i = first; i < first + static_cast<std::size_t>(range.count); ++i)
         result.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});

@@ -19,11 +19,10 @@ Index number_above(S x, std::string_view place, const T& value, const Count& cou
     if (const pencil::CertifiedCount found = count(x); found.proved) return found.above;
     x = x + x * S(operation_error<S>() * Narrow<S>(1 << 20));
     if (const pencil::CertifiedCount found = count(x); found.proved) return found.above;
-    throw_invalid(
-        place,
-        "rounding leaves in doubt how many modes of this system are slower; use one a little "
-        "beside it",
-        value);
+    throw_invalid(place,
+                  "rounding leaves in doubt how many modes of this system are slower; use one a "
+                  "little beside it",
+                  value);
 }
 
 }  // namespace detail

@@ -40,11 +40,7 @@ std::optional<std::vector<FoundRoot>> roots_under_a_spring(
     if (static_cast<Index>(links.size) != available ||
         !pencil::aberth_spectrum(links, 0x1p-40, all))
         return std::nullopt;
-    const auto roots = refined(elements, range, available, all, worst_unrounded_root);
-    if (!roots) return std::nullopt;
-    std::vector<FoundRoot> found;
-    for (const auto& root : *roots) found.push_back({root.root.high, root.bound(), root.root});
-    return found;
+    return refined(elements, range, available, all, worst_unrounded_root);
 }
 
 /// The roots of a range of numbers, from 1, eight at a time, to an ulp of the rounded result;
@@ -110,8 +106,7 @@ class RigRoots {
         if (rig_.pencil.size() > most_isolated)
             throw_invalid(place,
                           "a rig whose speeds may be complex (standing links with momentum, driven "
-                          "wheels, floats in a "
-                          "fluid that turns with them) is solved for at most " +
+                          "wheels, floats in a fluid that turns with them) is solved for at most " +
                               std::to_string(most_isolated) + " links and supports that yield",
                           rig_.pencil.size());
         // A massless coordinate has one root x = 0, and two if no momentum acts on it.

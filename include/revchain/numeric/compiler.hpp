@@ -59,8 +59,8 @@
 #else
 #define REVCHAIN_BUILD_KIND
 #endif
-#if defined( \
-    REVCHAIN_COMPILED)  // functions of the library may have more methods than those of the headers
+// Functions of the library may have more methods than those of the headers.
+#if defined(REVCHAIN_COMPILED)
 #define REVCHAIN_BUILD_LIBRARY _compiled
 #else
 #define REVCHAIN_BUILD_LIBRARY

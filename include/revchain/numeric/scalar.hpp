@@ -3,12 +3,10 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error \
-    "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
+#error "revchain: -ffast-math (/fp:fast) breaks bounds and counts; compile without it (-O3 is fine)"
 #endif
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2)
-#error \
-    "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
+#error "revchain: excess precision (x87) breaks error bounds; compile with -msse2 -mfpmath=sse"
 #endif
 
 #include <Eigen/Core>

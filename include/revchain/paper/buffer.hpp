@@ -37,8 +37,8 @@ inline double BufferImpact::Phase::first_zero(double sign, double end, long& ste
         if (steps > most_steps)
             detail::throw_invalid(
                 "BufferImpact",
-                "masses and stiffnesses must be nearer each other: the times of the "
-                "blows take too many steps; angular frequency of the faster swing",
+                "masses and stiffnesses must be nearer each other: the times of the blows take too "
+                "many steps; angular frequency of the faster swing",
                 *std::max_element(frequency.begin(), frequency.end()));
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front),
@@ -113,11 +113,10 @@ inline void BufferImpact::find_blows() {
             {time, time + lasts,
              given_.speed * (inwards - front * state.front_speed - rear * state.rear_speed)});
         if (!std::isfinite(blows_.back().impulse) || !std::isfinite(blows_.back().end))
-            detail::throw_invalid(
-                "BufferImpact",
-                "speed, masses and stiffnesses must be so near 1 that impulses and times do not "
-                "overflow; speed",
-                given_.speed);
+            detail::throw_invalid("BufferImpact",
+                                  "speed, masses and stiffnesses must be so near 1 that impulses "
+                                  "and times do not overflow; speed",
+                                  given_.speed);
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
@@ -131,11 +130,10 @@ inline void BufferImpact::find_blows() {
         state = free.at(away);
         time += away;
     }
-    detail::throw_invalid(
-        "BufferImpact",
-        "masses must be so near each other that there are at most 100,000 blows; rear over front "
-        "mass",
-        rear / front);
+    detail::throw_invalid("BufferImpact",
+                          "masses must be so near each other that there are at most 100,000 blows; "
+                          "rear over front mass",
+                          rear / front);
 }
 
 inline CarriageState BufferImpact::operator()(double time) const {

@@ -28,8 +28,8 @@ Wide<double> height_asked(const HeldBy& by, const Options& options) {
                 *options.conical_height);
         if (by.tension && !options.angular_speed)
             throw_invalid(place,
-                          "without gravity the shape under a tension depends on the speed; "
-                          "give angular_speed");
+                          "without gravity the shape under a tension depends on the speed; give "
+                          "angular_speed");
         return Wide<double>(0);
     }
     require_one_speed(place, options);
@@ -63,9 +63,9 @@ finite::HeldSupports supports_at(const HeldBy& by, const Wide<double>& height,
                                  const std::optional<double>& angular_speed) {
     if (!by.weightless || by.firm()) return {by.lower, by.upper, height};
     if (!angular_speed)
-        throw_invalid("steady_shapes",
-                      "without gravity shapes between springs depend on the speed; "
-                      "give angular_speed");
+        throw_invalid(
+            "steady_shapes",
+            "without gravity shapes between springs depend on the speed; give angular_speed");
     const Wide<double> speed(*angular_speed), unit(1.0);
     return {by.lower, by.upper, Wide<double>(unit / (speed * speed))};
 }
@@ -108,13 +108,13 @@ REVCHAIN_LAZY
 double span_asked(std::string_view place, const HeldBy& by) {
     if (!by.span)
         throw_invalid(place,
-                      "is for what is held at a span; under a tension use steady_shapes at "
-                      "each speed, or modes",
+                      "is for what is held at a span; under a tension use steady_shapes at each "
+                      "speed, or modes",
                       by.tension->high);
     if (by.weightless)
         throw_invalid(place,
-                      "without gravity (where firm ends make shapes the same at every speed) "
-                      "use steady_shapes");
+                      "without gravity (where firm ends make shapes the same at every speed) use "
+                      "steady_shapes");
     return *by.span;
 }
 
@@ -222,12 +222,11 @@ HeldShape steady_shape(const Held<Chain<double>>& held, const HeldOnBranchOption
     };
     return detail::held_shape(by, options, at_height, [&](double span, double tension) {
         if (!by.firm())
-            detail::throw_invalid(
-                "steady_shape",
-                "the speed of a tension between springs is not available: a spring gives way "
-                "without "
-                "end as the speed grows; give angular_speed, or read it from branches; top_tension",
-                tension);
+            detail::throw_invalid("steady_shape",
+                                  "the speed of a tension between springs is not available: a "
+                                  "spring gives way without end as the speed grows; give "
+                                  "angular_speed, or read it from branches; top_tension",
+                                  tension);
         return finite::held_shape_of_tension(held.system(), {by.lower, by.upper, {}}, span, tension,
                                              options.mode);
     });

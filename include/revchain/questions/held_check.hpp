@@ -31,10 +31,9 @@ void Held<System>::check() const {
             apart);
     if constexpr (std::is_same_v<System, Cord>)
         if (!system_.is_uniform() || system_.tip_weight() != 0)
-            detail::throw_invalid(
-                "Held",
-                "a held cord must be uniform and without tip weight; for others cut it into links, "
-                "as Chain::tapered does");
+            detail::throw_invalid("Held",
+                                  "a held cord must be uniform and without tip weight; for others "
+                                  "cut it into links, as Chain::tapered does");
 }
 
 template <class System>

@@ -27,9 +27,8 @@ LowerTension lower_tension(std::string_view place, const Held<System>& held, dou
     if (held.by().span)
         throw_invalid(
             place,
-            "a chain or cord whose ends are a span apart is bent, and has no modes of a "
-            "straight one; use steady_shapes for its shapes and stability for small motions "
-            "about one; span",
+            "a chain or cord whose ends are a span apart is bent, and has no modes of a straight "
+            "one; use steady_shapes for its shapes and stability for small motions about one; span",
             *held.by().span);
     constexpr double rounding = operation_error<Wide<double>>();
     const Wide<double> upper = *held.by().tension;

@@ -46,8 +46,8 @@ ModeRange chosen(Index all, const Options& options, const Above& above, const Be
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
         throw_invalid("modes",
-                      "give one of mode numbers (first, count), conical_height and "
-                      "angular_speed, not several");
+                      "give one of mode numbers (first, count), conical_height and angular_speed, "
+                      "not several");
     if (options.conical_height) return modes_within(*options.conical_height, all, above);
     if (!options.angular_speed) return numbered_range(all, options);
     require_positive("modes", "gravity", options.gravity);

@@ -173,10 +173,9 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     return detail::modes_through(detail::modes_by_all_methods, chain, options);
 #else
     if (options.method != ModesMethod::automatic && options.method != ModesMethod::bisection)
-        detail::throw_invalid(
-            "modes",
-            "this method needs an include: write #include <revchain/methods.hpp> and "
-            "modes(chain, options, revchain::methods::all)");
+        detail::throw_invalid("modes",
+                              "this method needs an include: write #include <revchain/methods.hpp> "
+                              "and modes(chain, options, revchain::methods::all)");
     return detail::modes_through(detail::modes_in_scalar<double>, chain, options);
 #endif
 }

@@ -70,10 +70,10 @@ struct RigMode : LinksAtSpeed {
         if (!of.support().is_firm()) inertia = inertia + carriage_weight() * top() * top();
         denominator = momentum - S(2.0) * turning * inertia / speed;
         if (!isfinite(denominator) || denominator == S(0.0))
-            throw_invalid(place,
-                          "offsets must be finite and move a weight or tilt a flywheel at the "
-                          "angular speed",
-                          angular_speed);
+            throw_invalid(
+                place,
+                "offsets must be finite and move a weight or tilt a flywheel at the angular speed",
+                angular_speed);
     }
     S top() const { return S(offset[rig.size()]); }
     /// Returns dn for a change x of y^T (stiffness - n^2/g mass) y, divided by these powers of the

@@ -20,11 +20,11 @@ Rig swinging(std::string_view place, const Rig& rig) {
                       rig.support().radius);
     for (Index m = 0; rig.fluid() == Fluid::turning && m < rig.size(); ++m)
         if (rig.displaced(m).weight != 0)
-            throw_invalid(place,
-                          "links[" + std::to_string(m) +
-                              "] is in a fluid that turns; a rig swings in a fluid at rest: "
-                              "write \"still\"",
-                          rig.displaced(m).weight);
+            throw_invalid(
+                place,
+                "links[" + std::to_string(m) +
+                    "] is in a fluid that turns; a rig swings in a fluid at rest: write \"still\"",
+                rig.displaced(m).weight);
     Rigging with = rig.rigging();
     for (Flywheel& wheel : with.flywheels) wheel.axial_moment = 0.0;
     return {rig.chain(), std::move(with)};
@@ -37,8 +37,8 @@ RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& p
                       double gravity, Index count, Progress* progress) {
     if (pencil.idle > 0)
         throw_invalid(place,
-                      "lowest links that weigh nothing and move nothing have no motion of "
-                      "their own; leave out",
+                      "lowest links that weigh nothing and move nothing have no motion of their "
+                      "own; leave out",
                       pencil.idle);
     RigModes found =
         modes(rig, {.count = std::max<Index>(count, 1), .gravity = gravity, .progress = progress});
@@ -51,8 +51,8 @@ RigModes stable_modes(std::string_view place, const Rig& rig, const RigPencil& p
                       growth);
     if (found.other_available > 0)
         throw_invalid(place,
-                      "something must draw every motion of the rig back; `other` of its modes "
-                      "has those of which this is not so",
+                      "something must draw every motion of the rig back; `other` of its modes has "
+                      "those of which this is not so",
                       found.other_available);
     return found;
 }
@@ -214,16 +214,14 @@ WhirlSwing whirl_swing(const Rig& given, const WhirlSwingOptions& options) {
     constexpr std::string_view place = "whirl_swing";
     const Rig rig = swinging(place, given);
     if (!rig.has_momentum())
-        throw_invalid(place,
-                      "no flywheel has momentum: the two level directions are independent; "
-                      "use swing");
+        throw_invalid(
+            place, "no flywheel has momentum: the two level directions are independent; use swing");
     const auto [from, speed] = checked_start(place, rig.size(), !rig.support().is_firm(), options);
     const RigPencil pencil = rig_pencil(rig, options.gravity);
     if (pencil.massless.size > 0)
-        throw_invalid(place,
-                      "pins without inertia beside flywheels with momentum: give each some; "
-                      "there are",
-                      pencil.massless.size);
+        throw_invalid(
+            place, "pins without inertia beside flywheels with momentum: give each some; there are",
+            pencil.massless.size);
     const RigModes found = stable_modes(place, rig, pencil, options.gravity,
                                         options.count.value_or(all_modes), options.progress);
     const Index all = found.forward.available + found.backward.available;

@@ -180,8 +180,7 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity,
                     (i == m && !sound(covariance(i, i))))
                     throw_invalid(place,
                                   "the covariance of " + name +
-                                      " must be finite, symmetric "
-                                      "and its diagonal not negative",
+                                      " must be finite, symmetric and its diagonal not negative",
                                   covariance(i, m));
         const Table<T>& value = sensitivity.by_datum[d].value;
         for (Index j = 0; j < k; ++j)

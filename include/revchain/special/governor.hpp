@@ -13,8 +13,7 @@ inline constexpr std::string_view governor_motion = "analytic::GovernorMotion";
 [[noreturn]] inline void throw_apart(double angle_rate) {
     throw_invalid(governor_motion,
                   "angular speed, sqrt(gravity / pendulum length), angle rate and angle must be "
-                  "within a factor of "
-                  "1e150 of each other or 0; angle rate",
+                  "within a factor of 1e150 of each other or 0; angle rate",
                   angle_rate);
 }
 

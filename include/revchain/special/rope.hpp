@@ -52,8 +52,8 @@ inline RopeLengths rope_lengths(std::string_view place, const RopeGiven& given,
                       l.sag.has_value() + has_both;
     if (known != 2)
         throw_invalid(place,
-                      "two of span, length, slack, sag, and tension together with angular "
-                      "speed must be given",
+                      "two of span, length, slack, sag, and tension together with angular speed "
+                      "must be given",
                       known);
     if (l.length && (l.span || l.slack)) {
         const double other = l.span ? *l.span : *l.slack;

@@ -163,11 +163,10 @@ void Chain<T>::check() {
                                            detail::in_digits(least_length) + " to " +
                                            detail::in_digits(largest_length_));
     if (largest_ratio / span > span || least_ratio < T(1) / span / span)
-        detail::throw_invalid(
-            "Chain",
-            "a radius of gyration is too far from its link's length for this scalar; "
-            "(radius of gyration / length)^2",
-            largest_ratio > T(1) ? largest_ratio : least_ratio);
+        detail::throw_invalid("Chain",
+                              "a radius of gyration is too far from its link's length for this "
+                              "scalar; (radius of gyration / length)^2",
+                              largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
     // Each link has a coordinate of its own if all links have weight and none has all of it in the
     // upper pin.
@@ -218,11 +217,11 @@ void Chain<T>::check_that_links_hang(const detail::Summary<T>& centroids) const 
                                       detail::in_lengths<T>(centroid_[m], length_[m]) +
                                   ldexp(below, -exponent);
             if (!(share > Wide<T>(T(0))))
-                detail::throw_invalid("Chain: links[" + std::to_string(m) + "]",
-                                      "it would stand, not hang; lower its centroid or put more "
-                                      "weight below it: weight x centroid + "
-                                      "length x (weight below) must be positive",
-                                      ldexp(detail::times_length(share, length_[m]), exponent));
+                detail::throw_invalid(
+                    "Chain: links[" + std::to_string(m) + "]",
+                    "it would stand, not hang; lower its centroid or put more weight below it: "
+                    "weight x centroid + length x (weight below) must be positive",
+                    ldexp(detail::times_length(share, length_[m]), exponent));
         }
         below = below + Wide<T>(weight_[m]);
     }

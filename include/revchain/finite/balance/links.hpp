@@ -66,6 +66,7 @@ template <class S>
 struct Links {
     std::vector<Link<S>> links;
     ChainUnits units;
+    double total_weight = 0;
 
     static OnAxis upper_end() { return {}; }
     /// The postures of links where all hang, or stand as in the rig.
@@ -87,8 +88,6 @@ struct Links {
             weights.push_back(total += as_double(link.moment + link.rest));
         return weights;
     }
-    /// The weight of the chain itself.
-    double weight() const { return hung().back(); }
     /// Adds the parts of the support to the numbers of a shape.
     template <class Shape, class Found>
     void add_support(Shape&, const S&, const Found&) const {}
@@ -106,6 +105,7 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
                               chain.total_weight());
     Links<S> result;
     result.units = chain.units();
+    result.total_weight = as_double(ldexp(chain.total_weight(), -result.units.weight_exponent));
     result.links.reserve(static_cast<std::size_t>(chain.size()));
     S below(T(0));
     for (Index m = 0; m < chain.size(); ++m) {

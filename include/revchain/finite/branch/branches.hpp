@@ -142,8 +142,7 @@ SteadyShape first_on_branch(const System& system, const Options& options) {
                  : found.end != BranchEnd::height ? "; it could not be followed farther"
                  : options.conical_height || options.angular_speed
                      ? "; the state there did not pass every check"
-                     : "; to look farther give a smaller "
-                       "min_conical_height"));
+                     : "; to look farther give a smaller min_conical_height"));
     return std::move(found.shapes.front());
 }
 

@@ -279,8 +279,7 @@ class Diagram {
         }
         result_.remark =
             "every proved list of all shapes is accounted for; isolated loops that lie wholly "
-            "between two "
-            "of the heights looked at are not excluded" +
+            "between two of the heights looked at are not excluded" +
             explained();
         if (!reason.empty()) return;
         if constexpr (detail::is_thorough<Means>)

@@ -143,11 +143,10 @@ struct BranchRoot {
         detail::require_positive(place, "gravity", gravity);
         if (rig.support().radius > 0) {
             if (mode != 1)
-                detail::throw_invalid(
-                    place,
-                    "with a support off the axis mode must be 1, the branch from rest; "
-                    "branches lists those born in folds",
-                    mode);
+                detail::throw_invalid(place,
+                                      "with a support off the axis mode must be 1, the branch from "
+                                      "rest; branches lists those born in folds",
+                                      mode);
             return from(BranchSystem(rig, gravity, direction),
                         first_height(place, rig, gravity, direction));
         }

@@ -232,8 +232,7 @@ Found search_branch(const System& system, const Options& given, std::size_t max_
     if (count != 1)
         throw_invalid(place,
                       "give exactly one of conical height, angular speed, tip inclination, tip "
-                      "radius and top "
-                      "tension; given were",
+                      "radius and top tension; given were",
                       count);
     if (given.min_conical_height)
         require_positive(place, "min_conical_height", *given.min_conical_height);

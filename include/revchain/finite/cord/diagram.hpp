@@ -46,8 +46,7 @@ class CordDiagram {
             : result_.complete    ? "a theorem counts the shapes: there are no others"
             : !ended              ? "a branch could not be followed to the end"
             : result_.consistent
-                ? "no theorem counts the shapes: loops between the speeds looked at may be "
-                  "missing"
+                ? "no theorem counts the shapes: loops between the speeds looked at may be missing"
                 : "at a speed looked at, a shape is not met once by a branch";
         return std::move(result_);
     }

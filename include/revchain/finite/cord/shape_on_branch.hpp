@@ -31,8 +31,7 @@ class WantedOnLine {
         if (count != 1)
             throw_invalid(place,
                           "give exactly one of conical height, angular speed, tip inclination, tip "
-                          "radius and top "
-                          "tension; given were",
+                          "radius and top tension; given were",
                           count);
         const ContinuousChain& chain = line.chain();
         if (given.conical_height || given.angular_speed) {

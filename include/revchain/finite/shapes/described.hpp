@@ -76,7 +76,7 @@ Shape described(const AnyLinks& chain, const Fine& height, const Balanced<Fine>&
             inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = worst_moment / (chain.weight() * reach);
+    shape.residual = worst_moment / (chain.total_weight * reach);
     shape.conical_height = length(height);
     shape.moment_of_inertia =
         weight(std::ldexp(as_double(inertia), 2 * chain.units.length_exponent));

@@ -18,8 +18,7 @@ struct RiggedLinks : Links<Fine> {
     std::vector<Posture> posture;
     Fine speed{0.0};  ///< n, signed; 0 without momentum
     SupportEnd<Fine> support{};
-    Fine axial_moment{0.0};   ///< of flywheels that turn with the links, about the links
-    double total_weight = 0;  ///< total weight of the chain
+    Fine axial_moment{0.0};  ///< of flywheels that turn with the links, about the links
 
     const SupportEnd<Fine>& upper_end() const { return support; }
     const std::vector<Posture>& postures() const { return posture; }
@@ -32,7 +31,6 @@ struct RiggedLinks : Links<Fine> {
         for (const detail::RigLink& link : given) weights.push_back(as_double(link.hung));
         return weights;
     }
-    double weight() const { return total_weight; }
     /// Half waves count the support; the energy includes the spring's and - n H cos of the
     /// inclinations, the moment of inertia the carriage's.
     template <class Shape, class Found>

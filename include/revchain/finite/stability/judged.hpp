@@ -230,11 +230,10 @@ Stability judged(StabilityFrame frame, const PulledLinks& links, Means) {
                 found = std::move(finer);
     if (!found) {
         constexpr std::string_view rule =
-            detail::is_thorough<Means>
-                ? "every motion must move some mass; pins that move"
-                : "every motion must move some mass, and in double that is in doubt; "
-                  "revchain::thorough as the last argument computes with twice the digits; pins "
-                  "that move";
+            detail::is_thorough<Means> ? "every motion must move some mass; pins that move"
+                                       : "every motion must move some mass, and in double that is "
+                                         "in doubt; revchain::thorough as the last argument "
+                                         "computes with twice the digits; pins that move";
         detail::throw_invalid("stability", rule, d.mass.rows());
     }
     return found->stability;
