@@ -10,6 +10,7 @@
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/large_memory.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 
 /// This header has stage 2 of `modes`: shapes, residuals and nodes of modes of known heights.
@@ -26,15 +27,18 @@ std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
     return places;
 }
 
-/// Returns distances of crossings from the free end along the chain; `places` is its `pin_places`.
+/// Returns distances of crossings from the free end along the chain. `places` is its `pin_places`;
+/// element 0 is link number `idle`.
 template <Real T>
 Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
-                const std::vector<pencil::Crossing<T>>& crossings) {
+                const std::vector<pencil::Crossing<T>>& crossings, Index idle = 0) {
     Vector<T> found(static_cast<Index>(crossings.size()));
     Index i = 0;
-    for (const pencil::Crossing<T>& crossing : crossings)
-        found[i++] = static_cast<T>(places[static_cast<std::size_t>(crossing.element)] +
-                                    T(crossing.share * chain.length()[crossing.element]));
+    for (const auto& [element, share] : crossings) {
+        const Index m = idle + element;
+        found[i++] =
+            static_cast<T>(places[static_cast<std::size_t>(m)] + T(share * chain.length()[m]));
+    }
     return found;
 }
 
@@ -48,123 +52,123 @@ ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details =
     return shapes;
 }
 
-/// Stores the shape of mode `j` and, if there is room, nodes and residual. `height` is scaled.
-template <Real T, Real S>
-void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain,
-               const pencil::ElementPencil<S>& pencil, const T& height,
-               const pencil::Eigenvector<T>& vector) {
-    shapes.offset.row(j) = vector.offset.transpose();
-    if (shapes.residual.size() == 0) return;
-    shapes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
-    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, pin_places(chain), vector.crossings);
-}
+/// The lowest pins of a chain that its pencil omits. They move with the next pin, or are held.
+struct IdlePins {
+    Index count = 0;
+    bool held = false;
+};
 
-/// Finds shapes of the modes of `shapes`, `pencil::shape_lanes` at a time, and residuals if there
-/// is room. Pins of the pencil are stored from column `idle` on. `root(j, exact, rounded)` sets a
-/// mode's root. `alone(j)` finds a shape that lanes cannot find. `take(j, found, lane)` receives
-/// the others.
-template <bool Spins, std::floating_point T, class Root, class Alone, class Take>
-void shapes_by_lanes(ModeShapes<T>& shapes,
-                     const pencil::ElementPencil<DoubleWord<T>, Spins>& pencil, Index idle,
-                     const Root& root, const Alone& alone, const Take& take, Progress* progress) {
-    const FloatingPointStateGuard quiet;
-    const bool lumped = pencil::is_lumped(pencil), details = shapes.residual.size() > 0;
-    const auto stride = static_cast<std::size_t>(shapes.offset.cols());
-    const auto count = static_cast<std::size_t>(shapes.offset.rows()),
-               pins = stride - static_cast<std::size_t>(idle);
-    const auto find = [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-        pencil::RootsInLanes<T> roots;
-        for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
-            root(static_cast<Index>(first + std::min(i, there - 1)), roots.exact[i],
-                 roots.rounded[i]);
-        pencil::shapes_in_lanes(pencil, lumped, roots, details, found);
-        found.store_rows(&shapes.offset(static_cast<Index>(first), idle), stride, pins, there);
-        for (std::size_t i = 0; i < there; ++i) {
-            const auto j = static_cast<Index>(first + i);
-            if (found.found[i]) {
-                if (details) shapes.residual[j] = found.residual[i];
-                take(j, found, i);
-            } else {
-                alone(j);
-            }
-            advance(progress, 1.0);  // may throw Cancelled
-        }
+/// The root of a mode, and the rounded root for which its residual is computed.
+template <Real T>
+struct ShapeRoot {
+    Wide<T> exact, rounded;
+};
+
+/// Returns shapes of `count` modes of a chain or rig, with residuals and nodes if `details`.
+/// `root(j)` returns a mode's `ShapeRoot`. Shapes are found `pencil::shape_lanes` at a time from
+/// `elements`. If it is null, and for shapes that lanes cannot find, each is found alone:
+/// `visit(f)` calls f with the pencil to use.
+template <Real T, bool Spins, class Root, class Visit>
+ModeShapes<T> found_shapes(const Chain<T>& chain, const IdlePins& idle, Index count, bool details,
+                           const Root& root, const pencil::ElementPencil<Wide<T>, Spins>* elements,
+                           const Visit& visit, Progress* progress) {
+    ModeShapes<T> shapes = room_for_shapes(chain, count, details);
+    const auto places = details ? pin_places(chain) : std::vector<Wide<T>>();
+    const Index pins = shapes.offset.cols() - idle.count;
+    const auto complete = [&](Index j, const std::vector<pencil::Crossing<T>>& crossings) {
+        auto offset = shapes.offset.row(j);
+        offset.head(idle.count).setConstant(idle.held ? T(0) : offset[idle.count]);
+        if (details)
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, places, crossings, idle.count);
+        advance(progress, 1.0);  // may throw Cancelled
     };
-    pencil::for_lanes<T>(count, pencil.elements.size(), find);
+    const auto alone = [&](Index j) {
+        visit([&]<class S, bool Signed, bool OwnErrors>(
+                  const pencil::ElementPencil<S, Signed, OwnErrors>& pencil) {
+            const ShapeRoot<T> x = root(j);
+            const auto vector = pencil::eigenvector(pencil, static_cast<S>(x.exact));
+            shapes.offset.row(j).tail(pins) = vector.offset.head(pins).transpose();
+            if (details)
+                shapes.residual[j] = pencil::relative_residual(pencil, x.rounded, vector.offset);
+            complete(j, vector.crossings);
+        });
+    };
+    if constexpr (std::is_same_v<T, double>)
+        if (elements) {
+            const FloatingPointStateGuard quiet;
+            const bool lumped = pencil::is_lumped(*elements);
+            const auto find = [&](std::size_t first, std::size_t there,
+                                  pencil::ShapesInLanes<T>& found) {
+                pencil::RootsInLanes<T> roots;
+                for (std::size_t i = 0; i < pencil::shape_lanes; ++i) {
+                    const ShapeRoot<T> x = root(static_cast<Index>(first + std::min(i, there - 1)));
+                    roots.exact[i] = x.exact, roots.rounded[i] = x.rounded;
+                }
+                pencil::shapes_in_lanes(*elements, lumped, roots, details, found);
+                found.store_rows(&shapes.offset(static_cast<Index>(first), idle.count),
+                                 static_cast<std::size_t>(shapes.offset.cols()),
+                                 static_cast<std::size_t>(pins), there);
+                for (std::size_t i = 0; i < there; ++i) {
+                    const auto j = static_cast<Index>(first + i);
+                    if (!found.found[i]) {
+                        alone(j);
+                    } else if (details) {
+                        shapes.residual[j] = found.residual[i];
+                        complete(j, found.crossings(i, &shapes.offset(j, idle.count)));
+                    } else {
+                        complete(j, {});
+                    }
+                }
+            };
+            pencil::for_lanes<T>(static_cast<std::size_t>(count), elements->elements.size(), find);
+            return shapes;
+        }
+    parallel_for(count, 1, [&](Index begin, Index end) {
+        for (Index j = begin; j < end; ++j) alone(j);
+    });
+    return shapes;
 }
 
 /// Finds shapes of modes of a chain from heights in the units of its pencils.
 template <Real T>
-class ShapeFinder {
-   public:
-    /// `loose`: T suffices at the height given; else shapes are found in `Wide<T>` at the height
-    /// before it was rounded. `pencils`: those of the chain, or null if they are assembled again.
-    ShapeFinder(const Chain<T>& chain, Heights<T> height, bool loose,
-                std::shared_ptr<const Pencils<T>> pencils = nullptr)
-        : chain_(chain), height_(std::move(height)), loose_(loose), pencils_(std::move(pencils)) {}
+struct ShapeFinder {
+    Chain<T> chain;
+    Heights<T> height;
+    /// True if T suffices. Shapes are then found at the rounded heights, else before rounding.
+    bool loose = false;
+    /// The pencils of the chain. If it is null, each call assembles them.
+    std::shared_ptr<const Pencils<T>> kept{};
 
-    /// Returns shapes of `count` modes from index `from` on, with residuals and nodes if `details`.
+    /// Returns shapes of `count` modes from index `from` on; see `found_shapes`.
     ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
-        if (count == 0) return room_for_shapes(chain_, 0);
-        const Heights<T> height = heights(from, count);
-        ModeShapes<T> shapes = room_for_shapes(chain_, count, details);
+        if (count == 0) return room_for_shapes(chain, 0);
         std::optional<Pencils<T>> own;
-        const Pencils<T>& pencils = pencils_ ? *pencils_ : own.emplace(chain_);
-        if constexpr (std::is_same_v<T, double>)
-            if (pencils.wide().units.empty() && chain_.size() <= most_in_lanes) {
-                in_lanes(shapes, pencils, height, progress);
-                return shapes;
-            }
-        parallel_for(count, 1, [&](Index start, Index end) {
-            for (Index j = start; j < end; ++j) {
-                alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
-                advance(progress, 1.0);  // may throw Cancelled
-            }
-        });
-        return shapes;
-    }
-
-    const Chain<T>& chain() const { return chain_; }
-    Heights<T> heights(Index from, Index count) const {
-        return Heights<T>(height_.begin() + from, height_.begin() + from + count);
-    }
-
-   private:
-    void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils,
-               const Height<T>& at) const {
-        const T& height = at.eigenvalue;
-        if (loose_)
-            set_shape(shapes, j, chain_, pencils.rounded(), height,
-                      pencil::eigenvector(pencils.rounded(), height));
-        else
-            set_shape(shapes, j, chain_, pencils.wide(), height,
-                      fine_shape<T>(pencils.wide(), at.unrounded));
-    }
-
-    void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
-                  Progress* progress) const {
-        const bool details = shapes.residual.size() > 0;
-        const auto places = details ? pin_places(chain_) : std::vector<Wide<T>>();
-        const auto root = [&](Index j, Wide<T>& exact, Wide<T>& rounded) {
-            const Height<T>& at = height[static_cast<std::size_t>(j)];
-            exact = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
-            rounded = at.eigenvalue;
+        const Pencils<T>& pencils = kept ? *kept : own.emplace(chain);
+        const auto root = [&](Index j) -> ShapeRoot<T> {
+            const Height<T>& at = height[static_cast<std::size_t>(from + j)];
+            return {loose ? Wide<T>(at.eigenvalue) : at.unrounded, at.eigenvalue};
         };
-        const auto take = [&](Index j, const pencil::ShapesInLanes<T>& found, std::size_t lane) {
-            if (!details) return;
-            const auto crossed = found.crossings(lane, &shapes.offset(j, 0));
-            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, places, crossed);
+        const bool lanes = pencils.wide().units.empty() && chain.size() <= most_in_lanes;
+        const auto visit = [&](const auto& f) {
+            if (loose)
+                f(pencils.rounded());
+            else
+                f(pencils.wide());
         };
-        const auto one = [&](Index j) {
-            alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
-        };
-        shapes_by_lanes(shapes, pencils.wide(), 0, root, one, take, progress);
+        return found_shapes(chain, {}, count, details, root, lanes ? &pencils.wide() : nullptr,
+                            visit, progress);
     }
-
-    Chain<T> chain_;
-    Heights<T> height_;
-    bool loose_;
-    std::shared_ptr<const Pencils<T>> pencils_;
 };
+
+/// Returns shapes that `find(first, count, details, progress)` computes on `threads` threads when
+/// read.
+template <Real T, class Find>
+LazyModeShapes<T> shapes_when_read(Find find, Index threads) {
+    return LazyModeShapes<T>([find = std::move(find), threads](Index first, Index count,
+                                                               bool details, Progress* progress) {
+        const Threads used("modes", threads);
+        return find(first, count, details, progress);
+    });
+}
 
 }  // namespace revchain::detail

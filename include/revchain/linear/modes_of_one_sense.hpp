@@ -65,7 +65,7 @@ class ModesOfOneSense {
     Vector<double> shape(const Mode& mode) const {
         const RigPencil& rig = roots_.rig();
         auto pencil = forward_ ? rig.pencil : rig.pencil.reversed();
-        const RigShapeFinder<> finder(rig_, rig.idle, std::move(pencil), nullptr, {mode.root}, 1);
+        const RigShapeFinder<> finder{rig_.chain(), rig.idle, std::move(pencil), {mode.root}};
         return finder(0, 1, false, nullptr).offset.row(0);
     }
 

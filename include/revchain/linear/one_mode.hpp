@@ -7,17 +7,6 @@
 /// `modes`, which has every method, and costs the same for a chain of a few hundred links.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// Returns the eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
-template <Real T>
-pencil::Eigenvector<T> fine_shape(const pencil::ElementPencil<Wide<T>>& wide,
-                                  const Wide<T>& height) {
-    const auto vector = pencil::eigenvector(wide, height);
-    pencil::Eigenvector<T> rounded{vector.offset.template cast<T>(), {}};
-    for (const auto& crossing : vector.crossings)
-        rounded.crossings.push_back({crossing.element, static_cast<T>(crossing.share)});
-    return rounded;
-}
-
 /// Conical height and offsets of the pins, as `modes` returns them.
 template <Real T>
 struct OneMode {
@@ -34,7 +23,8 @@ OneMode<T> one_mode(const Chain<T>& chain, Index mode, bool with_shape = true) {
         heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
     OneMode<T> result{ldexp(height.eigenvalue, chain.units().length_exponent), {}};
     if (with_shape)
-        result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
+        result.shape = pencil::eigenvector(assembled.pencils().wide(), height.unrounded)
+                           .offset.template cast<T>();
     return result;
 }
 

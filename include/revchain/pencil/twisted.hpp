@@ -274,11 +274,14 @@ std::vector<S> twisted_vector(const ElementPencil<S, Spins, OwnErrors>& pencil, 
     return std::move(offset);
 }
 
-/// Returns the eigenvector, rounded to the narrower scalar.
-template <Real S>
-Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+/// Returns the eigenvector, rounded to the narrower scalar. For a pencil with own errors, ratios of
+/// neighbours have the digits of S.
+template <Real S, bool Spins, bool OwnErrors>
+Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S, Spins, OwnErrors>& pencil,
+                                   const S& root) {
     using T = Narrow<S>;
-    UnroundedEigenvector<S> vector = unrounded_eigenvector<Narrow<S>>(pencil, eigenvalue);
+    using Ratio = std::conditional_t<OwnErrors, S, T>;
+    UnroundedEigenvector<S> vector = unrounded_eigenvector<Ratio>(pencil, root);
     Eigenvector<T> result{Vector<T>(pencil.size() + 1), std::move(vector.crossings)};
     for (Index m = 0; m <= pencil.size(); ++m)
         result.offset[m] =

@@ -42,7 +42,11 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
                    chain.units().length_exponent, options.rtol);
         Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
         offset.head(chain.size()) = system.vectors.col(before);
-        set_shape(shapes, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
+        const auto vector = pencil::normalised(std::move(offset));
+        shapes.offset.row(j) = vector.offset.transpose();
+        shapes.residual[j] = pencil::relative_residual(pencils.wide(), height, vector.offset);
+        shapes.nodes[static_cast<std::size_t>(j)] =
+            nodes(chain, pin_places(chain), vector.crossings);
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
     if (options.certify) certify(result, pencils, chain.mode_count());

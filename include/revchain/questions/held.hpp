@@ -277,16 +277,9 @@ Modes<double> modes(const Held<Chain<double>>& held, const HeldModesOptions& opt
             return std::array{roots.certified(taut.scaled(lower)),
                               roots.certified(taut.scaled(upper))};
         });
-    ShapesBehind::of(result) = LazyModeShapes<double>(
-        [shape = RigShape(held.system(), taut.pencil.idle, roots.pencil()),
-         found = std::move(found)](Index first, Index count, bool details, Progress* progress) {
-            auto shapes = room_for_shapes(shape.chain(), count, details);
-            for (Index j = 0; j < count; ++j) {
-                shape.find(shapes, j, found[static_cast<std::size_t>(first + j)]);
-                advance(progress, 1.0);  // may be cancelled
-            }
-            return shapes;
-        });
+    ShapesBehind::of(result) = shapes_when_read<double>(
+        RigShapeFinder<>{held.system(), taut.pencil.idle, roots.pencil(), std::move(found)},
+        options.threads);
     return result;
 }
 

@@ -94,14 +94,14 @@ Modes<double> modes_by(const Methods& methods, const Chain<double>& chain,
     if (range.count > 0 && options.certify)
         certify(result, assembled.pencils(), chain.mode_count());
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    auto find = [finder = ShapeFinder<double>(chain, heights_in_units(chain, found.answer), loose,
-                                              assembled.kept_pencils()),
+    auto find = [finder = ShapeFinder<double>{chain, heights_in_units(chain, found.answer), loose,
+                                              assembled.kept_pencils()},
                  condense = options.method != ModesMethod::bisection,
                  first = range.first](Index from, Index count, bool details, Progress* progress) {
         if constexpr (is_among<models::Condensed, Methods>)
-            if (condense && count > 0)
-                if (auto shapes = condensed_shapes(finder.chain(), first + from,
-                                                   finder.heights(from, count), progress))
+            if (const auto begin = finder.height.begin() + from; condense && count > 0)
+                if (auto shapes = condensed_shapes(finder.chain, first + from,
+                                                   Heights<double>(begin, begin + count), progress))
                     return std::move(*shapes);
         return finder(from, count, details, progress);
     };

@@ -54,17 +54,6 @@ void certify(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
     });
 }
 
-/// Returns shapes that `find(first, count, details, progress)` computes on `threads` threads when
-/// read.
-template <Real T, class Find>
-LazyModeShapes<T> shapes_when_read(Find find, Index threads) {
-    return LazyModeShapes<T>([find = std::move(find), threads](Index first, Index count,
-                                                               bool details, Progress* progress) {
-        const Threads used("modes", threads);
-        return find(first, count, details, progress);
-    });
-}
-
 /// Computes modes of a chain of floats in double, which suffices for a million links, and rounds
 /// them. Rounding adds half an ulp of float to the bound. `in_double(wide, asked)` returns the
 /// modes in double.
@@ -135,7 +124,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (range.count > 0 && options.certify)
         certify(result, assembled.pencils(), chain.mode_count());
     ShapesBehind::of(result) = shapes_when_read<T>(
-        ShapeFinder<T>(chain, std::move(heights), is_loose(chain, stage), assembled.kept_pencils()),
+        ShapeFinder<T>{chain, std::move(heights), is_loose(chain, stage), assembled.kept_pencils()},
         options.threads);
     if (range.count > 0) advance(options.progress, 1.0);
     return result;

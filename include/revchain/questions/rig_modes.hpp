@@ -93,9 +93,10 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
             proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
             found.push_back(root.unrounded);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(
-            RigShapeFinder<Spins>(rig, pencil.idle, roots.pencil(), std::move(elements),
-                                  std::move(found), options.threads));
+        ShapesBehind::of(modes) =
+            shapes_when_read<double>(RigShapeFinder<Spins>{rig.chain(), pencil.idle, roots.pencil(),
+                                                           std::move(found), std::move(elements)},
+                                     options.threads);
     };
     const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
@@ -252,8 +253,9 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
             set_mode(modes, j, pencil, sense, root);
             at.push_back(root.unrounded);
         }
-        ShapesBehind::of(modes) = LazyModeShapes<double>(RigShapeFinder<>(
-            rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
+        ShapesBehind::of(modes) = shapes_when_read<double>(
+            RigShapeFinder<>{rig.chain(), pencil.idle, std::move(sense), std::move(at)},
+            options.threads);
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
