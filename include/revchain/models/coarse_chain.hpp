@@ -98,10 +98,10 @@ struct CoarseChain {
 
     /// Returns an estimate of the least requested height, that of mode number n. A wave of conical
     /// height h has the phase p/sqrt(h) (radians) from end to end, with p the phase of a wave of
-    /// height 1. In mode n this phase is the n-th zero of J0 for a uniform cord. It is (n - 1) pi if
-    /// more than half the weight is in the lowest link, which then hardly moves. Then the first mode
-    /// has no wave: the chain swings as a whole. `ChainKind::tilt`, the height of the chain as one
-    /// rigid link, is less than its largest height.
+    /// height 1. In mode n this phase is the n-th zero of J0 for a uniform cord. It is (n - 1) pi
+    /// if more than half the weight is in the lowest link, which then hardly moves. Then the first
+    /// mode has no wave: the chain swings as a whole. `ChainKind::tilt`, the height of the chain as
+    /// one rigid link, is less than its largest height.
     static double estimated_least_height(const ChainKind& kind, const Question& question) {
         const Index number = question.last();
         const bool heavy_tip = kind.tip_share > 0.5;

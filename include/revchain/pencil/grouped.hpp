@@ -5,8 +5,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// A pencil of groups of elements. Each of its eigenvalues, in descending order, is a lower bound of
-/// the eigenvalue of the same number of the given pencil:
+/// A pencil of groups of elements. Each of its eigenvalues, in descending order, is a lower bound
+/// of the eigenvalue of the same number of the given pencil:
 ///
 ///     coarse <= exact <= coarse + spread.
 template <std::floating_point T>
@@ -17,10 +17,10 @@ struct GroupedPencil {
 
 namespace detail {
 
-/// Neighbouring elements condensed into one. The pins inside take the offsets that they have without
-/// inertia. Let c be the flexibility between the lower end of the group and a pin inside, and F the
-/// flexibility of the whole group. The offset of that pin is then the mean of the offsets of the two
-/// ends, with weight 1 - c/F for the lower end and c/F for the upper one.
+/// Neighbouring elements condensed into one. The pins inside take the offsets that they have
+/// without inertia. Let c be the flexibility between the lower end of the group and a pin inside,
+/// and F the flexibility of the whole group. The offset of that pin is then the mean of the offsets
+/// of the two ends, with weight 1 - c/F for the lower end and c/F for the upper one.
 template <std::floating_point T>
 class Group {
    public:
@@ -44,8 +44,8 @@ class Group {
     }
     /// Returns true if three conditions hold: `spread` is at most `most_spread`; no mass or moment
     /// of the group, as a mass, exceeds 8 `least_shift` times the group's stiffness (about the
-    /// square of the largest phase that a mode has across it); and every centroid is within two link
-    /// lengths of the lower pin of its link.
+    /// square of the largest phase that a mode has across it); and every centroid is within two
+    /// link lengths of the lower pin of its link.
     bool is_within(const T& least_shift, const T& most_spread) const {
         return (trace_ * (T(1) + rounding(size_)) - most_spread) * flexibility_ <= second_moment_ &&
                weight_ * flexibility_ <= T(8) * least_shift && trace_ <= T(8) * least_shift &&
@@ -79,19 +79,19 @@ class Group {
 /// An element that is a group by itself is unchanged.
 ///
 /// Restricting pins to such shapes lowers every eigenvalue (Courant, Fischer). Let K_i and M_i be
-/// the stiffnesses and masses of the pins inside a group, C the masses that couple them to its ends,
-/// and C^T its transpose. Let t be the largest eigenvalue of a group between held ends (lambda K_i y
-/// = M_i y), and x = 1/lambda < 1/t. Elimination of the pins inside subtracts
-/// x^2 C^T (K_i - x M_i)^-1 C from the condensed K - x M. As C^T M_i^-1 C <= M and M_i <= t K_i, this
-/// is at most x^2 t/(1 - x t) M. So the exact count at lambda is at most the coarse count at
+/// the stiffnesses and masses of the pins inside a group, C the masses that couple them to its
+/// ends, and C^T its transpose. Let t be the largest eigenvalue of a group between held ends
+/// (lambda K_i y = M_i y), and x = 1/lambda < 1/t. Elimination of the pins inside subtracts
+/// x^2 C^T (K_i - x M_i)^-1 C from the condensed K - x M. As C^T M_i^-1 C <= M and M_i <= t K_i,
+/// this is at most x^2 t/(1 - x t) M. So the exact count at lambda is at most the coarse count at
 /// lambda - t.
 ///
 /// `entry_error` includes the roundings made here, relative to lambda k and the entry. Let A, B, X
 /// and W be the masses of an element (see `Element`), f its flexibility, q the distance of its
-/// centroid from its lower pin over its length (|q| <= 2), and F the flexibility of its group. Terms
-/// are at most W, W q f/F and B f/F, each at most 8 lambda k in a group of stiffness k = 1/F. Cross
-/// masses enter as X + B = W q with an error of |X| + B <= 2 B + 2.5 W. The total is at most 120
-/// times the errors of elements and sums; the code takes 128 times.
+/// centroid from its lower pin over its length (|q| <= 2), and F the flexibility of its group.
+/// Terms are at most W, W q f/F and B f/F, each at most 8 lambda k in a group of stiffness k = 1/F.
+/// Cross masses enter as X + B = W q with an error of |X| + B <= 2 B + 2.5 W. The total is at most
+/// 120 times the errors of elements and sums; the code takes 128 times.
 /// Preconditions: the pencil is not empty and has one unit; counts are made at shifts lambda of
 /// `least_shift` or more. Cost: 6 ns an element.
 template <std::floating_point T>

@@ -11,9 +11,9 @@
 // before it declares `certify`.
 #include "revchain/questions/mode_certificate.hpp"
 
-/// Finds the whirl modes of a rig in one of three ways. The modes of a rig that is a plain chain are
-/// those of the chain. The modes of most other rigs are found by counts of the roots above a shift
-/// (`modes_by_counts`). If counts cannot find the roots, all are found at once and proved in
+/// Finds the whirl modes of a rig in one of three ways. The modes of a rig that is a plain chain
+/// are those of the chain. The modes of most other rigs are found by counts of the roots above a
+/// shift (`modes_by_counts`). If counts cannot find the roots, all are found at once and proved in
 /// disjoint discs (`modes_by_discs`). `modes`, near the end of this file, makes the choice.
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
@@ -272,8 +272,8 @@ RigModes modes_by_discs(const Rig& rig, const RigRoots& roots, const RigModesOpt
     return result;
 }
 
-/// Returns the links with tension + n spin = 0 at a speed n no faster than the fastest mode found in
-/// the direction of n.
+/// Returns the links with tension + n spin = 0 at a speed n no faster than the fastest mode found
+/// in the direction of n.
 REVCHAIN_LAZY
 std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
     const auto fastest = [](const WhirlModes& sense) {

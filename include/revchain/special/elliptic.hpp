@@ -8,9 +8,10 @@
 #include "revchain/numeric/status.hpp"
 
 /// Complete elliptic integrals of a modulus kappa. A modulus is stored together with the
-/// complementary modulus kappa' = sqrt(1 - kappa^2), each accurate to its last digit. Near kappa = 1
-/// all results depend on kappa', which cannot be computed from kappa. GSL accepts kappa or kappa^2
-/// but no complementary modulus, and silently loses all accuracy there (bench/elliptic.cpp).
+/// complementary modulus kappa' = sqrt(1 - kappa^2), each accurate to its last digit. Near kappa =
+/// 1 all results depend on kappa', which cannot be computed from kappa. GSL accepts kappa or
+/// kappa^2 but no complementary modulus, and silently loses all accuracy there
+/// (bench/elliptic.cpp).
 namespace revchain::inline REVCHAIN_BUILD::analytic {
 namespace detail {
 using revchain::detail::require_finite, revchain::detail::require_positive;
