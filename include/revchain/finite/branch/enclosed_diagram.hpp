@@ -5,6 +5,7 @@
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/state.hpp"
 #include "revchain/finite/shapes/list.hpp"
+#include "revchain/finite/shapes/tangent_limit.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "revchain/finite/held/sweep.hpp"
@@ -12,6 +13,15 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 struct HeldGoal {
     Interval<double> value;
     bool is_span = true;
+};
+
+/// A cell of starts: ranges of two numbers of the lowest link of a chain held at both ends. These
+/// are lambda times the pull along the link, and the tangent of half its angle to the axis,
+/// positive outwards. The angle is that to the upward axis if the link leads upwards, else to the
+/// downward axis. So tangents from -1 to 1 suffice, and from 0 to 1 with mirror images.
+struct HeldCell {
+    std::array<Interval<double>, 2> at;  ///< pull, tangent
+    bool leads_up = true;
 };
 
 /// A chain held at both ends, its ends and its goal in intervals, with bounds for all its shapes.

@@ -5,15 +5,6 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// A cell of starts: ranges of two numbers of the lowest link of a chain held at both ends. These
-/// are lambda times the pull along the link, and the tangent of half its angle to the axis,
-/// positive outwards. The angle is that to the upward axis if the link leads upwards, else to the
-/// downward axis. So tangents from -1 to 1 suffice, and from 0 to 1 with mirror images.
-struct HeldCell {
-    std::array<Interval<double>, 2> at;  ///< pull, tangent
-    bool leads_up = true;
-};
-
 /// Bounds for all chains that begin in a cell. With mirror images, offsets are over the sine of the
 /// lowest link's angle, which excludes the chain along the axis.
 struct HeldReach {

@@ -8,6 +8,7 @@
 
 #include "revchain/finite/shapes/list.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/finite/shapes/tangent_limit.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/steady_shapes.hpp"
