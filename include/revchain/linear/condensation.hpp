@@ -9,8 +9,8 @@
 /// Condenses runs of links of long chains. In a slow mode many neighbouring links move nearly as
 /// one link. A run of links is therefore replaced by polynomials in mu = 1/lambda that carry offset
 /// and force from its lower to its upper pin (`pencil::Transfer`). Counts and shapes then pass over
-/// runs instead of links. A run consists of leaves, which are built link by link
-/// and then merged. Errors: docs/theory/blocks.md; a unit is 2^-53 in double.
+/// runs instead of links. A run consists of leaves, which are built link by link and then merged.
+/// Errors: docs/theory/blocks.md; a unit is 2^-53 in double.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
 inline constexpr Index runs_at_once = pack_size;  ///< four neighbouring runs, one in each SIMD lane
@@ -118,7 +118,7 @@ struct LinkColumns {
 /// as much (ten modes of 1,000,000 rods). Four terms in every leaf would cost 1.3 times as much.
 /// Roundings: 0.1 units in the weight of a run, 1.1 in its flexibility, and those of
 /// `moment_roundings` and `coefficient_roundings` in each leaf.
-/// Precondition: `leaf_links(length)` divides `length`; so it does if `length` is a power of 2.
+/// Precondition: `leaf_links(length)` divides `length`, as it does if `length` is a power of 2.
 /// Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
 template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
 LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,

@@ -44,8 +44,7 @@ double size_of(const BranchState& x) {
 }
 
 /// A solver of one step of Newton's method: the balance of a chain together with one condition. No
-/// matrix is assembled, which keeps the digits of the slowest modes of long chains. The unknowns
-/// are
+/// matrix is assembled, which keeps the digits of the slowest modes of long chains. Unknowns are
 ///     d  the changes of the links' reaches a sin delta (across the axis), which sum to
 ///     y  the changes of the pins' offsets, and
 ///     h  the change of log lambda.
