@@ -60,10 +60,10 @@ class Held {
     static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
 
    public:
-    Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) { check(); }
+    Held(System system, const HeldBy& by) : system_(std::move(system)), held_by_(by) { check(); }
 
     const System& system() const noexcept { return system_; }
-    const HeldBy& by() const noexcept { return by_; }
+    const HeldBy& by() const noexcept { return held_by_; }
     double length() const {
         if constexpr (std::is_same_v<System, Cord>)
             return system_.length();
@@ -76,7 +76,7 @@ class Held {
     void check_end(const std::string& name, const Support& end) const;
 
     System system_;
-    HeldBy by_;
+    HeldBy held_by_;
 };
 
 /// The speed, and the largest number of half waves. With gravity give either `conical_height` or

@@ -428,6 +428,12 @@ TEST_CASE("held: what has no answer says what to ask instead") {
     CHECK_THROWS_WITH(Held(rods, {.span = 1.0}), ContainsSubstring("less than the length 1, got 1"));
     CHECK_THROWS_WITH(Held(Cord(1, {.tip_weight = 1}), {.span = 0.5}), ContainsSubstring("must be uniform"));
     CHECK_THROWS_WITH(Held(Cord(1, {.density = 1.0}), {.span = 0.5}), ContainsSubstring("Chain::tapered"));
+    CHECK_THROWS_WITH(Held(rods, {.tension = 4.0, .lower = {.radius = 0.2}}),
+                      ContainsSubstring("lower radius must be 0") && ContainsSubstring("got 0.2"));
+    CHECK_THROWS_WITH(Held(Cord(1), {.span = 0.5, .upper = {.radius = 0.1}}),
+                      ContainsSubstring("upper radius must be 0") && ContainsSubstring("got 0.1"));
+    CHECK_THROWS_WITH(Held(Cord(1), {.span = 0.5, .lower = {.stiffness = 5.0, .carriage_weight = 2.0}}),
+                      ContainsSubstring("lower stiffness must be infinite") && ContainsSubstring("got 5"));
 
     const Held bent(rods, {.span = 0.5}), straight(rods, {.tension = 4.0});
     const Held light(rods, {.tension = 4.0, .weightless = true}), light_bent(rods, {.span = 0.5, .weightless = true});

@@ -26,7 +26,8 @@ namespace detail {
 template <Real S, class E>
 void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& cancelled,
                       const E& shortest) {
-    // S_m is a partial weight plus up to a segment of weights. Others take at most six operations.
+    // S, the weight below a link, is a partial weight plus up to a segment of weights. Others take
+    // at most six operations.
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
     pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
@@ -149,7 +150,7 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         }
     result.pencil.elements.reserve(static_cast<std::size_t>(chain.size()));
     const int to_length = -result.units.length_exponent;
-    S below(T(0));   // S_m, in the unit of the chain
+    S below(T(0));   // S, in the unit of the chain
     E shortest(1);   // length, in the unit of the chain
     E cancelled(1);  // worst (|W h| + a S) / (W h + a S)
     for (Index m = 0; m < chain.size(); ++m) {

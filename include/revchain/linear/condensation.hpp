@@ -6,38 +6,45 @@
 #include "revchain/pencil/condensed/transfer.hpp"
 #include "revchain/simd/pack.hpp"
 
+/// Condenses runs of links of long chains. In a slow mode many neighbouring links move nearly as
+/// one link. A run of links is therefore replaced by polynomials in mu = 1/lambda that carry offset
+/// and force from its lower to its upper pin (`pencil::Transfer`). Counts and shapes then pass over
+/// runs instead of links. A run consists of leaves, which are built link by link and then merged.
+/// Errors: docs/theory/blocks.md; a unit is 2^-53 in double.
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
-inline constexpr std::size_t leaf_degree = 4;     ///< degree of their polynomials
+inline constexpr Index runs_at_once = pack_size;  ///< four neighbouring runs, one in each SIMD lane
+inline constexpr std::size_t leaf_degree = 4;     ///< number of terms of their polynomials
 
-/// Returns the number of links summed plainly; longer runs are merged from such leaves. With a
-/// sixteenth of the run, rounding moves less than 1/4 unit from pin to pin; with 32 merges are
-/// cheap.
+/// Returns the number of links of a leaf in a run of `length` links. A sixteenth of the run keeps
+/// the mass that rounding moves from pin to pin below 1/4 unit. At least 4 links (if the run has as
+/// many) keep merges cheap. The number divides powers of 2.
 constexpr Index leaf_links(Index length) {
     return std::min(length, std::clamp<Index>(length / 16, 4, 64));
 }
 
-/// Returns the number of terms of a leaf. Leaves of up to 4 links have all 4. In longer runs leaves
-/// are so short that 3 nearly always suffice (`condensed_chain` checks the omitted terms).
+/// Returns the number of terms of the leaves of a run. Leaves of runs of up to 63 links have all 4
+/// terms. Leaves of longer runs are so short beside them that 3 terms nearly always suffice
+/// (`condensed_chain` checks the omitted terms).
 constexpr std::size_t leaf_terms(Index length) {
     return length < 64 ? leaf_degree : leaf_degree - 1;
 }
 
-/// These are roundings (half units) in a1 and the others of a leaf: docs/theory/blocks.md.
+/// Returns the number of roundings, of one unit each, in the moment a1 of a leaf.
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
+/// Returns the number of roundings, of one unit each, in the other coefficients of a leaf.
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 
 /// Neighbouring runs of links, condensed, one in each lane; lengths in `LinkColumns::unit_length`.
+/// First coefficients have two words: the weight c0 of a run, its flexibility b1 (sum of f = 1/k),
+/// and its moment a1 (sum over masses of weight times the flexibility above it in the run).
 template <class V>
 struct LaneRuns {
     pencil::Transfer<V, leaf_degree> transfer;
-    CompensatedSum<V> weight, flexibility, moment;  ///< c0, b1, a1
-    V leaf_phase{};                                 ///< largest c0 b1 of a leaf
-    V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
-    /// Positive if the run is not valid: centroid beyond the pins, inertia beyond l = a, weight
-    /// above all below it, leaf too light for the weight that it carries, or lowest link too long
-    /// for its spring.
+    CompensatedSum<V> weight, flexibility, moment;
+    V leaf_phase{};   ///< largest c0 b1 of a leaf
+    V leaf_moment{};  ///< largest a1^2 / (c0 b1) of a leaf
+    /// Positive if a condition of `condense` is not met; the run is then not valid.
     V worst{};
 
     /// Joins a leaf to the top of each run.
@@ -79,6 +86,7 @@ struct ColumnReader {
     }
 };
 
+/// The columns of a chain for `condense`.
 template <class T>
 struct LinkColumns {
     ColumnReader<T> weight, length, centroid;
@@ -97,13 +105,21 @@ struct LinkColumns {
     }
 };
 
-/// Condenses four neighbouring runs of `length` links, from link `first` on; `below` is the weight
-/// hung below each. A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu
-/// X and a mass (1 - p) W at its upper pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and
-/// flexibility of a run have those of one division, others less than 0.1. The moment of a leaf has
-/// three times its links, other coefficients four times. `Equal`: links differ only in weight.
-/// Reading these one by one would cost 1.4 times as much, always degree 4 1.3 times (ten modes of
-/// 1,000,000 rods). Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
+/// Condenses four neighbouring runs of `length` links, from link `first` on, with leaves of
+/// `Degree` terms. `below` is the weight hung below each run. A link is a mass p W at its lower
+/// pin, p = h/a, a spring 1/f = (S + p W)/a + mu X and a mass (1 - p) W at its upper pin, with S
+/// the weight below it and X = W (p (1 - p) - rho^2/a^2). `LaneRuns::worst` is positive in the lane
+/// of a run for which
+///     a centroid is beyond the pins of its link (p < 0 or p > 1), or X < 0 (l > a),
+///     a link, or in long runs a leaf, outweighs everything below it,
+///     p W is more than 1/32 of S + p W, or
+///     a leaf is too light beside the weight that it carries.
+/// `Equal`: links differ only in weight; reading the other data link by link would cost 1.4 times
+/// as much (ten modes of 1,000,000 rods). Four terms in every leaf would cost 1.3 times as much.
+/// Roundings: 0.1 units in the weight of a run, 1.1 in its flexibility, and those of
+/// `moment_roundings` and `coefficient_roundings` in each leaf.
+/// Precondition: `leaf_links(length)` divides `length`, as it does if `length` is a power of 2.
+/// Cost: 1.5 ns a link in double with AVX-512, 3 ns with AVX2, 4.5 ns with SSE2.
 template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
 LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
                      const CompensatedSum<V>& below) {
@@ -121,6 +137,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
             else
                 p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
             coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
+            // p < 0, p > 1, or X/W below 0 by more than rounding
             runs.worst =
                 max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
             coefficient = max(coefficient, V{});
@@ -130,9 +147,12 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
             a = per_length = V(T(1));
         }
         const Index step = leaf_links(length);
-        // Sums are exact if no link (or, if leaves are light, no leaf) outweighs all below it.
-        constexpr bool light_leaves = Degree < leaf_degree;
-        // hung.low is rounded `step` times at `step` half units of hung.high: lost to a leaf.
+        // `add_smaller` needs links that do not outweigh everything below them. In long runs this
+        // is checked once a leaf: then none of its links does.
+        constexpr bool check_leaves = Degree < leaf_degree;
+        // The weight of a leaf is a difference of two values of `hung`. The second word of `hung`,
+        // at most `step` units of the first, is rounded once a link: in all by at most 1/32 unit of
+        // the weight of a leaf that passes the check below.
         const T lost = T(16 * step * step) * epsilon<T>();
         for (Index start = 0; start < length; start += step) {
             pencil::Transfer<V, Degree> leaf;
@@ -143,7 +163,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
             for (Index m = start; m < start + step; ++m) {
                 if constexpr (!Equal) set_link(first + m);
                 const V w = links.weight.template lanes<V>(first + m, length);
-                if constexpr (!light_leaves)
+                if constexpr (!check_leaves)  // the link outweighs all below it
                     runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
                 const V at_lower = p * w;
                 pencil::append_mass(leaf, carry + at_lower);
@@ -158,14 +178,16 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
                 else
                     flexibility.add(f);
                 flexibility.low -= f * f * per_length * s.low;
-                runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
+                // p W is a rounded product: its error must be small beside s
+                runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);
             }
             pencil::append_mass(leaf, carry);
             CompensatedSum<V> mass{hung.high, V{}};
             mass.add(-at_start.high);
             mass.add(hung.low - at_start.low);
+            // the leaf is too light, or outweighs all below it
             runs.worst = max(runs.worst, hung.high * lost - mass.high);
-            if constexpr (light_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
+            if constexpr (check_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
             flexibility.normalise();
             runs.add_leaf(leaf, mass, flexibility, start == 0);
         }
@@ -173,7 +195,9 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
     });
 }
 
-/// Returns weights below four neighbouring runs of `length` links; `below`: weight below the first.
+/// Returns the weights below four neighbouring runs of `length` links, from link `first` on.
+/// `below` is the weight below the first run; it becomes the weight below the link after the last
+/// run.
 template <class T, class V = Pack<T>>
 CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first,
                                 Index length, Wide<T>& below) {

@@ -7,11 +7,11 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// A link in the units of its chain's pencil; `below` is the weight hung below it.
+/// A link in the units of its chain's pencil. `below` is S, the weight hung below it.
 template <class N>
 struct ScaledLink {
     N weight, length, centroid, radius, below;
-    N pull() const { return weight * centroid / length + below; }  ///< kappa/a
+    N pull() const { return weight * centroid / length + below; }  ///< sigma = (W h + a S)/a
 };
 
 template <Real T>

@@ -51,7 +51,7 @@ class Assembled {
     revchain::detail::LazyCounter<double> own_, *given_;
 };
 
-/// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
+/// Returns the tolerance to meet: the requested one, but at most 1/2.
 REVCHAIN_LAZY
 double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 

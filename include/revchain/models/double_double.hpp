@@ -20,8 +20,8 @@ struct DoubleDoubleBisection {
             return Fit::no("double holds that tolerance");
         return {};
     }
-    /// Predicted from measurements (N = 1 to 3000, ten kinds of chain); the bound of the answer is
-    /// proved.
+    /// Returns a prediction from measurements (N = 1 to 3000, ten kinds of chain). The bound of the
+    /// answer is proved.
     double error_bound(const ChainKind& kind, const Question&) const {
         const double n = detail::real(kind.size);
         return 1e-29 * (30 + n) * (10 + n);

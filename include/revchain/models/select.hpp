@@ -46,19 +46,20 @@ struct Solution {
 
 namespace detail {
 
+/// Throws InvalidArgument, with the name of the function, for a question that no model can answer.
 REVCHAIN_LAZY
-void check(const ChainKind& kind, const Question& question) {
-    if (question.first < 1) throw_invalid("select", "first must be at least 1", question.first);
-    if (question.count < 1) throw_invalid("select", "count must be at least 1", question.count);
+void check(std::string_view function, const ChainKind& kind, const Question& question) {
+    if (question.first < 1) throw_invalid(function, "first must be at least 1", question.first);
+    if (question.count < 1) throw_invalid(function, "count must be at least 1", question.count);
     if (question.last() > kind.mode_count)
-        throw_invalid("select",
-                      "the last mode asked for must be at most number " +
-                          std::to_string(kind.mode_count) + ", the last there is",
+        throw_invalid(function,
+                      "the number of the last mode, first + count - 1, must be at most " +
+                          std::to_string(kind.mode_count) + ", the number of modes",
                       question.last());
     if (!(question.rtol >= 0))
-        throw_invalid("select", "rtol must not be negative or NaN", question.rtol);
+        throw_invalid(function, "rtol must not be negative or NaN", question.rtol);
     if (!(question.inclination >= 0 && question.inclination < std::numbers::pi / 2))
-        throw_invalid("select", "inclination must be at least 0 and less than a right angle",
+        throw_invalid(function, "inclination must be at least 0 and less than a right angle",
                       question.inclination);
 }
 
@@ -75,9 +76,10 @@ Estimate estimate(const M& model, const ChainKind& kind, const Question& questio
     Estimate estimate{model.name, model.applies(kind, question)};
     const double off = is_linear<M>() ? error_of_small_inclinations(kind, question) : 0;
     if (estimate.fit.applies && !(off < 1))
-        estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
+        estimate.fit =
+            Fit::no("for small inclinations only; its error at this inclination has no bound");
     if (!estimate.fit.applies) return estimate;
-    estimate.error_bound = model.error_bound(kind, question),
+    estimate.error_bound = model.error_bound(kind, question);
     estimate.cost = model.cost(kind, question);
     estimate.error_bound += off * (1 + estimate.error_bound);
     return estimate;
@@ -91,8 +93,9 @@ std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& m
         models);
 }
 
-/// Returns the cheapest model that meets the tolerance, of those not `out`. If none does, returns
-/// the most accurate one, the cheaper of equals.
+/// Returns the cheapest model that meets the tolerance, of those within the budget that apply and
+/// are not `out`. If none of these does, returns the most accurate of them, the cheaper of equals.
+/// With an infinite `rtol` it returns the cheapest.
 template <std::size_t N>
 std::optional<std::size_t> best(const std::array<Estimate, N>& estimates,
                                 const std::array<bool, N>& out, double rtol, double budget) {
@@ -129,6 +132,7 @@ Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& ki
     return answer;
 }
 
+/// Returns the answer of the model with that index.
 template <Model... Models>
 Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain,
              const ChainKind& kind, const Question& question) {
@@ -141,31 +145,38 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
     return answer;
 }
 
+/// Does `select` for the function of that name.
+template <Model... Models>
+Choice<sizeof...(Models)> choice_for(std::string_view function, const std::tuple<Models...>& models,
+                                     const ChainKind& kind, const Question& question,
+                                     std::optional<double> time_budget) {
+    check(function, kind, question);
+    if (time_budget) revchain::detail::require_positive(function, "time budget", *time_budget);
+    Choice<sizeof...(Models)> choice{estimates(models, kind, question), 0, false};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double budget = time_budget.value_or(infinity);
+    auto chosen = best<sizeof...(Models)>(choice.estimates, {}, kept_tolerance(question), budget);
+    if (!chosen)  // no model is within the budget: the cheapest, whatever its accuracy
+        chosen = best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
+    choice.model = chosen.value_or(sizeof...(Models));
+    choice.meets_tolerance = chosen &&
+                             choice.estimates[*chosen].error_bound <= kept_tolerance(question) &&
+                             choice.estimates[*chosen].cost <= budget;
+    return choice;
+}
+
 }  // namespace detail
 
 /// Chooses the cheapest model whose bound meets the tolerance. With a `time_budget` in seconds, its
 /// time must be within the budget too. If there is no such model, the choice is the most accurate
 /// within the budget, or else the cheapest. Cost: 0.2 microseconds; no link is read.
-/// Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a
-/// budget that is not positive.
+/// Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, an
+/// inclination not between 0 and a right angle, and a budget that is not positive and finite.
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind,
                                  const Question& question,
                                  std::optional<double> time_budget = std::nullopt) {
-    detail::check(kind, question);
-    if (time_budget) revchain::detail::require_positive("select", "time budget", *time_budget);
-    Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double budget = time_budget.value_or(infinity);
-    auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {},
-                                                  detail::kept_tolerance(question), budget);
-    if (!chosen)  // no model is within the budget
-        chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
-    choice.model = chosen.value_or(sizeof...(Models));
-    choice.meets_tolerance =
-        chosen && choice.estimates[*chosen].error_bound <= detail::kept_tolerance(question) &&
-        choice.estimates[*chosen].cost <= budget;
-    return choice;
+    return detail::choice_for("select", models, kind, question, time_budget);
 }
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
@@ -178,12 +189,12 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
 /// than predicted and requested, the next best is tried. The status is `tolerance_not_met` if no
 /// model within the budget meets the tolerance; the bounds are then the best available. There are
 /// no heights if no model applies, as for unequal links without inertia at an inclination, or if no
-/// model of the list has an answer.
+/// model of the list has an answer. Throws InvalidArgument as `select`.
 template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
                const Question& question, std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
-    const auto choice = select(models, kind, question, time_budget);
+    const auto choice = detail::choice_for("solve", models, kind, question, time_budget);
     const double rtol = detail::kept_tolerance(question);
     const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
@@ -206,15 +217,15 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
     return best;
 }
 
-/// Returns the heights by the model of that name, whatever others would cost. There are no heights
-/// if it does not apply or finds no answer. The status is then `tolerance_not_met`, as it is if the
-/// bound exceeds the tolerance.
+/// Returns the heights by the model of that name, even if others would be faster or more accurate.
+/// There are no heights if the model does not apply or finds no answer. The status is then
+/// `tolerance_not_met`, as it is if the bound exceeds the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
 Solution solve_by(const std::tuple<Models...>& models, std::string_view model,
                   const Chain<double>& chain, const Question& question) {
     const ChainKind kind(chain);
-    detail::check(kind, question);
+    detail::check("solve_by", kind, question);
     const auto estimates = detail::estimates(models, kind, question);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i].name != model) continue;

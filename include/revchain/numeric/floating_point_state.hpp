@@ -7,10 +7,13 @@
 
 namespace revchain::inline REVCHAIN_BUILD::detail {
 
-/// While an object of this class exists, no floating-point flag is raised and nothing traps. It is
-/// for code in which infinities and NaNs are valid results (no proof).
+/// While an object of this class exists, no floating-point exception traps. Its destructor restores
+/// the flags and traps of before, so flags raised in between are discarded. It is for code in which
+/// infinities and NaNs are valid intermediate results: a NaN means that a proof has failed.
 class FloatingPointStateGuard {
    public:
+    /// If the platform cannot switch traps off, the guard only saves the state: the result of
+    /// `feholdexcept` is ignored on purpose.
     FloatingPointStateGuard() { std::feholdexcept(&before_); }
     FloatingPointStateGuard(const FloatingPointStateGuard&) = delete;
     FloatingPointStateGuard& operator=(const FloatingPointStateGuard&) = delete;

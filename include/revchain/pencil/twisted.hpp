@@ -97,12 +97,12 @@ struct Twisted {
 };
 
 /// Returns offsets of pins 0 ... n of n elements, the last pin held, by twisted factorisation. The
-/// dynamic stiffness D of everything below each pin is carried up, and E of everything above is
-/// carried down. |D + E| is least where the mode is largest; from there offsets follow outwards by
-/// ratios. `rise(m, D)` returns D above element m and the ratio of its lower offset to the upper.
-/// `sink(m, E)` returns E below it and the inverse ratio. Both convert to the unit of element m.
-/// `forces(m)` returns the size of the terms at the lower pin of element m. `footing` is D at the
-/// lowest pin. S may be a pack.
+/// dynamic stiffness D of everything below each pin is carried up, and U, that of everything above,
+/// is carried down. |D + U| is least where the mode is largest; from there offsets follow outwards
+/// by ratios. `rise(m, D)` returns D above element m and the ratio of its lower offset to the
+/// upper. `sink(m, U)` returns U below it and the inverse ratio. Both convert to the unit of
+/// element m. `forces(m)` returns the size of the terms at the lower pin of element m. `footing` is
+/// D at the lowest pin. S may be a pack.
 template <class S, class Rise, class Sink, class Forces>
 [[gnu::always_inline]] inline Twisted<S> twisted(std::size_t n, const Rise& rise, const Sink& sink,
                                                  const Forces& forces, const S& footing = S{}) {
@@ -123,9 +123,9 @@ template <class S, class Rise, class Sink, class Forces>
     for (std::size_t m = n; m-- > 0;) {
         const Across<S> across = sink(m, above);
         above = across.stiffness, up[m] = across.ratio;
-        // It is relative to the forces at the pin. Otherwise a light pin that moves far would be
-        // chosen instead of the heavy one that determines the mode, and the ratios between them
-        // would cancel.
+        // The balance is relative to the forces at the pin. Otherwise a light pin that moves far
+        // would be chosen instead of the heavy one that determines the mode, and the ratios between
+        // them would cancel.
         const V balance = abs(static_cast<V>(offset[m] + above)) / forces(m);
         pin = if_less(balance, least, number(m), pin);
         least = if_less(balance, least, balance, least);

@@ -7,9 +7,14 @@
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/rig_modes.hpp"
-// after the modes of chains, which need it before their templates are used
+// After revchain/modes.hpp, whose templates use `certify`: mode_certificate.hpp includes modes.hpp
+// before it declares `certify`.
 #include "revchain/questions/mode_certificate.hpp"
 
+/// Finds the whirl modes of a rig in one of three ways. The modes of a rig that is a plain chain
+/// are those of the chain. The modes of most other rigs are found by counts of the roots above a
+/// shift (`modes_by_counts`). If counts cannot find the roots, all are found at once and proved in
+/// disjoint discs (`modes_by_discs`). `modes`, near the end of this file, makes the choice.
 namespace revchain::inline REVCHAIN_BUILD {
 namespace detail {
 
@@ -51,7 +56,8 @@ bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
     const RigWord speed = rig.pace / (pencil.quadratic ? root.unrounded : sqrt(root.unrounded));
     modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
     modes.angular_speed[j] = static_cast<double>(speed);
-    // The margin bounds the root; the bound of its square or root takes in two roundings.
+    // `margin` bounds the error of the root x. The bound of x^2, or of sqrt(x), includes the
+    // roundings of the height and of the speed.
     const double ulp = epsilon<double>();
     const double margin =
         root.error_bound * (1 + 4 * root.error_bound) + 32 * operation_error<RigWord>();
@@ -66,8 +72,9 @@ bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig,
 
 /// Finds the modes of one sense by counts; returns whether all are proved.
 REVCHAIN_LAZY
-bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
-                    const RigModesOptions& options, double from, double to) {
+bool modes_of_sense_by_counts(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots,
+                              bool forward, const RigModesOptions& options, double from,
+                              double to) {
     const RigPencil& pencil = all_roots.rig();
     const CountedSense& sense = all_roots.senses()[forward ? 0 : 1];
     const CountedRoots& roots = sense.roots;  // Clang 14 captures no structured binding
@@ -98,21 +105,21 @@ bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots
                                                            std::move(found), std::move(elements)},
                                      options.threads);
     };
-    const auto several = [&]<bool Spins>(std::bool_constant<Spins>) {
+    const auto found_in_lanes = [&]<bool Spins>(std::bool_constant<Spins>) {
         auto elements = pencil::positive_elements<Spins>(roots.pencil());
         if (!elements) return false;
-        std::optional<std::vector<FoundRoot>> several_roots;
-        if constexpr (!Spins)
-            several_roots = roots_under_a_spring(rig, *elements, range, available);
-        if (!several_roots)
-            several_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
-        if (!several_roots) return false;
+        std::optional<std::vector<FoundRoot>> found_roots;
+        if constexpr (!Spins) found_roots = roots_under_a_spring(rig, *elements, range, available);
+        if (!found_roots)
+            found_roots = roots_in_lanes(*elements, roots, range, available, guess, finished);
+        if (!found_roots) return false;
         using Elements = pencil::ElementPencil<RigWord, Spins>;
-        store(*several_roots, std::make_shared<const Elements>(*std::move(elements)));
+        store(*found_roots, std::make_shared<const Elements>(*std::move(elements)));
         return true;
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (roots.pencil().quadratic ? several(std::true_type()) : several(std::false_type()))
+        if (roots.pencil().quadratic ? found_in_lanes(std::true_type())
+                                     : found_in_lanes(std::false_type()))
             return proved;
     store(refined_roots(roots, range.first - 1, range.count, guess, finished,
                         [&](Index done) { report(0.4, done, 0.6); }),
@@ -155,8 +162,9 @@ RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     return result;
 }
 
+/// Returns true if a rig has no attachments.
 REVCHAIN_LAZY
-bool has_nothing(const Rig& rig) {
+bool is_plain_chain(const Rig& rig) {
     for (Index m = 0; m < rig.size(); ++m)
         if (rig.stands(m) || !(rig.flywheel(m) == Flywheel{}) || rig.displaced(m).weight != 0 ||
             rig.displaced(m).added_weight != 0)
@@ -164,10 +172,10 @@ bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// Returns the mode of a height in the pencil's unit. Its growth rate is the root of -g/height with
-/// a positive real part.
+/// Returns the solution of a height that is negative or complex, in the pencil's unit, and its
+/// relative bound. The growth rate is the square root of -g/height with a positive real part.
 REVCHAIN_LAZY
-OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
+OtherMode other_mode_of_height(const RigPencil& rig, const std::complex<double>& x, double bound) {
     const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
     if (!(bound < 1)) bound = std::numeric_limits<double>::infinity();
     const auto in_unit = [&](double y) { return std::ldexp(y, rig.units.length_exponent); };
@@ -175,8 +183,9 @@ OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, doub
         {in_unit(x.real()), in_unit(x.imag())}, {rate.imag(), -rate.real()}, rate.real(), bound};
 }
 
+/// Finds modes by counts, in each direction.
 REVCHAIN_LAZY
-RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+RigModes modes_by_counts(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     RigModes result;
     const RigPencil& pencil = roots.rig();
     result.has_momentum = roots.has_momentum(), result.method = RigMethod::counts;
@@ -187,7 +196,7 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
         const double share = 0.9 / static_cast<double>(senses),
                      from = share * static_cast<double>(i);
         WhirlModes& sense = i == 0 ? result.forward : result.backward;
-        proved &= count_modes_of(sense, rig, roots, i == 0, options, from, from + share);
+        proved &= modes_of_sense_by_counts(sense, rig, roots, i == 0, options, from, from + share);
         result.complete &= roots.senses()[i].available.proved;
     }
     if (!roots.has_momentum())
@@ -201,7 +210,8 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
                 for (const FoundRoot& root :
                      refined_roots(negative->roots, 0, count, start, {}, {})) {
                     const double height = -root.eigenvalue;
-                    result.other.push_back(other_height(pencil, height, root.error_bound + 1e-30));
+                    result.other.push_back(
+                        other_mode_of_height(pencil, height, root.error_bound + 1e-30));
                     proved &= std::isfinite(result.other.back().error_bound);
                 }
         }
@@ -209,9 +219,9 @@ RigModes counted_modes(const Rig& rig, const RigRoots& roots, const RigModesOpti
     return result;
 }
 
-/// Finds modes by discs around all roots, for rigs whose roots counts cannot find.
+/// Finds modes from discs around all roots. It is for rigs whose roots cannot be found by counts.
 REVCHAIN_LAZY
-RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
+RigModes modes_by_discs(const Rig& rig, const RigRoots& roots, const RigModesOptions& options) {
     const RigPencil& pencil = roots.rig();
     const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
@@ -223,15 +233,16 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         const double size = std::abs(root.value);
         double bound = std::numeric_limits<double>::infinity();
         if (spectrum.proved) bound = root.radius / size;
-        if (!(size > 0x1p-200)) continue;  // not proved; a root of 0 has no speed
+        // A root of 0 has no speed. So small a root counts as 0.
+        if (!(size > 0x1p-200)) continue;
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
-            const bool ahead = root.value.real() > 0;
+            const bool is_forward = root.value.real() > 0;
             // The mode is rounded from x, which may be half an ulp from the disc's centre.
-            const RigWord x = ahead ? root.x.real : -root.x.real;
-            (ahead ? forward : backward)
+            const RigWord x = is_forward ? root.x.real : -root.x.real;
+            (is_forward ? forward : backward)
                 .push_back({static_cast<double>(x), bound + 1.01 * epsilon<double>(), x});
         } else if (!result.has_momentum) {
-            result.other.push_back(other_height(pencil, root.value, bound));
+            result.other.push_back(other_mode_of_height(pencil, root.value, bound));
         } else {
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
             // In double words: std::complex divides by less accurate rules in some libraries.
@@ -242,11 +253,12 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
         }
     }
     result.other_available = static_cast<Index>(result.other.size());
-    const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead) {
+    const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found,
+                           bool is_forward) {
         const auto available = static_cast<Index>(found.size());
-        const ModeRange range = chosen(options, roots, ahead, available);
+        const ModeRange range = chosen(options, roots, is_forward, available);
         make_room(modes, range, available);
-        auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
+        auto sense = is_forward ? pencil.pencil : pencil.pencil.reversed();
         std::vector<RigWord> at;
         for (Index j = 0; j < range.count; ++j) {
             const FoundRoot& root = found[static_cast<std::size_t>(range.first - 1 + j)];
@@ -262,20 +274,22 @@ RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const RigModesOpt
     return result;
 }
 
-/// Returns the links with tension + n spin = 0 at a speed n between 0 and the fastest speeds found.
+/// Returns the links with tension + n spin = 0 at a speed n no faster than the fastest mode found
+/// in the direction of n.
 REVCHAIN_LAZY
 std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
     const auto fastest = [](const WhirlModes& sense) {
         return sense.size() == 0 ? 0.0 : sense.angular_speed.maxCoeff();
     };
-    const double ahead = fastest(modes.forward), back = fastest(modes.backward);
+    const double forward = fastest(modes.forward), backward = fastest(modes.backward);
     std::vector<SlackLink> slack;
     Index m = 0;
     for (const RigLink& link : rig_links(rig)) {
         const RigWord zero(0.0);
         if (!(link.spin == zero) && !(link.tension == zero)) {
+            // negative if backward
             const double speed = static_cast<double>(-link.tension / link.spin);
-            if (speed > 0 ? speed <= ahead : -speed <= back) slack.push_back({m, speed});
+            if (speed > 0 ? speed <= forward : -speed <= backward) slack.push_back({m, speed});
         }
         ++m;
     }
@@ -293,23 +307,25 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
     require_positive("modes", "gravity", options.gravity);
     check(options);
     const Threads used("modes", options.threads);
-    if (has_nothing(rig)) return plain_modes(rig, options);
+    if (is_plain_chain(rig)) return plain_modes(rig, options);
     const RigRoots roots("modes", rig, options.gravity,
                          [&](double share) { advance(options.progress, 0.9 * share); });
     RigModes result;
     if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = RigMethod::counts;
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
+            // with no modes the direction does not matter, but the options are checked
             make_room(*sense, chosen(options, roots, true, 0), 0);
             ShapesBehind::of(*sense) = LazyModeShapes<double>(room_for_shapes(rig.chain(), 0));
         }
     } else if (roots.spectrum()) {
-        result = enclosed_modes(rig, roots, options);
+        result = modes_by_discs(rig, roots, options);
     } else {
-        result = counted_modes(rig, roots, options);
+        result = modes_by_counts(rig, roots, options);
     }
     const Index neutral = roots.rig().neutral;
     result.other_available += neutral;
+    // Discs find the other solutions in any case; they are returned even if not requested.
     if (options.other || roots.spectrum())
         result.other.insert(result.other.begin(), static_cast<std::size_t>(neutral),
                             {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
@@ -330,7 +346,7 @@ RigModes modes(const Rig& rig, const RigModesOptions& options) {
 
 REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) : gravity_(gravity) {
     detail::require_positive("count_modes", "gravity", gravity);
-    if (detail::has_nothing(rig))
+    if (detail::is_plain_chain(rig))
         plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
     else
         roots_ =
@@ -352,6 +368,7 @@ REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
         detail::throw_invalid("count_modes", "angular speed must be finite and not 0",
                               angular_speed);
     if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
+    // with momentum a negative speed counts the backward modes
     const bool forward = angular_speed > 0 || !roots_->has_momentum();
     return roots_->above(roots_->at_speed(angular_speed), forward, "count_modes: angular speed",
                          angular_speed);

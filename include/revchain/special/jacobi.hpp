@@ -25,7 +25,7 @@ class JacobiFunctions {
         : modulus_(modulus),
           complete_(complete_integrals(modulus)),
           hyperbolic_(modulus.modulus() > modulus.complementary_modulus()) {
-        const CompleteIntegrals other = complete_integrals(modulus.complement());
+        const CompleteIntegrals other = complete_integrals(modulus.swapped());
         const double c = modulus.complementary_modulus();
         q_ = std::exp(-std::numbers::pi *
                       (hyperbolic_ ? complete_.K / other.K : other.K / complete_.K));
@@ -58,12 +58,13 @@ class JacobiFunctions {
     }
 
    private:
-    /// Theta series over their leading terms, and w = q 2 cos 2z.
+    /// The four theta series, each over its leading term, and w = 2 q cos 2z.
     struct Theta {
         double first, second, third, fourth, w;
     };
 
-    /// Series in powers of q times 2 cos 2nz = q^-n w_n, which cannot overflow.
+    /// Returns the theta series. They are sums of powers of q times 2 cos 2nz = q^-n w_n; the w_n
+    /// cannot overflow.
     Theta theta(double w) const {
         const double q = q_, q2 = q * q, q4 = q2 * q2, q9 = q4 * q4 * q;
         const double w2 = w * w - 2 * q2, w3 = w * (w2 - q2);
@@ -73,7 +74,7 @@ class JacobiFunctions {
                 1 + w + (q2 * w2 + q2 * q4 * w3), 1 - w + (q2 * w2 - q2 * q4 * w3), w};
     }
 
-    /// 0 <= u <= K.
+    /// Returns the functions, but not the amplitude, at 0 <= u <= K by series in the nome.
     JacobiValues circular(double u) const {
         const double z = rate_ * u, s = std::sin(z), c = std::cos(z), q = q_, q2 = q * q;
         const Theta t = theta(2 * q * (c - s) * (c + s));
@@ -84,16 +85,18 @@ class JacobiFunctions {
                 dn_scale_ * t.third / t.fourth, drift_ * u + rate_ * slope / t.fourth};
     }
 
+    /// Returns the functions, but not the amplitude, at 0 <= u <= K by series in the complementary
+    /// nome.
     JacobiValues hyperbolic(double u) const {
-        const double K = complete_.K, complement = modulus_.complementary_modulus();
+        const double K = complete_.K, kappa_prime = modulus_.complementary_modulus();
         if (!(2 * u > K)) return hyperbolic_half(u);
         const JacobiValues f = hyperbolic_half(K - u);
         const double sn = f.cn / f.dn;
-        return {0, sn, complement * f.sn / f.dn, complement / f.dn,
+        return {0, sn, kappa_prime * f.sn / f.dn, kappa_prime / f.dn,
                 complete_.E - f.epsilon + modulus_.modulus() * modulus_.modulus() * f.sn * sn};
     }
 
-    /// 0 <= u <= K/2, so that w <= sqrt(q).
+    /// Does the same for 0 <= u <= K/2, so that w <= sqrt(q).
     JacobiValues hyperbolic_half(double u) const {
         const double x = rate_ * u, q = q_, tangent = std::tanh(x), secant = 1 / std::cosh(x);
         const double square = q > 0 ? q / (secant * secant) : 0;  // q cosh^2 x

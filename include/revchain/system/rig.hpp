@@ -11,14 +11,15 @@ namespace revchain::inline REVCHAIN_BUILD {
 
 namespace detail {
 
-inline void require_yielding(std::string_view place, const std::string& name,
-                             const Support& support) {
+/// Throws InvalidArgument for a carriage weight on a firm support, which cannot move.
+inline void require_spring_under_carriage(std::string_view place, const std::string& name,
+                                          const Support& support) {
     if (support.is_firm() && support.carriage_weight > 0)
-        throw_invalid(
-            place,
-            name +
-                " must have a stiffness: what moves sideways needs a support that yields; weight",
-            support.carriage_weight);
+        throw_invalid(place,
+                      name +
+                          " must have a stiffness: what moves sideways needs a support that "
+                          "yields; carriage weight",
+                      support.carriage_weight);
 }
 
 inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration,
@@ -70,7 +71,7 @@ inline void Rig::check() const {
                               support.stiffness.high);
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight,
                                  "radius of the support", support.radius);
-    detail::require_yielding("Rig", "the support", support);
+    detail::require_spring_under_carriage("Rig", "the support", support);
     if (with_.flywheels.empty() && with_.displaced.empty()) return;
     const auto check_link = [&](Index m, std::string_view place) {
         const Flywheel wheel = flywheel(m);

@@ -336,6 +336,12 @@ TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
     CHECK_THROWS_AS(select(rods, {.rtol = -1.0}), InvalidArgument);
     CHECK_THROWS_AS(select(rods, {.rtol = std::nan("")}), InvalidArgument);
     CHECK_THROWS_AS(select(rods, {.rtol = 0.1}, 0.0), InvalidArgument);
+    // a message names the function that was called
+    using Catch::Matchers::StartsWith;
+    CHECK_THROWS_WITH(select(rods, {.first = 0}), StartsWith("revchain::select: first must be at least 1"));
+    CHECK_THROWS_WITH(models::solve(rods, {.first = 0}), StartsWith("revchain::solve: first must be at least 1"));
+    CHECK_THROWS_WITH(models::solve_by("bisection", rods, {.first = 0}),
+                      StartsWith("revchain::solve_by: first must be at least 1"));
 }
 
 TEST_CASE("tolerances below an ulp: double-double, heights in two parts") {

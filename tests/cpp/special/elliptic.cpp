@@ -116,7 +116,7 @@ TEST_CASE("elliptic integrals and functions keep their laws", "[analytic]") {
         const double logarithm = random.between(-100, 100);
         const auto modulus = EllipticModulus::of_ratio(std::exp(0.5 * logarithm), std::exp(-0.5 * logarithm));
         const JacobiFunctions functions(modulus);
-        const auto own = functions.complete(), other = revchain::analytic::complete_integrals(modulus.complement());
+        const auto own = functions.complete(), other = revchain::analytic::complete_integrals(modulus.swapped());
         CAPTURE(logarithm);
         // Legendre, without a difference: E K' + E' K - K K' = K' B + K kappa'^2 D' ... as E = kappa'^2 K + kappa^2 B.
         const double k2 = modulus.modulus() * modulus.modulus();
@@ -140,6 +140,18 @@ TEST_CASE("elliptic integrals and functions keep their laws", "[analytic]") {
     }
 }
 
+TEST_CASE("the ratio of two sides may be given in any unit", "[analytic]") {
+    // the hypotenuse of the first pair overflows; in the unit of the last two it has few digits
+    for (const double unit : {0x1p1022, 0x1p-1000, 0x1p-1074}) {
+        CAPTURE(unit);
+        const EllipticModulus modulus = EllipticModulus::of_ratio(3 * unit, 3 * unit);
+        CHECK(std::abs(modulus.modulus() - std::sqrt(0.5)) <= 2.3e-16);
+        CHECK(modulus.complementary_modulus() == modulus.modulus());
+    }
+    CHECK(EllipticModulus::of_ratio(0, 5e-324).complementary_modulus() == 1);
+    CHECK(EllipticModulus::of_ratio(1.7e308, 1e-10).complementary_modulus() > 0);
+}
+
 TEST_CASE("the ends of the range of kappa", "[analytic]") {
     const JacobiFunctions straight(EllipticModulus::of_complement(0)), round(EllipticModulus::of(0));
     CHECK(straight.complete().K == std::numeric_limits<double>::infinity());
@@ -159,6 +171,7 @@ TEST_CASE("the ends of the range of kappa", "[analytic]") {
     CHECK_THROWS_AS(EllipticModulus::of_complement(-0.1), revchain::InvalidArgument);
     CHECK_THROWS_AS(EllipticModulus::of_ratio(0, 0), revchain::InvalidArgument);
     CHECK_THROWS_AS(EllipticModulus::of_ratio(1, std::nan("")), revchain::InvalidArgument);
+    CHECK_THROWS_AS(EllipticModulus::of_ratio(std::numeric_limits<double>::infinity(), 1), revchain::InvalidArgument);
     CHECK_THROWS_AS(round(std::numeric_limits<double>::infinity()), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::analytic::complete_pi(1, EllipticModulus::of(0.5)), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::analytic::incomplete_pi(0.5, std::nan(""), EllipticModulus::of(0.5)),

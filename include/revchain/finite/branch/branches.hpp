@@ -26,7 +26,7 @@ REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size())
         reject("point must be below " + std::to_string(size()) + ", the number of points");
     const finite::BranchPoint& at = trace_.points[point];
-    if (trace_.onset && finite::largest_rise(at.state) == 0)
+    if (trace_.onset && finite::largest_tau(at.state) == 0)
         reject("this point is the straight chain");
     const auto found = finite::shape_at(*trace_.system, at.state, finite::GivenPlace(at));
     if (!found) reject("the shape at this point did not balance in double-double");

@@ -36,9 +36,8 @@ class BranchWalk {
 
     /// Takes one step; returns false if no step above 1e-9 of arc is accepted.
     bool advance() {
-        constexpr double max_rise = 0.75;
-        const double longest =
-            std::min(longest_, max_rise / (largest_rise(here_.tangent) + 1e-300));
+        constexpr double max_tau = 0.75;
+        const double longest = std::min(longest_, max_tau / (largest_tau(here_.tangent) + 1e-300));
         return detail::arc_step(step_, longest, 0.5, [&](double step) -> std::optional<double> {
             auto next = at(here_, step);
             if (!next) return {};

@@ -23,8 +23,8 @@ struct TipInclinationMeasure {
     double wanted;
     bool either;
     Measured operator()(const BranchPoint& p) const {
-        const double sign = either && p.state.rise[0] < 0 ? -1 : 1;
-        return {sign * p.state.rise[0] - wanted, sign * p.tangent.rise[0]};
+        const double sign = either && p.state.tau[0] < 0 ? -1 : 1;
+        return {sign * p.state.tau[0] - wanted, sign * p.tangent.tau[0]};
     }
 };
 
@@ -35,8 +35,8 @@ struct TipRadiusMeasure {
         double y = links->radius, slope = 0;
         for (std::size_t m = 0; m < links->size(); ++m) {
             const double a = links->links[m].length;
-            const Inclined at = links->inclined(m, p.state.rise[m]);
-            y += a * at.sine, slope += a * at.slope * p.tangent.rise[m];
+            const Inclined at = links->inclined(m, p.state.tau[m]);
+            y += a * at.sine, slope += a * at.slope * p.tangent.tau[m];
         }
         const double sign = y < 0 ? -1 : 1;
         return {sign * y - wanted, sign * slope};
@@ -48,13 +48,13 @@ struct TopPullMeasure {
     const BranchLinks<double>* links;
     double wanted;
     Measured operator()(const BranchPoint& p) const {
-        double y = links->radius, along = 0, sum = 0, slope = 0;
+        double y = links->radius, y_change = 0, sum = 0, slope = 0;
         for (std::size_t m = links->size(); m-- > 0;) {
             const Link<double>& link = links->links[m];
-            const Inclined at = links->inclined(m, p.state.rise[m]);
-            sum += link.rest * y, slope += link.rest * along;
-            y += link.length * at.sine, along += link.length * at.slope * p.tangent.rise[m];
-            if (!links->is_spring(m)) sum += link.moment * y, slope += link.moment * along;
+            const Inclined at = links->inclined(m, p.state.tau[m]);
+            sum += link.rest * y, slope += link.rest * y_change;
+            y += link.length * at.sine, y_change += link.length * at.slope * p.tangent.tau[m];
+            if (!links->is_spring(m)) sum += link.moment * y, slope += link.moment * y_change;
         }
         const double height = std::exp(p.state.log_height), sign = sum < 0 ? -1 : 1;
         return {sign * sum / height - wanted, sign * (slope - sum * p.tangent.log_height) / height};

@@ -222,11 +222,11 @@ class Diagram {
         BranchState at;
         for (Index m = 0; m < shape.inclination.size(); ++m) {
             const double tangent = std::tan(shape.inclination[m]);
-            at.rise.push_back(std::asinh(ask_.system->stands(at.rise.size()) ? -tangent : tangent));
+            at.tau.push_back(std::asinh(ask_.system->stands(at.tau.size()) ? -tangent : tangent));
         }
         if (links.spring) {
             const double end = shape.offset[shape.offset.size() - 1] * unit_;
-            at.rise.push_back(links.tau_of_reach(at.rise.size(), end - as_double(links.radius)));
+            at.tau.push_back(links.tau_of_reach(at.tau.size(), end - as_double(links.radius)));
         }
         at.log_height = std::log(height * unit_);
         return at;
@@ -251,7 +251,7 @@ class Diagram {
         for (std::size_t j = 0; j < met.size(); ++j) {
             if (met[j] > 0) continue;
             BranchState up;
-            up.rise.assign(corrector_.size(), 0.0), up.log_height = 1;
+            up.tau.assign(corrector_.size(), 0.0), up.log_height = 1;
             Branch loop =
                 from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
             if (loop.size() < 2) {
@@ -325,8 +325,8 @@ class Diagram {
         if (stuck_ >= 20) return false;
         const BranchState state = diagram.state_at(at);
         BranchState across;
-        across.rise.assign(state.rise.size(), 0.0);
-        across.rise[0] = std::sqrt(as_double(state.rise.size()));
+        across.tau.assign(state.tau.size(), 0.0);
+        across.tau[0] = std::sqrt(as_double(state.tau.size()));
         Branch found = from_here(state, across, 1);
         // A branch that reaches the vertical is that of a mode, one that reaches the lowest height
         // is in the list there, and one that reaches slow speeds is the one from rest.

@@ -22,10 +22,9 @@ struct XMeasure {
     double wanted;
     int side = 0;
     Measured operator()(const BranchPoint& p) const {
-        const double rise = p.state.rise[0], turned = side != 0 ? side : std::copysign(1.0, rise);
-        const double height = turned * std::exp(p.state.log_height), x = height * std::sinh(rise);
-        return {x - wanted,
-                x * p.tangent.log_height + height * std::cosh(rise) * p.tangent.rise[0]};
+        const double tau = p.state.tau[0], turned = side != 0 ? side : std::copysign(1.0, tau);
+        const double height = turned * std::exp(p.state.log_height), x = height * std::sinh(tau);
+        return {x - wanted, x * p.tangent.log_height + height * std::cosh(tau) * p.tangent.tau[0]};
     }
 };
 
@@ -226,10 +225,10 @@ class DiagramProver {
 template <class Branch>
 bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
                   const Rectangle& within, int side = 0) {
-    const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
+    const auto turned = [&](double tau) { return side == 0 ? std::abs(tau) : side * tau; };
     const auto inside = [&](const BranchState& state) {  // by a margin above the error of points
         const double height = std::exp(state.log_height),
-                     x = height * std::sinh(turned(state.rise[0]));
+                     x = height * std::sinh(turned(state.tau[0]));
         constexpr double off = 1e-10;
         const double low = within.height_low * (1 + off), high = within.height_high * (1 - off);
         return within.low * (1 + off) < x && x < within.high * (1 - off) && low < height &&
@@ -238,13 +237,13 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
     const auto& points = trace_of(branch).points;
     for (const BranchPoint& point : points)
         if (inside(point.state)) return true;
-    const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
+    const double tau = std::asinh(at.x / at.height), log_height = std::log(at.height),
                  links = as_double(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
         const BranchPoint &before = points[i], &here = points[i + 1];
         const double reach = 2 * (here.arc - before.arc);
         if (std::abs(here.state.log_height - log_height) > reach ||
-            std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))
+            std::abs(turned(here.state.tau[0]) - tau) > reach * std::sqrt(links))
             continue;
         const auto crossings =
             crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});

@@ -5,6 +5,7 @@
 #include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/state.hpp"
 #include "revchain/finite/shapes/list.hpp"
+#include "revchain/finite/shapes/tangent_limit.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
@@ -51,7 +52,7 @@ class EnclosedDiagram {
         EnclosedLinks<double> slackest = links_at(lambda);
         for (std::size_t m = 0; m < size(); ++m)
             slackest[m].pull.low = std::min(slackest[m].pull.low, links_[m].pull.low);
-        return height * farthest_tangent(slackest, lambda, false, held_at(lambda));
+        return height * tangent_limit(slackest, lambda, false, held_at(lambda));
     }
     Interval<double> at(double x, double height) const {
         const Interval<double> lambda(height);
@@ -66,10 +67,10 @@ class EnclosedDiagram {
                                       OnAxis{}, &tangents);
         BranchState state;
         double reach = 0;
-        for (const auto& t : tangents) state.rise.push_back(turned * std::asinh(t.middle()));
+        for (const auto& t : tangents) state.tau.push_back(turned * std::asinh(t.middle()));
         for (const auto& link : links_) reach += link.length.middle();
         if (!firm_)
-            state.rise.push_back(turned * std::asinh((y.middle() - radius_.middle()) / reach));
+            state.tau.push_back(turned * std::asinh((y.middle() - radius_.middle()) / reach));
         state.log_height = std::log(at.height);
         return state;
     }

@@ -51,7 +51,7 @@ struct BranchOnset {
     BranchState state(const BranchLinks<double>& links, double amplitude) const {
         BranchState result;
         for (std::size_t m = 0; m < links.size(); ++m)
-            result.rise.push_back(links.tau_of_reach(m, amplitude * reach[m]));
+            result.tau.push_back(links.tau_of_reach(m, amplitude * reach[m]));
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
@@ -112,9 +112,9 @@ std::optional<BranchPoint> near_vertical(const BranchSystem& system, const Branc
     double along = 0, whole = 0;
     for (std::size_t m = 0; m < system.links.size(); ++m) {
         const Fine d = found.shape.offset[m] - found.shape.offset[m + 1];
-        const double rise = system.links.tau_of_reach(m, as_double(d));
-        along += rise * state.rise[m], whole += state.rise[m] * state.rise[m];
-        state.rise[m] = rise;
+        const double tau = system.links.tau_of_reach(m, as_double(d));
+        along += tau * state.tau[m], whole += state.tau[m] * state.tau[m];
+        state.tau[m] = tau;
     }
     if (!(std::abs(along - whole) <= 0.3 * whole)) return std::nullopt;
     state.log_height = std::log(as_double(height));

@@ -13,11 +13,11 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// A condition on shape and height, in double-double, solved together with the balance of forces.
 struct Condition {
     virtual ~Condition() = default;
-    /// Returns the given minus the actual value at offsets of the pins, and its derivative by log
-    /// lambda. Fills `row` with the derivatives by the reaches a sin delta.
-    virtual std::pair<Fine, double> left(const BranchLinks<Fine>& links,
-                                         const std::vector<Fine>& offset, const Fine& height,
-                                         std::vector<double>& row) const = 0;
+    /// Returns the given minus the actual value at offsets of the pins, and the derivative of the
+    /// actual value by log lambda. Fills `row` with its derivatives by the reaches a sin delta.
+    virtual std::pair<Fine, double> shortfall(const BranchLinks<Fine>& links,
+                                              const std::vector<Fine>& offset, const Fine& height,
+                                              std::vector<double>& row) const = 0;
     /// Returns the condition's change for a relative change 1 of the given number; 0 without one.
     virtual double size(const Fine& height) const = 0;
     virtual bool gives_height() const { return false; }
@@ -26,8 +26,8 @@ struct Condition {
 struct GivenHeight : Condition {
     Fine wanted;
     explicit GivenHeight(Fine height) : wanted(std::move(height)) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>&,
-                                 const Fine& height, std::vector<double>& row) const override {
+    std::pair<Fine, double> shortfall(const BranchLinks<Fine>&, const std::vector<Fine>&,
+                                      const Fine& height, std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         return {(wanted - height) / wanted, as_double(height / wanted)};
     }
@@ -44,8 +44,8 @@ struct GivenTipInclination : Condition {
         : sine(DoubleDouble(std::sin(static_cast<long double>(wanted))).word()),
           cosine(DoubleDouble(std::cos(static_cast<long double>(wanted))).word()),
           angle(wanted) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
-                                 const Fine&, std::vector<double>& row) const override {
+    std::pair<Fine, double> shortfall(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                      const Fine&, std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         const Fine &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = cosine_of(a, d);
         const Fine signed_sine = d < Fine(0) ? -sine : sine;
@@ -59,23 +59,23 @@ struct GivenTipInclination : Condition {
 struct GivenTipRadius : Condition {
     Fine wanted;
     explicit GivenTipRadius(Fine radius) : wanted(std::move(radius)) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>&, const std::vector<Fine>& y, const Fine&,
-                                 std::vector<double>& row) const override {
+    std::pair<Fine, double> shortfall(const BranchLinks<Fine>&, const std::vector<Fine>& y,
+                                      const Fine&, std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 1.0);
         return {(y[0] < Fine(0) ? -wanted : wanted) - y[0], 0.0};
     }
     double size(const Fine&) const override { return as_double(wanted); }
 };
 
-/// The condition on the topmost pin's reaction: |sum of weights times offsets| = lambda sqrt(T^2 -
-/// W^2).
+/// The condition that gives the tension T at the support: |sum of weights times offsets| = lambda
+/// sqrt(T^2 - S^2), with S the weight on the topmost pin.
 struct GivenTopTension : Condition {
     Fine across;   ///< the sideways part of T, positive
     double share;  ///< relative change of `across` per relative change of T
     GivenTopTension(Fine sideways, double sensitivity)
         : across(std::move(sideways)), share(sensitivity) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
-                                 const Fine& height, std::vector<double>& row) const override {
+    std::pair<Fine, double> shortfall(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                      const Fine& height, std::vector<double>& row) const override {
         Fine sum(0);
         double weights = 0;
         for (std::size_t m = 0; m < links.bodies(); ++m) {
@@ -97,17 +97,17 @@ struct GivenTopTension : Condition {
 struct GivenPlace : Condition {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
-    std::pair<Fine, double> left(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
-                                 const Fine& height, std::vector<double>& row) const override {
+    std::pair<Fine, double> shortfall(const BranchLinks<Fine>& links, const std::vector<Fine>& y,
+                                      const Fine& height, std::vector<double>& row) const override {
         double sum = 0;
-        const double share = 1 / as_double(links.size());
+        const double per_link = 1 / as_double(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
             const Fine &a = links.links[m].length, d = y[m] - y[m + 1],
                        c = links.is_spring(m) ? Fine(1) : cosine_of(a, d);
             const double tangent = as_double(d / (a * c)), length = as_double(a),
                          slope = links.is_spring(m) ? std::hypot(1, tangent) : as_double(c * c);
-            row[m] = share * point->tangent.rise[m] / (length * slope);
-            sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
+            row[m] = per_link * point->tangent.tau[m] / (length * slope);
+            sum += per_link * point->tangent.tau[m] * (point->state.tau[m] - std::asinh(tangent));
         }
         const double log_off = point->state.log_height - std::log(as_double(height));
         return {Fine(sum + point->tangent.log_height * log_off), point->tangent.log_height};
@@ -125,13 +125,14 @@ struct Polished {
 };
 
 /// Returns `Polished::condition`, from the factors at a shape and the sizes of forces. `given` is
-/// the condition's change for that of the number, `growth` is 1/(a cos^2) of links.
+/// the condition's change for that of the number. `tau_per_reach` is the derivative of tau by the
+/// reach, 1/(a cos^2); 1/a for a spring.
 REVCHAIN_LAZY
 double condition_of(const BranchLinks<Fine>& links, BorderedChain& border,
-                    const std::vector<double>& size, const std::vector<double>& growth,
+                    const std::vector<double>& size, const std::vector<double>& tau_per_reach,
                     double given) {
     const std::size_t n = links.size();
-    std::vector<double> left(n), reach(n);
+    std::vector<double> summed_forces(n), reach(n);
     double worst = 0;
     for (unsigned pattern = 0; pattern < 5; ++pattern) {
         unsigned state = 2463534242U + pattern;
@@ -139,11 +140,12 @@ double condition_of(const BranchLinks<Fine>& links, BorderedChain& border,
         for (std::size_t m = 0; m < n; ++m) {
             state ^= state << 13, state ^= state >> 17, state ^= state << 5;
             total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
-            left[m] = pattern < 4 ? total : 0.0;
+            summed_forces[m] = pattern < 4 ? total : 0.0;
         }
-        border.solve(left, pattern < 4 ? 0.0 : given, reach);
+        border.solve(summed_forces, pattern < 4 ? 0.0 : given, reach);
         for (std::size_t m = 0; m < links.bodies(); ++m) {
-            const double turn = reach[m] * std::sqrt(growth[m] / as_double(links.links[m].length));
+            const double turn =
+                reach[m] * std::sqrt(tau_per_reach[m] / as_double(links.links[m].length));
             worst = std::max(worst, std::abs(turn));
         }
     }
@@ -156,7 +158,7 @@ std::vector<Fine> offsets_of(const BranchLinks<Fine>& links, const BranchState& 
     std::vector<Fine> y(links.size() + 1);
     y.back() = links.radius;
     for (std::size_t m = links.size(); m-- > 0;) {  // from a - a sin, accurate near the horizontal
-        const double tau = state.rise[m];
+        const double tau = state.tau[m];
         const Fine &a = links.links[m].length,
                    d = a * (Fine(1) - Fine(2) / (Fine(1) + Fine(std::exp(2 * std::abs(tau)))));
         const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
@@ -178,8 +180,8 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
     std::vector<Fine>& y = result.shape.offset;
     Fine& height = result.height;
     BorderedChain border(n);
-    std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n),
-        growth(n);
+    std::vector<double> stiffness(n), column(n), summed_forces(n), size(n), row(n), reach(n),
+        tau_per_reach(n);
     double last = 1;
     for (int round = 0; round < 40; ++round) {
         Fine sum(0), before(0);
@@ -191,17 +193,19 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
             const Fine d = y[m] - y[m + 1];
             if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
             const Fine cosine = links.is_spring(m) ? Fine(1) : cosine_of(link.length, d),
-                       factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
-                       pulled = factor * tangent, turn = link.cross * d,
-                       at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+                       lambda_pull = height * links.pull(m, speed),
+                       tangent = d / (link.length * cosine), pulled = lambda_pull * tangent,
+                       turn = link.cross * d, at_lower = link.moment * y[m],
+                       at_upper = link.rest * y[m + 1];
             const Fine whole = sum + at_lower - pulled - turn;
             const double c = as_double(cosine), a = as_double(link.length);
-            left[m] = as_double(whole), pull[m] = along[m] = as_double(pulled);
+            const double pull = as_double(pulled);
+            summed_forces[m] = as_double(whole), column[m] = pull;
             if (!links.spin.empty())
-                along[m] = as_double(height * links.growing_pull(m, speed) * tangent);
-            growth[m] = 1 / (a * c * c);
-            stiffness[m] = as_double(factor) / (a * c * c * c) + as_double(link.cross);
-            const double parts = std::abs(pull[m]) + as_double(abs(turn));
+                column[m] = as_double(height * links.growing_pull(m, speed) * tangent);
+            tau_per_reach[m] = 1 / (a * c * c);
+            stiffness[m] = as_double(lambda_pull) / (a * c * c * c) + as_double(link.cross);
+            const double parts = std::abs(pull) + as_double(abs(turn));
             size[m] = below_size + parts + as_double(abs(at_lower));
             below_size = parts + as_double(abs(at_upper));
             const double force = std::abs(as_double(whole - before));
@@ -209,10 +213,10 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
             before = whole;
             sum = sum + at_lower + at_upper;
         }
-        const auto [open, row_height] = condition.left(links, y, height, row);
-        border.factor(stiffness, links.links, along, row, row_height);
+        const auto [missing, corner] = condition.shortfall(links, y, height, row);
+        border.factor(stiffness, links.links, column, row, corner);
         if (result.shape.converged) break;  // the factors are now those of the result
-        const double log_change = border.solve(left, as_double(open), reach);
+        const double log_change = border.solve(summed_forces, as_double(missing), reach);
         // Changes are relative to a link's own inclination and to the steepest one. The start was
         // summed in double. The offset of an almost vertical link may thus be rounding alone, for
         // example 1e-18 instead of 1e-40. This is harmless.
@@ -220,10 +224,10 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
         for (std::size_t m = n; m-- > 0;) {
             // a link that happens to be vertical counts with what double-double offsets resolve
             const double lower = std::abs(as_double(y[m])), upper = std::abs(as_double(y[m + 1])),
-                         there = std::abs(as_double(y[m] - y[m + 1])) * growth[m],
-                         told =
-                             std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
-                         change = std::abs(reach[m]) * growth[m];
+                         there = std::abs(as_double(y[m] - y[m + 1])) * tau_per_reach[m],
+                         told = std::max(
+                             {there, 1e-18 * tau_per_reach[m] * std::max(lower, upper), 1e-280}),
+                         change = std::abs(reach[m]) * tau_per_reach[m];
             largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
             steepest = std::max(steepest, there), farthest = std::max(farthest, change);
             x += reach[m];
@@ -240,7 +244,7 @@ Polished polished(const BranchLinks<Fine>& links, const BranchState& start,
         last = largest;
     }
     if (result.shape.converged)
-        result.condition = condition_of(links, border, size, growth, condition.size(height));
+        result.condition = condition_of(links, border, size, tau_per_reach, condition.size(height));
     return result;
 }
 

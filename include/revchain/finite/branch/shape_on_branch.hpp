@@ -119,7 +119,7 @@ class BranchSearch {
             const auto i = static_cast<Index>(m);
             const bool stands = root_.system->stands(m);
             const double inclination = shape->inclination[i],
-                         there = std::atan(std::sinh(near.rise[m])),
+                         there = std::atan(std::sinh(near.tau[m])),
                          here =
                              stands ? -std::remainder(inclination, std::numbers::pi) : inclination;
             same = std::max(same, std::abs(here - there));
@@ -187,9 +187,9 @@ auto search_by_number(std::string_view place, const System& system, const Branch
                     ? "tip inclination must lie between pi/2 and pi, since the lowest link stands"
                     : "tip inclination must lie between 0 and pi/2",
                 *given.tip_inclination);
-        const double rise = std::asinh(std::tan(angle));
-        const TipInclinationMeasure measure{rise, links->is_symmetric()};
-        return search(measure, GivenTipInclination(angle), amplitude_of(root, measure, rise));
+        const double tau = std::asinh(std::tan(angle));
+        const TipInclinationMeasure measure{tau, links->is_symmetric()};
+        return search(measure, GivenTipInclination(angle), amplitude_of(root, measure, tau));
     }
     if (given.tip_radius) {
         require_positive(place, "tip radius", *given.tip_radius);

@@ -12,7 +12,7 @@ namespace revchain::inline REVCHAIN_BUILD::finite {
 /// lambda. A small tau is the inclination, a large one the logarithm of the tangent. In these
 /// coordinates the ends of branches are straight.
 struct BranchState {
-    std::vector<double> rise;  ///< tau, lowest link first
+    std::vector<double> tau;  ///< of each link, lowest first
     double log_height = 0;
 };
 

@@ -20,7 +20,7 @@ void append(Branch& branch, const BranchPoint& point) {
     double y = as_double(links.radius), sideways = 0, inertia = system.axial, energy = 0;
     for (std::size_t m = links.size(); m-- > 0;) {
         const auto& link = links.links[m];
-        const Inclined at = links.inclined(m, point.state.rise[m]);
+        const Inclined at = links.inclined(m, point.state.tau[m]);
         const double a = as_double(link.length), moment = as_double(link.moment),
                      rest = as_double(link.rest), pull = as_double(links.pull(m, speed)),
                      d = a * at.sine, upper = y;
@@ -30,7 +30,7 @@ void append(Branch& branch, const BranchPoint& point) {
         energy += links.is_spring(m) ? pull * a * at.sine * at.sine / 2 : -pull * a / at.secant;
     }
     branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
-    const double inclination = std::atan(std::sinh(point.state.rise[0]));
+    const double inclination = std::atan(std::sinh(point.state.tau[0]));
     branch.tip_inclination.push_back(system.stands(0) ? beyond(-inclination, inclination < 0)
                                                       : inclination);
     branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
@@ -61,8 +61,8 @@ bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPo
 REVCHAIN_LAZY
 bool crosses_vertical(const BranchPoint& before, const BranchPoint& here) {
     double sum = 0;
-    for (std::size_t m = 0; m < here.state.rise.size(); ++m)
-        sum += before.state.rise[m] * here.state.rise[m];
+    for (std::size_t m = 0; m < here.state.tau.size(); ++m)
+        sum += before.state.tau[m] * here.state.tau[m];
     return sum < 0;
 }
 
@@ -78,7 +78,7 @@ bool is_slack(const BranchLinks<double>& links, double log_height) {
 /// Returns true if the spring at the support is stretched by more than a thousand lengths.
 template <class S>
 bool is_loose(const BranchLinks<S>& links, const BranchState& at) {
-    return links.spring && std::abs(at.rise.back()) > 7.6;  // arsinh 1000
+    return links.spring && std::abs(at.tau.back()) > 7.6;  // arsinh 1000
 }
 
 /// Follows a branch until it comes down to `log_end` or, if finite, up to `log_top`. Adds points at
@@ -141,7 +141,7 @@ std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector,
     const auto take = [&](const BranchState& near) {
         if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));
     };
-    const bool from_vertical = trace.onset && largest_rise(trace.points[0].state) == 0;
+    const bool from_vertical = trace.onset && largest_tau(trace.points[0].state) == 0;
     const double side = from_vertical && trace.onset->rises() ? -1 : 1;  // of the mode's height
     const bool within = from_vertical && side * off(0) > 0;
     if (from_vertical && !within && branch.size() < 2) return found;

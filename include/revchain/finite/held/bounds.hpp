@@ -2,11 +2,27 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "revchain/finite/held/sweep.hpp"
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
+
+/// The goal of a chain held at both ends: its span, or lambda times the tension at the upper end.
+struct HeldGoal {
+    Interval<double> value;
+    bool is_span = true;
+};
+
+/// A cell of starts: ranges of two numbers of the lowest link of a chain held at both ends. These
+/// are lambda times the pull along the link, and the tangent of half its angle to the axis,
+/// positive outwards. The angle is that to the upward axis if the link leads upwards, else to the
+/// downward axis. So tangents from -1 to 1 suffice, and from 0 to 1 with mirror images.
+struct HeldCell {
+    std::array<Interval<double>, 2> at;  ///< pull, tangent
+    bool leads_up = true;
+};
 
 /// A chain held at both ends, its ends and its goal in intervals, with bounds for all its shapes.
 class HeldBounds {
@@ -68,11 +84,13 @@ class HeldBounds {
     }
     const Span& length() const { return rest_[0]; }
 
-    /// Returns the forces at the lower end for a pull along the lowest link and its tangent.
-    HeldForces<double> forces(double pull, double tangent, bool up) const {
+    /// Returns the forces at the lower end for the numbers of a `HeldCell`: lambda times the pull
+    /// along the lowest link, the tangent of half its angle, and whether it leads upwards.
+    HeldForces<double> forces(double pull, double tangent, bool leads_up) const {
         const auto number = [](const Span& x) { return x.middle(); };
         const double sine = 2 * tangent / (1 + tangent * tangent),
-                     cosine = (up ? 1 : -1) * (1 - tangent * tangent) / (1 + tangent * tangent);
+                     cosine =
+                         (leads_up ? 1 : -1) * (1 - tangent * tangent) / (1 + tangent * tangent);
         const double load = -pull * sine, foot = lower_.yields()
                                                      ? number(foot_) - number(gives_) * load
                                                      : number(lower_.radius);

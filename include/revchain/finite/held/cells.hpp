@@ -22,7 +22,7 @@ class HeldCells : public HeldBounds {
 
     /// Divides directions of a possibly slack link into arcs, for at most `arcs` sweeps.
     HeldReach operator()(const HeldCell& cell, long arcs) const {
-        const HeldCell middle{{point(cell.at[0]), point(cell.at[1])}, cell.up};
+        const HeldCell middle{{point(cell.at[0]), point(cell.at[1])}, cell.leads_up};
         Start box(cell, *this), centre(middle, *this);
         HeldReach result;
         if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0)
@@ -89,9 +89,10 @@ class HeldCells : public HeldBounds {
         return result;
     }
 
-    /// A link: its loads, sine over `Start::unit`, cosine, pull and growth of its moment.
+    /// A link: its loads, sine over `Start::unit`, cosine, pull and turning stiffness (see
+    /// `find_direction`).
     struct Hung {
-        Span across, along, sine, cosine, pull, growth, most;
+        Span across, along, sine, cosine, pull, stiffness, most;
         bool known = false;
 
         /// Returns the certain sign of the offset above a link whose pull may vanish, or 0.
@@ -127,7 +128,7 @@ class HeldCells : public HeldBounds {
             const Span twice =
                 hull(Span(hull(low[2], high[2])), cell.at[1].contains(0.0) ? Span(2.0) : low[2]);
             sine_change = cosine * twice, cosine_change = -(sine * twice);
-            if (!cell.up) cosine = -cosine, cosine_change = -cosine_change;
+            if (!cell.leads_up) cosine = -cosine, cosine_change = -cosine_change;
             const Span turning = turning_of(lowest);
             push = (pull - turning) * cosine, push_change = (pull - turning) * cosine_change;
             offset = lowest.length, rise = lowest.length * cosine;
@@ -162,11 +163,11 @@ class HeldCells : public HeldBounds {
        public:
         void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
             const Span& s = hung.sine;
-            const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
+            const Span bend = square(hung.cosine) / hung.stiffness, turn = link.length * bend;
             const Span with_unit = -(chain.unit * hung.across * square(s) *
                                      (hung.pull - turning_of(link))) /
-                                   (hung.growth * hung.pull),
-                       with_push = -(hung.cosine * s) / hung.growth;
+                                   (hung.stiffness * hung.pull),
+                       with_push = -(hung.cosine * s) / hung.stiffness;
             const std::array<Span, 2> unit{Span(0.0), chain.unit_change},
                 push{chain.cosine, chain.push_change};
             const std::array<Span, 4> J{Span(1.0) - turn * link.moment, -turn,
@@ -189,7 +190,7 @@ class HeldCells : public HeldBounds {
                 const Span direct = -(link.length * (with_unit * unit[i] + with_push * push[i]));
                 const Span loaded = across_[i] + link.moment * offset_[i];
                 const Span moved = chain.unit * loaded + hung.across * unit[i];
-                rise_[i] = rise_[i] - link.length * (chain.unit * s / hung.growth) *
+                rise_[i] = rise_[i] - link.length * (chain.unit * s / hung.stiffness) *
                                           (hung.cosine * moved - chain.unit * s * push[i]);
                 const auto kept = times(middle_[i][0], middle_[i][1]);
                 const Span offset = kept[0] + direct, across = kept[1] + link.rest * direct;
@@ -314,10 +315,10 @@ class HeldCells : public HeldBounds {
                 size = sqrt(square(at_s) + square(at_c));
             const Span s = at_s / size, c = at_c / size, near_s = hull(sine, s),
                        near_c = hull(cosine, c);
-            const Span growth =
+            const Span stiffness =
                 at.along * near_c + turning * (square(near_c) - square(near_s)) + R * near_s;
-            if (!growth.positive()) break;
-            const Span turn = (R * c - at.along * s - turning * s * c) / growth;
+            if (!stiffness.positive()) break;
+            const Span turn = (R * c - at.along * s - turning * s * c) / stiffness;
             sine = common(sine, s + near_c * turn), cosine = common(cosine, c - near_s * turn);
             if (!(sine.low <= sine.high && cosine.low <= cosine.high)) return false;
         }
@@ -373,7 +374,7 @@ class HeldCells : public HeldBounds {
         const Span turning = turning_of(link);
         if (is_zero(link.cross)) {
             if (!sum.positive()) return result;
-            result.pull = result.growth = result.most;
+            result.pull = result.stiffness = result.most;
             result.cosine = common(V / result.pull, Span(-1.0, 1.0));
         } else {
             if (!(sum.low > square(turning).high * (1 + 1e-9))) return result;
@@ -382,12 +383,12 @@ class HeldCells : public HeldBounds {
             const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
             if (!(find_direction(near, R.middle(), V.middle(), way) > 0)) return result;
             Direction<Span> all;  // by Newton's method in intervals about the middle's inclination
-            const Span growth = enclose_rigid_direction(link, R, V, way, all);
-            if (!growth.positive()) return result;
+            const Span stiffness = enclose_rigid_direction(link, R, V, way, all);
+            if (!stiffness.positive()) return result;
             result.cosine = common(all.cosine, Span(-1.0, 1.0));
             result.pull = sqrt(square(V + turning * result.cosine) + square(R));
-            result.growth = common(growth, result.pull - turning * square(all.sine));
-            if (!result.pull.positive() || !result.growth.positive()) return result;
+            result.stiffness = common(stiffness, result.pull - turning * square(all.sine));
+            if (!result.pull.positive() || !result.stiffness.positive()) return result;
         }
         result.sine = r / result.pull;
         result.known = true;

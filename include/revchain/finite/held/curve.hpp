@@ -18,10 +18,10 @@ struct HeldState {
 /// The number that varies along a curve of states besides the two forces.
 enum class Third { span, height, part };
 
-/// A curve of states that meet the upper end, in two forces and a third number, followed by its arc
-/// through folds. Its tangent is the cross product of two gradients. `Shooter` maps forces to the
-/// upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`. If `keep` is true
-/// it stores its state.
+/// A curve of states whose upper end is at its support, in two forces and a third number (`Third`),
+/// followed by its arc through folds. Its tangent is the cross product of two gradients. `Shooter`
+/// maps forces to the upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool
+/// keep)`. If `keep` is true it stores its state.
 template <class Shooter>
 class HeldCurve {
    public:
@@ -36,7 +36,7 @@ class HeldCurve {
     std::optional<HeldState> corrected(HeldState state) {
         detail::check_interrupt();
         const auto sweep = [&](const HeldForces<double>& at) { return (*shooter_)(at, false); };
-        if (!meet(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
+        if (!find_forces(state.forces, state.span, has_image(state), 1e-13, 1e-7, sweep)) return {};
         (*shooter_)(state.forces, true);
         return state;
     }

@@ -30,7 +30,7 @@ struct HeldSupports {
 };
 
 /// Returns the supports at a height, in units of a chain, with radii and compliances times `part`.
-/// The third number is the height; with `by_part` it is the part.
+/// The parameter of the derivatives is the height; with `by_part` it is the part.
 template <class T>
 HeldEnds<T> held_ends(const HeldSupports& supports, const ChainUnits& units, const T& height,
                       double part = 1, bool by_part = false) {
@@ -94,7 +94,7 @@ class HeldChain {
     /// Fixes the height at which springs are evaluated. Without it, each state uses its own height.
     void springs_at(const std::optional<S>& height) { supports_.height = height; }
 
-    /// Returns the supports at a height, or `part` of them.
+    /// Returns the supports at a height, with radii and compliances times `part`.
     template <class T>
     HeldEnds<T> ends(const T& height, double part = 1) const {
         return held_ends(supports_, wide_.units, height, part, by_part_);
@@ -156,7 +156,7 @@ class HeldChain {
         const auto sweep = [&](const HeldForces<S>& at) {
             return held_sweep(wide_.links, held, at, direction);
         };
-        if (!meet(forces, span, is_symmetric(), 1e-29, 1e-18, sweep)) return {};
+        if (!find_forces(forces, span, is_symmetric(), 1e-29, 1e-18, sweep)) return {};
         HeldShape shape = described(wide_, held, forces, span, direction);
         if (prove) {
             std::vector<Direction<Far>> found;
@@ -185,9 +185,9 @@ class HeldChain {
         const auto at_pull = [&](std::size_t m, double R, double V, Direction<double>& way) {
             const double pull = std::hypot(R, V);
             way = {R / pull, V / pull};
-            const double growth = find_direction(links_[m], R, V, way);
+            const double stiffness = find_direction(links_[m], R, V, way);
             drawn.push_back(way);
-            return growth;
+            return stiffness;
         };
         if (held_sweep<2>(links_, ends(forces.height), forces, at_pull).known) kept_ = drawn;
     }
@@ -197,12 +197,13 @@ class HeldChain {
         const auto sweep = [&](const HeldForces<double>& at) {
             HeldEnd<double> end = (*this)(at, true);
             const double along = at.along + at.height * as_double(weight_);
-            end.rise = std::hypot(end.across, along);  // the tension in place of the rise
+            // `find_forces` solves for a rise; here the tension is in its place
+            end.rise = std::hypot(end.across, along);
             end.rise_change[0] = end.across_change[0] * end.across / end.rise;
             end.rise_change[1] = (end.across_change[1] * end.across + along) / end.rise;
             return end;
         };
-        if (!meet(forces, wanted, is_symmetric(), 1e-15, 1e-12, sweep)) return {};
+        if (!find_forces(forces, wanted, is_symmetric(), 1e-15, 1e-12, sweep)) return {};
         return HeldState{forces, (*this)(forces, true).rise};
     }
 
@@ -226,7 +227,7 @@ std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
         const double low = 2 * std::atan(cell.at[1].low), high = 2 * std::atan(cell.at[1].high),
                      by = 1e-15;
         constexpr double pi = std::numbers::pi;
-        if (cell.up) {
+        if (cell.leads_up) {
             result.push_back({-high - by, -low + by});
             continue;
         }
@@ -290,7 +291,7 @@ void complete(HeldShapes& list, HeldChain& held, const Fine& height, const HeldG
                           goal, options.max_half_waves);
     HeldRoots found = HeldSearch(cells, options.budget)();
     for (const HeldRoot& root : found.roots) {
-        const HeldForces<double> forces = cells.forces(root.pull, root.tangent, root.cell.up);
+        const HeldForces<double> forces = cells.forces(root.pull, root.tangent, root.cell.leads_up);
         held.draw(forces);
         std::optional<HeldShape> shape;
         if (goal.is_span) {
@@ -327,7 +328,8 @@ HeldShapes held_shapes(const Chain<double>& chain, const HeldSupports& supports,
         }
     });
     if (!supports.plain()) keep_different(list, options.max_half_waves);
-    if (options.prove) complete(list, held, lambda, {Interval<double>(apart), true}, options);
+    if (options.prove)
+        complete(list, held, lambda, {.value = Interval<double>(apart), .is_span = true}, options);
     return list;
 }
 
@@ -345,7 +347,9 @@ HeldShapes held_shapes_under_tension(const Chain<double>& chain, const HeldSuppo
             add(held.finished(found, Fine(found.span), lambda, options.prove));
         });
     });
-    if (options.prove) complete(list, held, lambda, {enclosed<double>(wanted), false}, options);
+    if (options.prove)
+        complete(list, held, lambda, {.value = enclosed<double>(wanted), .is_span = false},
+                 options);
     return list;
 }
 

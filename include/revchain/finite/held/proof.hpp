@@ -39,12 +39,12 @@ std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links,
     double turned = 0;
     const auto enclose_link = [&](std::size_t m, const Span& R, const Span& V,
                                   Direction<Span>& way) {
-        const Span growth = enclose_direction(links[m], R, V, found[m], way);
+        const Span stiffness = enclose_direction(links[m], R, V, found[m], way);
         const double turn =
             largest(way.sine * Span(found[m].cosine) - way.cosine * Span(found[m].sine));
         if (!(turn < 1)) return Span(Far(0));
         turned = std::max(turned, turn);
-        return growth;
+        return stiffness;
     };
     const auto end =
         held_sweep<2>(links, ends, {about(0), about(1), height, Span(Far(1))}, enclose_link);

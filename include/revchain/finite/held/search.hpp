@@ -95,8 +95,8 @@ class HeldSearch {
             const auto next = image(cell, reach);
             if (next) {
                 if (next->none) return;
-                if (next->regular && isolated(HeldCell{next->at, cell.up})) return;
-                const HeldCell less{next->at, cell.up};
+                if (next->regular && isolated(HeldCell{next->at, cell.leads_up})) return;
+                const HeldCell less{next->at, cell.leads_up};
                 if (less.at[0].width() < 0.5 * cell.at[0].width() ||
                     less.at[1].width() < 0.5 * cell.at[1].width()) {
                     wait(less);
@@ -126,7 +126,7 @@ class HeldSearch {
         if (!reach.known) return false;
         auto next = image(about, reach);
         if (!next || !next->regular || !next->inside) return false;
-        HeldCell near{next->at, cell.up};
+        HeldCell near{next->at, cell.leads_up};
         for (int round = 0; round < 5; ++round) {
             reach = sweep(near);
             if (!reach.known) break;
@@ -141,7 +141,7 @@ class HeldSearch {
     }
     static bool within(const HeldCell& cell, const HeldCell& other) {
         Span tangent = cell.at[1];
-        if (cell.up != other.up) tangent = Span(1.0) / tangent;
+        if (cell.leads_up != other.leads_up) tangent = Span(1.0) / tangent;
         return other.at[0].low <= cell.at[0].low && cell.at[0].high <= other.at[0].high &&
                other.at[1].low <= tangent.low && tangent.high <= other.at[1].high;
     }

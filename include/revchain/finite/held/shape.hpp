@@ -91,7 +91,7 @@ HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends,
     std::vector<HeldChange<double>> turned;
     const HeldEnd<Fine> end = held_sweep(
         chain.links, ends, forces, direction,
-        [&](std::size_t m, const Fine& y, const Fine& R, const Fine& H, const Fine& growth,
+        [&](std::size_t m, const Fine& y, const Fine& R, const Fine& H, const Fine& stiffness,
             const HeldChange<Fine>& change) {
             const Link<Fine>& link = chain.links[m];
             const auto i = static_cast<Index>(m);
@@ -99,8 +99,8 @@ HeldShape described(const Links<Fine>& chain, const HeldEnds<Fine>& ends,
             head = y - link.length * s;
             const Fine top = rise + link.length * c;
             const Fine V = forces.height * link.pull + forces.along;
-            const Fine left = V * s + link.length * link.cross * s * c - R * c;
-            shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
+            const Fine unbalanced = V * s + link.length * link.cross * s * c - R * c;
+            shape.residual = std::max(shape.residual, std::abs(narrow(unbalanced / stiffness)));
             shape.inclination[i] = as_double(std::atan2(in_long(s), in_long(c)));
             inertia = inertia + link.moment * y * y + link.rest * head * head -
                       link.cross * link.length * link.length * s * s;

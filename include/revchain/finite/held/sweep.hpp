@@ -8,15 +8,18 @@
 
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// The state at the lower end: lambda times the force on it across and along the axis, and lambda =
-/// g/n^2, 0 without gravity. `part` scales the supports; at 0 the ends are firm on the axis.
+/// A state of a chain held at both ends, given at its lower end: lambda times the force on that end
+/// across and along the axis, and lambda = g/n^2 (0 without gravity). `part` scales the supports;
+/// at 0 both ends are firm on the axis. The unknowns of a state are three numbers: `across`,
+/// `along` and a parameter, which is `height` or `part`.
 template <class S>
 struct HeldForces {
     S across, along, height;
     S part = S(1);
 };
 
-/// Both supports, with the derivatives of the supports and of the height by the third number.
+/// Both supports, and the derivatives of their radii and compliances (lower, upper) and of the
+/// height by the parameter.
 template <class S>
 struct HeldEnds {
     SupportEnd<S> lower = firm(), upper = firm();
@@ -24,34 +27,45 @@ struct HeldEnds {
     S height_change = S(1);
 
     static SupportEnd<S> firm(const S& radius = S(0)) {
-        return {radius, S(0), S(0), S(0), radius == S(0), true};
+        return {.radius = radius,
+                .compliance = S(0),
+                .stiffness = S(0),
+                .carriage = S(0),
+                .symmetric = radius == S(0),
+                .firm = true};
     }
     bool is_symmetric() const { return lower.symmetric && upper.symmetric; }
     bool yields() const { return lower.yields() || upper.yields(); }
 };
 
+/// Encloses the supports, but not the derivatives by the parameter: sweeps with the result take
+/// derivatives by the two forces only.
 template <class T, class S>
 HeldEnds<Interval<T>> enclosed(const HeldEnds<S>& ends) {
     return {enclosed<T>(ends.lower), enclosed<T>(ends.upper)};
 }
 
-/// Derivatives by the first K of the three numbers.
+/// Derivatives by the first K of `across`, `along` and the parameter.
 template <class S, std::size_t K = 3>
 using HeldChange = std::array<S, K>;
 
+/// The sine and cosine of a link's inclination to the axis.
 template <class S>
 struct Direction {
     S sine, cosine;
 };
 
-/// The swept upper end: distance from its support (see `SupportEnd::miss`), height, force across.
+/// The upper end after a sweep: the distance of the topmost pin from its support (see
+/// `SupportEnd::miss`), its distance above the lower end along the axis, and lambda times the force
+/// across.
 template <class S, std::size_t K = 3>
 struct HeldEnd {
     S offset{}, rise{}, across{};
     HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
     bool known = false;  ///< false if a link is slack or its inclination turns over
 
-    /// Returns the changes of the two forces that move the upper end by (y, z).
+    /// Returns the changes of the two forces that move the upper end by y across and z along the
+    /// axis.
     std::array<S, 2> forces_to_move(const S& y, const S& z) const {
         const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0],
                 &d = rise_change[1];
@@ -60,9 +74,11 @@ struct HeldEnd {
     }
 };
 
-/// Solves V s + a X s c - R c = 0 for the direction of a link under the pull (R, V) across and
-/// along the axis. Returns the derivative by the inclination, positive at a stable direction; for a
-/// plummet it is the pull. Of several solutions it finds the one nearest to the given direction.
+/// Finds the direction of a link with sine s and cosine c. It solves V s + length cross s c - R c =
+/// 0 for the loads R = `across` and V = `along`. Of several solutions it finds the one nearest to
+/// the given `direction`. Returns the turning stiffness: the derivative of the left side by the
+/// inclination, positive at a stable direction; for a plummet it is the pull. Returns 0 if it finds
+/// no stable direction.
 template <class S>
 S find_direction(const Link<S>& link, const S& across, const S& along, Direction<S>& direction) {
     using std::abs;
@@ -74,14 +90,15 @@ S find_direction(const Link<S>& link, const S& across, const S& along, Direction
         s = across / pull, c = along / pull;
         return pull;
     }
-    const S turn = link.length * link.cross;
-    S growth(0);
+    const S turning = link.length * link.cross;
+    S stiffness(0);
     double last = 1;
     for (int round = 0; round < 60; ++round) {
-        growth = along * c + turn * (c * c - s * s) + across * s;
-        if (!(growth > S(0))) return S(0);
-        // half of Newton's step as the tangent of half an angle
-        S half = -(along * s + turn * s * c - across * c) / (S(2) * growth);
+        stiffness = along * c + turning * (c * c - s * s) + across * s;
+        if (!(stiffness > S(0))) return S(0);
+        // Newton's step is taken as twice the tangent of half an angle. The link turns by that
+        // angle, so its sine and cosine need no square root.
+        S half = -(along * s + turning * s * c - across * c) / (S(2) * stiffness);
         const double size = std::abs(as_double(half));
         if (size > 0.3) half = half * S(0.3 / size);
         const S square = half * half, whole = S(1) + square, cosine = (S(1) - square) / whole,
@@ -89,47 +106,54 @@ S find_direction(const Link<S>& link, const S& across, const S& along, Direction
         const S turned = s * cosine + c * sine;
         c = c * cosine - s * sine;
         s = turned;
-        if (size < as_double(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last)) return growth;
+        if (size < as_double(epsilon<S>()) || (size < 1e-14 && size >= 0.25 * last))
+            return stiffness;
         last = size;
     }
     return S(0);
 }
 
-/// Encloses the direction of a link other than a plummet under the loads (R, V), near one found for
-/// one of the loads, by Newton's method in intervals. Returns the derivative as `find_direction`
-/// does. It is not positive if the link may be slack or have another inclination.
+/// Encloses the direction of a link other than a plummet for loads R across and V along the axis,
+/// by Newton's method in intervals. `found` is the direction for one of these loads. Returns the
+/// turning stiffness as `find_direction` does. It is not positive if the link may be slack or have
+/// another inclination.
 template <Real T, class Span = Interval<T>>
 Span enclose_rigid_direction(const Link<Span>& link, const Span& R, const Span& V,
                              const Direction<T>& found, Direction<Span>& direction) {
-    const Span turn = link.length * link.cross, sine(found.sine), cosine(found.cosine);
+    const Span turning = link.length * link.cross, sine(found.sine), cosine(found.cosine);
     const Span size = sqrt(square(sine) + square(cosine)), s = sine / size, c = cosine / size;
-    const Span left = V * s + turn * s * c - R * c;
-    const auto growth_at = [&](const Direction<Span>& way) {
-        return V * way.cosine + turn * (square(way.cosine) - square(way.sine)) + R * way.sine;
+    const Span unbalanced = V * s + turning * s * c - R * c;
+    const auto stiffness_at = [&](const Direction<Span>& way) {
+        return V * way.cosine + turning * (square(way.cosine) - square(way.sine)) + R * way.sine;
     };
-    Span growth = growth_at({s, c});
-    T reach = T(1.1) * left.size() / growth.low + T(4) * epsilon<T>();
-    for (; growth.positive() && reach < T(0.5); reach = T(1.5) * reach) {
-        direction = {s + Span(-reach, reach), c + Span(-reach, reach)};
-        growth = growth_at(direction);
-        if (growth.positive() && (left / growth).size() < reach) return growth;
+    Span stiffness = stiffness_at({s, c});
+    T margin = T(1.1) * unbalanced.size() / stiffness.low + T(4) * epsilon<T>();
+    for (; stiffness.positive() && margin < T(0.5); margin = T(1.5) * margin) {
+        direction = {s + Span(-margin, margin), c + Span(-margin, margin)};
+        stiffness = stiffness_at(direction);
+        if (stiffness.positive() && (unbalanced / stiffness).size() < margin) return stiffness;
     }
     return Span(T(0));
 }
 
+/// A receiver of links that ignores them.
 struct SeesNothing {
     template <class... Any>
     void operator()(std::size_t, const Any&...) const {}
 };
 
-/// Sweeps from the lower to the upper end: Greenhill (1908) §8 with a force at the lower end,
-///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
-///     y = y_below - length s,         H = R + rest y,
-/// with tau = `along` and F = `across`. A lower end on a spring is at y = b - F/(lambda E), where H
-/// = F + W y, with W its carriage. A firm one is at b, where H = F. Derivatives by the first K
-/// numbers are exact. `solve(m, R, V, way)` sets the direction of link m and returns the derivative
-/// of its moment by the inclination. The sweep ends if that is not positive. `each(m, y, R, H,
-/// growth, change of the inclination)` receives every link: y of its lower pin, H of its upper pin.
+/// Sweeps from the lower to the upper end: Greenhill (1908) §8 with a force at the lower end. Let a
+/// link have the inclination of tangent t and sine s, its lower pin the offset y_below and its
+/// upper pin the offset y. Then
+///     R = H_below + moment y_below,   V t + length cross s = R,   V = lambda pull + along,
+///     y = y_below - length s,         H = R + rest y.
+/// A firm lower end is at its radius y, with H = across. A lower end of radius b on a spring of
+/// stiffness E, in a carriage of weight W, is at y = b - across/(lambda E), with H = across + W y.
+/// Derivatives by the first K of `across`, `along` and the parameter are exact.
+/// `solve(m, R, V, way)` sets the direction of link m and returns its turning stiffness (see
+/// `find_direction`). The sweep ends if that is not positive.
+/// `each(m, y, R, H, stiffness, change)` receives every link: y_below, R, H, the turning stiffness
+/// and the change of its inclination.
 template <std::size_t K, class S, class Solve, class Each = SeesNothing>
 HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends,
                          const HeldForces<S>& forces, const Solve& solve, const Each& each = {}) {
@@ -150,8 +174,8 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
         const Link<S>& link = links[m];
         const S R = H + link.moment * y, V = forces.height * link.pull + forces.along;
         Direction<S> way;
-        const S growth = solve(m, R, V, way);
-        if (!is_positive(growth)) return {};
+        const S stiffness = solve(m, R, V, way);
+        if (!is_positive(stiffness)) return {};
         const auto& [s, c] = way;
         HeldChange<S, K> R_change, turned;
         for (std::size_t i = 0; i < K; ++i) {
@@ -159,7 +183,7 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
             S moment = c * R_change[i];
             if (i == 1) moment = moment - s;
             if (i == 2) moment = moment - s * link.pull * ends.height_change;
-            turned[i] = moment / growth;
+            turned[i] = moment / stiffness;
         }
         const S below = y;
         y = y - link.length * s, z = z + link.length * c, H = R + link.rest * y;
@@ -168,7 +192,7 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& e
             z_change[i] = z_change[i] - link.length * s * turned[i];
             H_change[i] = R_change[i] + link.rest * y_change[i];
         }
-        each(m, below, R, H, growth, turned);
+        each(m, below, R, H, stiffness, turned);
     }
     HeldEnd<S, K> end{upper.miss(y, H), z, H, y_change, z_change, H_change, true};
     if constexpr (K > 2) end.offset_change[2] = end.offset_change[2] - ends.radius_change[1];
@@ -190,20 +214,22 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldEnds<S>& ends
                       const HeldForces<S>& forces, std::vector<Direction<S>>& direction,
                       const Each& each = {}) {
     const auto at_pull = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
-        const S growth = find_direction(links[m], R, V, direction[m]);
+        const S stiffness = find_direction(links[m], R, V, direction[m]);
         way = direction[m];
-        return growth;
+        return stiffness;
     };
     return held_sweep<3>(links, ends, forces, at_pull, each);
 }
 
-/// Finds the forces at the lower end for a rise of the upper end, by Newton's method; returns
-/// whether it converged. `sweep(forces)` returns the upper end. Steps are relative to the larger of
-/// the forces before and after. With mirror images the force across is compared with itself alone.
-/// It ends after a step below `enough`, or below `rounding` and over a quarter of the last.
+/// Finds the forces at the lower end for which the topmost pin is at its support and at the given
+/// rise, by Newton's method. `sweep(forces)` returns the upper end. Returns false if the method
+/// does not converge. The size of a step is measured relative to the larger of the forces before
+/// and after it. The change across is measured relative to the forces across alone if the shape has
+/// a mirror image (`symmetric`): the force across is then never 0. The method ends after a step
+/// smaller than `enough`, or smaller than `rounding` but larger than a quarter of the step before.
 template <class S, class Sweep>
-bool meet(HeldForces<S>& forces, const S& rise, bool symmetric, double enough, double rounding,
-          const Sweep& sweep) {
+bool find_forces(HeldForces<S>& forces, const S& rise, bool symmetric, double enough,
+                 double rounding, const Sweep& sweep) {
     const auto size_of = [](const S& x) { return std::abs(as_double(x)); };
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 30; ++round) {
@@ -221,18 +247,5 @@ bool meet(HeldForces<S>& forces, const S& rise, bool symmetric, double enough, d
     }
     return false;
 }
-
-/// The lowest link of a chain held at both ends, in intervals: lambda times its pull, and the
-/// tangent, positive outwards, of half its angle to the vertical, upward or not.
-struct HeldCell {
-    std::array<Interval<double>, 2> at;  ///< pull; tangent from 0 (mirror images) or -1 to 1
-    bool up = true;
-};
-
-/// The goal of a chain held at both ends: its span, or lambda times the tension at the upper end.
-struct HeldGoal {
-    Interval<double> value;
-    bool is_span = true;
-};
 
 }  // namespace revchain::finite

@@ -13,63 +13,19 @@
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
+#include "revchain/finite/shapes/tangent_limit.hpp"
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/thorough.hpp"
 
-/// Finds the list of all steady shapes at a height; see revchain/steady_shapes.hpp.
+/// Finds the list of all steady shapes at a height; see revchain/steady_shapes.hpp. The unknown is
+/// the tangent of the lowest link's inclination. `Means` is `Thorough` or `UsualMeans`
+/// (revchain/thorough.hpp). Shapes are computed in `Fine` numbers and proved in `Far` ones
+/// (finite/balance/links.hpp).
 namespace revchain::inline REVCHAIN_BUILD::finite {
 
-/// Returns an upper bound of the lowest tangent: y0 = lambda t + (a X/moment) s is within the
-/// reach.
-template <class T>
-T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height,
-                   bool either_posture = false, OnAxis = {}) {
-    Interval<T> reach(T(0));
-    for (const Link<Interval<T>>& link : links) reach = reach + link.length;
-    const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
-    const Interval<T> beyond =
-        hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
-    return ((reach + Interval<T>(beyond.high)) / height).high;
-}
-
-/// 1 - W/(lambda E), W all moving weight: the part of the spring's stiffness that holds its pin.
-template <class T>
-Interval<T> left_to_the_spring(const EnclosedLinks<T>& links,
-                               const SupportEnd<Interval<T>>& support) {
-    Interval<T> moving = support.carriage;
-    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
-    return Interval<T>(T(1)) - support.compliance * moving;
-}
-
-/// An upper bound for the tangent of the lowest link of a rig in either posture, from lambda pull t
-/// + a X s = moment y. The topmost pin is at most (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda
-/// E)| from the axis, the others at most the links' reach from it. If lambda E is W, to rounding,
-/// there is no bound: then as if they were 1e-6 apart.
-template <class T>
-T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool,
-                   const SupportEnd<Interval<T>>& support) {
-    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
-    for (const Link<Interval<T>>& link : links) {
-        reach = reach + Interval<T>(link.length.size());
-        if (!support.firm)
-            drawn = drawn +
-                    support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
-        moving = moving + link.moment + link.rest;
-    }
-    if (!support.firm) {
-        const Interval<T> left = left_to_the_spring(links, support);
-        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
-    }
-    const Interval<T> turning = links[0].length * links[0].cross;
-    const Interval<T> far =
-        (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
-        (height * links[0].pull);
-    return far.high;
-}
-
-/// Whether each link but the lowest has one inclination under its load; always if l <= a.
+/// Returns true if each link but the lowest has one inclination under its load; always if l <= a.
 template <class T>
 bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
@@ -77,7 +33,7 @@ bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     });
 }
 
-/// Whether all links hang, each at one inclination.
+/// Returns true if all links hang, each at one inclination.
 template <class AnyLinks>
 bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& height) {
     const auto postures = links.postures();
@@ -86,11 +42,12 @@ bool hangs_at_one_inclination(const AnyLinks& links, const Interval<double>& hei
     return single_valued(links.template links_for_sweep<double>(), height);
 }
 
-/// Returns brackets of shapes where a proof of completeness failed. Between tangents of the lowest
-/// link at which the offset of the support, `sign(tangent)`, has certain opposite signs there is at
-/// least one. Samples the ends of the ascending `ranges` and those of `points` tangents up to
-/// `last` in them. A third each are even in inclination, in tangent, and in its logarithm down to
-/// 1e-12 of the last.
+/// Returns brackets of shapes in ranges of tangents for which a proof of completeness failed. There
+/// is at least one shape between two tangents at which `sign(tangent)`, the sign of the support's
+/// offset, is certain and opposite. The sign is sampled at the ends of the ascending `ranges`, and
+/// at those of `points` tangents between 0 and `last` that lie in a range. A third of these points
+/// are evenly spaced in the inclination, a third in the tangent, and a third in its logarithm, from
+/// 1e-12 `last` on.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points,
                                 const Sign& sign) {
@@ -122,27 +79,27 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
     return found;
 }
 
-/// Isolates shapes in double, undecided cells in double-double, and scans cells that remain open.
+/// Isolates shapes with tangents up to `last` in double, and undecided cells in double-double.
+/// Cells that remain undecided are also scanned. `budget` limits the number of link evaluations.
 template <class AnyLinks>
-Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
-                        long links_to_look_at) {
-    const long budget = links_to_look_at / static_cast<long>(chain.links.size());
-    const auto narrow = chain.template links_for_sweep<double>();
+Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last, long budget) {
+    const long most_cells = budget / static_cast<long>(chain.links.size());
+    const auto links = chain.template links_for_sweep<double>();
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(chain.upper_end());
     const Isolation<double> first =
-        isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
+        isolate<double>(links, lambda, {0.0, last}, 1e-14, most_cells, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
-    const auto wide = chain.template links_for_sweep<Far>();
-    const Span height_wide = enclosed<Far>(height);
-    const auto support_wide = enclosed<Far>(chain.upper_end());
+    const auto far_links = chain.template links_for_sweep<Far>();
+    const Span far_lambda = enclosed<Far>(height);
+    const auto far_support = enclosed<Far>(chain.upper_end());
     for (const Bracket<double>& open : joined(first.undecided)) {
         const auto again =
-            isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
-                         std::max(0L, budget - found.cells), support_wide);
+            isolate<Far>(far_links, far_lambda, {Far(open.low), Far(open.high)}, Far(1e-26),
+                         std::max(0L, most_cells - found.cells), far_support);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         found.undecided.insert(found.undecided.end(), again.undecided.begin(),
@@ -151,18 +108,18 @@ Isolation<Far> isolated(const AnyLinks& chain, const Fine& height, double last,
     if (found.undecided.empty()) return found;
     found.undecided = joined(found.undecided);
     const auto more =
-        scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-            const int sign = sign_at(narrow, lambda, as_double(t), support);
-            return sign != 0 ? sign : sign_at(wide, height_wide, t, support_wide);
+        scanned(found.undecided, last, std::min(8192L, most_cells / 4), [&](const Far& t) {
+            const int sign = sign_at(links, lambda, as_double(t), support);
+            return sign != 0 ? sign : sign_at(far_links, far_lambda, t, far_support);
         });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
 }
 
-/// Returns the shape whose lowest tangent is in the bracket, if Newton's method finds it.
+/// Returns the shape whose lowest link has a tangent in the bracket, if Newton's method finds it.
 template <class AnyLinks>
-std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height,
-                                       const Bracket<Far>& bracket) {
+std::optional<Balanced<Fine>> shape_by_newton(const AnyLinks& chain, const Fine& height,
+                                              const Bracket<Far>& bracket) {
     const std::vector<Link<Fine>>& links = chain.links;
     const auto support = chain.upper_end();
     Fine low = bracket.low.word(), high = bracket.high.word();
@@ -186,27 +143,28 @@ std::optional<Balanced<Fine>> finished(const AnyLinks& chain, const Fine& height
     return std::nullopt;
 }
 
-/// Returns a bound on the error (rad) of inclinations found by Newton's method. It uses the signs
-/// of the support's offset on both sides of the lowest tangent, and the ranges of all links.
+/// Returns a bound on the error (rad) of inclinations found by Newton's method. The tangent of the
+/// lowest link is enclosed by two tangents at which the support's offset has opposite signs: the
+/// nearest pair that is proved, or the ends of the bracket. The sweep then encloses all others.
 template <class End>
-double inclination_error(const EnclosedLinks<Far>& links, const Fine& height,
+double inclination_error(const EnclosedLinks<Far>& enclosed_links, const Fine& height,
                          const Bracket<Far>& bracket, const Balanced<Fine>& found,
-                         const std::vector<Link<Fine>>& middle, const End& support) {
+                         const std::vector<Link<Fine>>& links, const End& support) {
     const Span lambda = enclosed<Far>(height);
-    const Far tangent(tangent_in(found, middle, 0));
-    Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
-    for (int round = 0;; ++round, reach = reach * Far(16)) {
-        const bool far = round == 300;  // 16^300 overflows
-        const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
-        const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
+    const Far tangent(tangent_in(found, links, 0));
+    Far margin = abs(tangent) * Far(1e-28) + Far(1e-290);
+    for (int round = 0;; ++round, margin = margin * Far(16)) {
+        const bool given_up = round == 300;  // the margin has overflowed: the bracket is taken
+        const Far low = given_up ? bracket.low : std::max(bracket.low, tangent - margin);
+        const Far high = given_up ? bracket.high : std::min(bracket.high, tangent + margin);
         const bool whole = low == bracket.low && high == bracket.high;
-        const auto sign = [&](const Far& t) { return sign_at(links, lambda, t, support); };
-        if (!far && !whole && sign(low) * sign(high) != -1) continue;
+        const auto sign = [&](const Far& t) { return sign_at(enclosed_links, lambda, t, support); };
+        if (!given_up && !whole && sign(low) * sign(high) != -1) continue;
         std::vector<Span> tangents;
-        support_offset(links, lambda, Span(low, high), OnAxis{}, &tangents);
+        support_offset(enclosed_links, lambda, Span(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
-            const Far t(tangent_in(found, middle, m));
+            const Far t(tangent_in(found, links, m));
             const Span both = hull(tangents[m], Span(t));
             const double near =
                 both.may_vanish() ? 0.0 : as_double(std::min(abs(both.low), abs(both.high)));
@@ -233,12 +191,12 @@ Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Span& lambda, const
     return bracket;
 }
 
-/// Returns a shape with links too near the horizontal for `finished`, from the tangents of all
-/// links in a `part` of the bracket; none if it cannot be proved.
+/// Returns a shape with links too near the horizontal for `shape_by_newton`, from the tangents of
+/// all links in a `part` of the bracket; none if it cannot be proved.
 template <class AnyLinks>
-std::optional<ProvedShape> finished_by_tangents(const AnyLinks& chain, const Fine& height,
-                                                const Bracket<Far>& bracket,
-                                                const Bracket<Far>& part) {
+std::optional<ProvedShape> shape_by_tangents(const AnyLinks& chain, const Fine& height,
+                                             const Bracket<Far>& bracket,
+                                             const Bracket<Far>& part) {
     const auto links = chain.template links_for_sweep<Far>();
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(chain.upper_end());
@@ -267,7 +225,8 @@ void leave_open(const Bracket<Far>& part, Result& result) {
 }
 
 /// Returns true if a link is so near the horizontal that the offset of a support on a spring may be
-/// wrong. Offsets in double-double give a tangent t, and the force on the spring, to 1e-32 t^2.
+/// wrong. Offsets in double-double give a tangent t, and with it the force on the spring, with a
+/// relative error of 1e-32 t^2. Up to t = 1e8 this is at most 1e-16, a rounding in double.
 REVCHAIN_LAZY
 bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>& found) {
     for (std::size_t m = 0; m < links.size(); ++m)
@@ -277,17 +236,18 @@ bool is_all_but_level(const std::vector<Link<Fine>>& links, const Balanced<Fine>
 
 /// Adds the shape in the bracket to an empty `result`, or leaves the bracket open.
 template <class Means, class AnyLinks, class Result>
-void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Fine& height,
-                  const Bracket<Far>& bracket, Result& result) {
+void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& enclosed_links,
+                  const Fine& height, const Bracket<Far>& bracket, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
     const auto support = enclosed<Far>(links.upper_end());
-    if (auto found = finished(links, height, bracket)) {
-        Shape& shape = result.shapes.emplace_back(
-            verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
+    if (auto found = shape_by_newton(links, height, bracket)) {
+        Shape& shape = result.shapes.emplace_back(verified_shape<Shape>(
+            links, enclosed_links, height, enclosed<Far>(height), *found, true));
         if (shape.error_bound <= 0x1.8p-52) return;
         // with an almost level link, or near a critical height, the sweep may bound it better
         const double error =
-            inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
+            inclination_error(enclosed_links, height, bracket, *found, links.links, support) +
+            0x1p-52;
         if (error < shape.error_bound) {
             const double condition = shape.condition;
             turn_outwards(*found, support);
@@ -298,9 +258,9 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
             !(support.yields() && is_all_but_level(links.links, *found)))
             return;
     }
-    const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
+    const auto part = narrowed(enclosed_links, enclosed<Far>(height), support, bracket);
     if constexpr (detail::is_thorough<Means>) {
-        if (const auto proved = finished_by_tangents(links, height, bracket, part)) {
+        if (const auto proved = shape_by_tangents(links, height, bracket, part)) {
             result.shapes.clear();
             add(links, height, *proved, result);
         }
@@ -308,11 +268,12 @@ void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const
     if (result.shapes.empty()) leave_open(part, result);
 }
 
-/// Adds all shapes if each link has one inclination under its load.
+/// Adds all shapes with tangents up to `last` if each link has one inclination under its load.
+/// `budget` limits the number of link evaluations.
 template <class Means, class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Fine& height, double last, long budget,
                        Result& result) {
-    const auto narrow = links.template links_for_sweep<Far>();
+    const auto enclosed_links = links.template links_for_sweep<Far>();
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
@@ -320,7 +281,7 @@ void add_single_valued(const AnyLinks& links, const Fine& height, double last, l
     detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             detail::check_interrupt();
-            add_isolated<Means>(links, narrow, height, isolation.shapes[i], each[i]);
+            add_isolated<Means>(links, enclosed_links, height, isolation.shapes[i], each[i]);
         }
     });
     for (Result& one : each) {
@@ -329,7 +290,7 @@ void add_single_valued(const AnyLinks& links, const Fine& height, double last, l
     }
 }
 
-/// Adds all shapes if links may have several inclinations.
+/// Adds all shapes with tangents up to `last` if links may have several inclinations.
 template <class AnyLinks, class Options, class Result>
 void add_several_valued(const AnyLinks& links, const Fine& height, double last,
                         const Options& options, Result& result) {
@@ -363,15 +324,16 @@ void conclude(Result& found) {
     found.complete = found.undecided.empty();
 }
 
-/// Returns all shapes at a height in the units of the links. Throws InvalidArgument where links
-/// stand or have several inclinations, unless the means are `Thorough`.
+/// Returns all shapes at a height `scaled` to the unit of the links. Throws InvalidArgument where
+/// links stand or have several inclinations, unless the means are `Thorough`.
 template <class Result, class Means, class AnyLinks, class Options>
 Result listed(const AnyLinks& links, const Fine& scaled, const Options& options) {
     Result result;
-    // slightly beyond the bound: an almost horizontal link is at the bound, to rounding
+    // The range ends slightly beyond the limit: an almost horizontal link is at the limit, to
+    // rounding.
     const double last =
-        1.01 * farthest_tangent(links.template links_for_sweep<double>(), enclosed<double>(scaled),
-                                !options.hanging_only, enclosed<double>(links.upper_end()));
+        1.01 * tangent_limit(links.template links_for_sweep<double>(), enclosed<double>(scaled),
+                             !options.hanging_only, enclosed<double>(links.upper_end()));
     if (!(as_double(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back(
             {0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});

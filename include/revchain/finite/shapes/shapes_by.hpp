@@ -8,6 +8,7 @@
 
 #include "revchain/finite/shapes/list.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/finite/shapes/tangent_limit.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/steady_shapes.hpp"
@@ -62,12 +63,12 @@ SteadyShapes steady_shapes(const Rig& rig, const Fine& height, const Fine& speed
     }
     RiggedLinks links = rigged_links(rig, height, speed);
     const Fine lambda = ldexp(height, -links.units.length_exponent);
-    const double last = farthest_tangent(links.links_for_sweep<double>(), enclosed<double>(lambda),
-                                         !options.hanging_only, enclosed<double>(links.support));
+    const double last = tangent_limit(links.links_for_sweep<double>(), enclosed<double>(lambda),
+                                      !options.hanging_only, enclosed<double>(links.support));
     result = listed<SteadyShapes, Means>(links, lambda, options);
     const bool unbounded =
         !links.support.firm &&
-        left_to_the_spring(links.links_for_sweep<double>(), enclosed<double>(links.support))
+        remaining_stiffness(links.links_for_sweep<double>(), enclosed<double>(links.support))
             .may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;

@@ -65,7 +65,7 @@ std::vector<StabilityWindow> windows_of(const System& system, const Branch& bran
                               trace.system->links.bodies());
     std::vector<StabilityWindow> windows;
     std::size_t first = 0;
-    while (trace.onset && first < branch.size() && largest_rise(trace.points[first].state) == 0)
+    while (trace.onset && first < branch.size() && largest_tau(trace.points[first].state) == 0)
         ++first;
     if (first >= branch.size()) return windows;
     using Judged = JudgedPlace;

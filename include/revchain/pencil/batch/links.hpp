@@ -93,10 +93,11 @@ class PlummetLanes : public detail::LaneNumbers<V, 3> {
     }
 };
 
-/// Rigid links. With p = h/a, q = (a - h)/a, t = rho^2/a^2 a link's mass is W (y_G^2 + t d^2),
-/// where y_G = p y + q y' is the offset of its centre of gravity and d = y' - y:
+/// Rigid links. Let y and y' be the offsets of a link's lower and upper pin, and p = h/a,
+/// q = (a - h)/a, r = rho^2/a^2. The link's mass is W (y_G^2 + r d^2), where y_G = p y + q y' is
+/// the offset of its centre of gravity and d = y' - y:
 ///
-///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - t).
+///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - r).
 ///
 /// Multiplied by (k + mu X)/k for each link, y is a polynomial in mu without divisions. Its sign
 /// changes are the negative pivots of K - mu M, also if k + mu X < 0.
@@ -121,7 +122,7 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
             const V kappa = weight * h + a * hung.value();
             const V square = a * a;
             const V k = kappa / square, flexibility = square / kappa;
-            const V p = h / a, q = (a - h) / a, t = gyration / square;
+            const V p = h / a, q = (a - h) / a, r = gyration / square;
             hung.add(weight);
             put(m, weight_, weight);
             put(m, weight_a, weight / a);
@@ -130,11 +131,11 @@ class RigidLanes : public detail::LaneNumbers<V, 12> {
             put(m, q_, a - h);
             put(m, turn, weight / square * gyration);
             put(m, stiffness_, k);
-            put(m, cross, weight * (p * q - t));
+            put(m, cross, weight * (p * q - r));
             put(m, flexibility_, flexibility);
-            put(m, lower, weight * (p * p + t) * flexibility);
-            put(m, upper, weight * (q * q + t) * flexibility);
-            put(m, coupling, weight * weight * t * flexibility);
+            put(m, lower, weight * (p * p + r) * flexibility);
+            put(m, upper, weight * (q * q + r) * flexibility);
+            put(m, coupling, weight * weight * r * flexibility);
         }
     }
 

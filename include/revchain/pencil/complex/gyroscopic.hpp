@@ -11,7 +11,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil {
 
-/// These return A B and A'B. Eigen compiles each kind of expression anew: seconds for two words.
+/// These return A B and A^T B, with ^T for the transpose. Eigen compiles each kind of expression
+/// anew: seconds for two words.
 template <class S>
 Matrix<S> product(const Matrix<S>& A, const Matrix<S>& B) {
     return A * B;
@@ -21,9 +22,9 @@ Matrix<S> transposed_product(const Matrix<S>& A, const Matrix<S>& B) {
     return product<S>(A.transpose(), B);
 }
 
-/// A gyroscopic system with mirror symmetry: if x, y exp(s t) is a motion, x, -y exp(-s t) is one,
-/// too.
-///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B' x' + C y = 0,
+/// A gyroscopic system with mirror symmetry. If (x, y) exp(s t) is a motion, (x, -y) exp(-s t) is
+/// one, too. With primes for derivatives by the time t it is
+///     A x'' - 2 B y' + K x = 0,    M y'' + 2 B^T x' + C y = 0.
 /// A and M are symmetric and positive definite, K and C symmetric. Units make B about as large as A
 /// and M.
 template <class S>
@@ -46,12 +47,12 @@ struct GyroscopicModes {
     bool is_symmetric = false;  ///< true if the matrix is symmetric: all squares are then real
 };
 
-/// Returns the modes. In canonical coordinates p = x', r = y' + 2 B' x (A = M = 1) the state splits
-/// into two halves u = (x, r), v = (p, -y):
-///     u' = diag(1, C) v,    v' = -Q u,    Q = [K + 4 B B', -2 B; -2 B', 1],
+/// Returns the modes. In canonical coordinates p = x', r = y' + 2 B^T x (A = M = 1) the state
+/// splits into two halves u = (x, r), v = (p, -y):
+///     u' = diag(1, C) v,    v' = -Q u,    Q = [K + 4 B B^T, -2 B; -2 B^T, 1],
 /// so s^2 are the eigenvalues of -diag(1, C) Q, half as large as the whole. If C is positive
 /// definite they are those of a symmetric matrix: they are real, and no oscillation grows. Q u is
-/// the left eigenvector, so a change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u'Q u|.
+/// the left eigenvector, so a change T of the matrix moves s^2 by up to |T| |u| |Q u| / |u^T Q u|.
 /// The method is dense and backward stable. A defective s^2 spreads by the square root of rounding,
 /// and so does an s near 0. Cost: about 30 n^3, symmetric 10 n^3. The result is empty if rounding
 /// makes A or M indefinite.

@@ -261,18 +261,18 @@ class Candidates {
 /// (docs/theory/spectrum.md), at most `tolerance` (2 ulp or more) or the least that two words can
 /// prove. Use it for several eigenvalues of a dozen links or more.
 ///
-/// Method: counts give windows of about 60 eigenvalues. The characteristic polynomial, without
-/// division, is computed at 2.4 shifts per eigenvalue, and its Chebyshev interpolant gives the
-/// zeros. Bounds follow from the Rayleigh quotient of a twisted vector at each zero, its residual
-/// and those of its neighbours, one shift in a SIMD lane. Clusters and negative cross masses are
-/// solved by bisection and counts in two words. Accuracy, measured: with a tolerance below 40 ulp
-/// the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18 proved). Otherwise within 4
-/// ulp for the chains of the tests (N up to 10,000, there a sample of the modes), and random
-/// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with 128 ulp. Proved: 28 ulp
-/// plummets, 36 rods, more where neighbours nearly coincide. Cost (AVX-512, N = 10,000) per mode
-/// and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5 and 2.0 for rods, portable build
-/// (bench_all_modes); to the last digit 1.3 to 2 more. Preconditions: 0 <= first, last <= total <=
-/// size.
+/// Method: counts give windows of up to 48 eigenvalues. The characteristic polynomial, without
+/// division, is computed at 2.7 shifts per eigenvalue or more, and its Chebyshev interpolant gives
+/// the zeros. Bounds follow from the Rayleigh quotient of a twisted vector at each zero, its
+/// residual and those of its neighbours, one shift in a SIMD lane. Clusters and negative cross
+/// masses are solved by bisection and counts in two words. Accuracy, measured: with a tolerance
+/// below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18 proved).
+/// Otherwise within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the
+/// modes), and random compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with 128 ulp.
+/// Proved: 28 ulp plummets, 36 rods, more where neighbours nearly coincide. Cost (AVX-512, N =
+/// 10,000) per mode and link: 0.85 ns for equal plummets, 1.3 for random ones, 1.5 and 2.0 for
+/// rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more. Preconditions: 0 <=
+/// first, last <= total <= size.
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide,
                                                const spectrum::LumpedChain& chain, Index first,

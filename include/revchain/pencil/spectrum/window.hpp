@@ -6,7 +6,8 @@
 
 namespace revchain::inline REVCHAIN_BUILD::pencil::spectrum {
 
-/// Eigenvalues mu number first ... last - 1 (from 0, ascending) lie in [lower, upper), by count.
+/// A range of shifts mu = 1/lambda. By count, the eigenvalues number `first` ... `last - 1` (from
+/// 0, with mu ascending, so with the conical height lambda descending) lie in [lower, upper).
 struct Window {
     double lower = 0, upper = 0;
     Index first = 0, last = 0;
@@ -14,7 +15,8 @@ struct Window {
     Index size() const { return last - first; }
 };
 
-/// Cuts windows at shifts `at(window, 1 ... cuts(window), cuts)`. Omits pieces without eigenvalues.
+/// Cuts each window at n = `cuts(window)` shifts `at(window, i, n)`, i = 1 ... n ascending. Omits
+/// pieces without eigenvalues.
 template <class Cuts, class At>
 std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows,
                         const Cuts& cuts, const At& at) {
@@ -38,13 +40,15 @@ std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& win
     return pieces;
 }
 
-/// Cuts the spectrum from eigenvalue `first` to `last` (mu, ascending) into windows of at most
-/// `most` eigenvalues, by counts. The end ones may hold more. Cost: about 2 (last - first)/most
-/// counts.
+/// Returns windows of at most `most` eigenvalues that together hold the eigenvalues `first` ...
+/// `last - 1`, by counts. The windows at the two ends may also hold eigenvalues outside of this
+/// range. A window has more than `most` if it is too narrow to be cut. Cost: about
+/// 2 (last - first)/most counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // pieces are merged at the end
-    // The whole range: mu grows by powers of 4 until the count suffices. Round numbers are avoided:
-    // part of a chain of equal links may have an eigenvalue there, and no count is proved.
+    // The whole range: mu grows by powers of 4 until the count suffices. It does not start at 1: at
+    // round numbers the lower part of a chain of equal links may have an eigenvalue, and then the
+    // count is not certain.
     double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
@@ -60,23 +64,23 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
             }
         }
     }
+    const auto spans_factor_4 = [](const Window& w) { return w.upper > 4 * w.lower; };
     const auto cuts = [&](const Window& w) {
         return static_cast<int>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
     };
-    const auto at = [](const Window& w, int number, int of) {
+    const auto at = [&](const Window& w, int number, int of) {
         const double share = number / static_cast<double>(of + 1);
-        const bool wide = w.upper > 4 * w.lower && w.lower > 0;
-        return wide ? w.lower * std::pow(w.upper / w.lower, share)
-                    : w.lower + (w.upper - w.lower) * share;
+        const bool in_ratio = spans_factor_4(w) && w.lower > 0;
+        return in_ratio ? w.lower * std::pow(w.upper / w.lower, share)
+                        : w.lower + (w.upper - w.lower) * share;
     };
     std::vector<Window> work{whole}, done;
     while (!work.empty()) {
         std::vector<Window> next;
         for (const Window& w : cut(chain, work, cuts, at)) {
             if (w.last <= first || w.first >= last) continue;
-            const bool wide = w.upper > 4 * w.lower;
             const bool divisible = w.upper - w.lower > 0x1p-40 * w.upper;
-            ((w.size() > piece || wide) && divisible ? next : done).push_back(w);
+            ((w.size() > piece || spans_factor_4(w)) && divisible ? next : done).push_back(w);
         }
         work = std::move(next);
     }
@@ -84,18 +88,19 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
               [](const Window& a, const Window& b) { return a.first < b.first; });
     std::vector<Window> merged;
     for (const Window& w : done) {
-        Window* last_one = merged.empty() ? nullptr : &merged.back();
-        if (last_one != nullptr && last_one->last == w.first && w.last - last_one->first <= most &&
-            w.upper <= 4 * last_one->lower)
-            last_one->upper = w.upper, last_one->last = w.last;
+        Window* before = merged.empty() ? nullptr : &merged.back();
+        if (before != nullptr && before->last == w.first && w.last - before->first <= most &&
+            w.upper <= 4 * before->lower)
+            before->upper = w.upper, before->last = w.last;
         else
             merged.push_back(w);
     }
     return merged;
 }
 
-/// Returns a number of nodes, a multiple of 8: pi/2 a zero, as for a sine, plus a margin (cube
-/// root).
+/// Returns the number of nodes at which a window with that number of modes is sampled, a multiple
+/// of 8. Interpolation of a sine needs pi/2 nodes for each zero. Here it is 1.65, and a margin that
+/// grows as the cube root.
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
@@ -137,10 +142,10 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     return roots;
 }
 
-/// Finds approximate shifts of the eigenvalues `first` ... `last - 1` and all others in their
-/// windows, ascending, in `candidates[.].shift`, and the links below the mode in `.place`. Windows
-/// whose interpolant has too few or too many zeros are cut. Returns false if the windows do not
-/// cover the range.
+/// Finds approximate shifts of the eigenvalues `first` ... `last - 1`, and of all others in their
+/// windows. Fills `found` with the windows and `candidates`, ascending, with a shift and a place
+/// (see the function `place`) for each eigenvalue. Windows whose interpolant has too few or too
+/// many zeros are cut. Returns false if the windows do not cover the range.
 template <class Candidate>
 bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
@@ -149,6 +154,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
     const Index begin = found.front().first;
     candidates.assign(static_cast<std::size_t>(found.back().last - begin), {});
     std::vector<Window> work = found;
+    // 1 % beside the quarters: at round fractions a count is more likely to hit an eigenvalue
     const auto quarter = [](const Window& w, int number, int) {
         return w.lower + (w.upper - w.lower) * (0.25 * number + 0.01);
     };
@@ -194,7 +200,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
                 candidates[number].shift = roots[i];
                 Neighbours around{number, at + cell, at + cell - 1};
-                if (i > 0 && before == cell) {  // two lie between nodes: another sample
+                if (i > 0 && before == cell) {  // two roots between nodes: a sample between them
                     placed.back().above = around.below = samples.size() + between_roots.size();
                     between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
                 }
@@ -210,7 +216,7 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                 place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
-    // The remaining brackets are too narrow for the interpolant: counts must separate their zeros.
+    // The remaining windows are too narrow for the interpolant: counts must separate their zeros.
     for (const Window& w : work)
         for (Index j = w.first; j < w.last; ++j)
             candidates[static_cast<std::size_t>(j - begin)].shift =

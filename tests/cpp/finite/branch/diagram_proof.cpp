@@ -87,7 +87,7 @@ Trial trial(const Chain<double>& chain, double lowest, const std::vector<Branch>
     const double first = revchain::modes(chain, {.count = 1}).conical_height[0], low = lowest * unit;
     Trial result;
     result.proof = prover.run(low, first * unit * (1 + 1e-9),
-                              low * revchain::finite::farthest_tangent(narrow, Interval<double>(low)) * (1 + 1e-12),
+                              low * revchain::finite::tangent_limit(narrow, Interval<double>(low)) * (1 + 1e-12),
                               [&](const revchain::finite::DiagramPoint& at, const revchain::finite::Rectangle& within) {
                                   for (const Branch& branch : known)
                                       if (revchain::finite::goes_through(branch, corrector, at, within)) return true;
