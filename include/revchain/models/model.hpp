@@ -111,11 +111,11 @@ struct ChainKind {
     /// Reads one link if all are equal, all of up to 100 unequal links, else a sample spread over
     /// the chain.
     void look_at_links(const Chain<double>& chain) {
-        const Index looked_at = equal ? 1 : size <= 100 ? size : 32;
+        const Index sampled = equal ? 1 : size <= 100 ? size : 32;
         bool points = true, shorter = true;
         Index longer = 0;
-        for (Index i = 0; i < looked_at; ++i) {
-            const Index m = i * size / looked_at;
+        for (Index i = 0; i < sampled; ++i) {
+            const Index m = i * size / sampled;
             const double p = chain.centroid()[m] / chain.length()[m],
                          r = chain.gyration_ratio()[m].high;
             points = points && p == 1 && r == 0;
@@ -128,7 +128,7 @@ struct ChainKind {
                 negative_pins || chain.weight()[m] * (1 - p) + chain.weight()[m + 1] * above <= 0;
         }
         short_pendulums = points || shorter, point_masses = points;
-        long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
+        long_pendulums = static_cast<double>(longer) / static_cast<double>(sampled);
     }
     /// Samples the weights along the chain. All links are read if there are at most 255. For longer
     /// chains weights come from the stored sums, and lengths are taken as equal.

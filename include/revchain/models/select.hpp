@@ -65,7 +65,7 @@ void check(std::string_view function, const ChainKind& kind, const Question& que
 
 /// Returns the tolerance to meet: the requested one, or full accuracy.
 REVCHAIN_LAZY
-double kept_tolerance(const Question& question) {
+double required_tolerance(const Question& question) {
     return question.rtol > 0 ? question.rtol : full_accuracy;
 }
 
@@ -134,14 +134,15 @@ Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& ki
 
 /// Returns the answer of the model with that index.
 template <Model... Models>
-Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain,
-             const ChainKind& kind, const Question& question) {
+Answer answer_by_number(const std::tuple<Models...>& models, std::size_t number,
+                        const Chain<double>& chain, const ChainKind& kind,
+                        const Question& question) {
     Answer answer;
     std::size_t i = 0;
-    const auto ask = [&](const auto& model) {
+    const auto answer_if_chosen = [&](const auto& model) {
         if (i++ == number) answer = answer_by(model, chain, kind, question);
     };
-    std::apply([&](const Models&... each) { (ask(each), ...); }, models);
+    std::apply([&](const Models&... each) { (answer_if_chosen(each), ...); }, models);
     return answer;
 }
 
@@ -155,12 +156,12 @@ Choice<sizeof...(Models)> choice_for(std::string_view function, const std::tuple
     Choice<sizeof...(Models)> choice{estimates(models, kind, question), 0, false};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double budget = time_budget.value_or(infinity);
-    auto chosen = best<sizeof...(Models)>(choice.estimates, {}, kept_tolerance(question), budget);
+    auto chosen = best<sizeof...(Models)>(choice.estimates, {}, required_tolerance(question), budget);
     if (!chosen)  // no model is within the budget: the cheapest, whatever its accuracy
         chosen = best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
     choice.meets_tolerance = chosen &&
-                             choice.estimates[*chosen].error_bound <= kept_tolerance(question) &&
+                             choice.estimates[*chosen].error_bound <= required_tolerance(question) &&
                              choice.estimates[*chosen].cost <= budget;
     return choice;
 }
@@ -195,14 +196,14 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain,
                const Question& question, std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
     const auto choice = detail::choice_for("solve", models, kind, question, time_budget);
-    const double rtol = detail::kept_tolerance(question);
+    const double rtol = detail::required_tolerance(question);
     const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
     Solution best{Answer::none(), {}, Status::tolerance_not_met};
     if (choice.model == sizeof...(Models)) return best;
     for (std::optional<std::size_t> model = choice.model; model;) {
         const std::string_view name = choice.estimates[*model].name;
-        Answer answer = detail::asked(models, *model, chain, kind, question);
+        Answer answer = detail::answer_by_number(models, *model, chain, kind, question);
         const double bound = answer.worst_bound();
         if (bound <= rtol && choice.estimates[*model].cost <= budget)
             return {std::move(answer), name, Status::success};
@@ -231,8 +232,8 @@ Solution solve_by(const std::tuple<Models...>& models, std::string_view model,
         if (estimates[i].name != model) continue;
         Solution found{Answer::none(), estimates[i].name, Status::tolerance_not_met};
         if (!estimates[i].fit.applies) return found;
-        found.answer = detail::asked(models, i, chain, kind, question);
-        if (found.answer.worst_bound() <= detail::kept_tolerance(question))
+        found.answer = detail::answer_by_number(models, i, chain, kind, question);
+        if (found.answer.worst_bound() <= detail::required_tolerance(question))
             found.status = Status::success;
         return found;
     }

@@ -28,8 +28,8 @@ struct TaperedChain {
     double error_bound(const ChainKind& kind, const Question& question) const {
         const double p = *kind.taper;
         const Index k = question.last();
-        const double bound = foreseen(kind, p, k);
-        return question.first == 1 && k > 1 ? std::max(bound, foreseen(kind, p, 1)) : bound;
+        const double bound = predicted_bound(kind, p, k);
+        return question.first == 1 && k > 1 ? std::max(bound, predicted_bound(kind, p, 1)) : bound;
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double p = *kind.taper, first = detail::real(question.first);
@@ -67,7 +67,7 @@ struct TaperedChain {
     }
 
     /// Returns the error bound before the zero is known, from above and without Bessel functions.
-    static double foreseen(const ChainKind& kind, double p, Index k) {
+    static double predicted_bound(const ChainKind& kind, double p, Index k) {
         const double n = detail::real(kind.size), j = zero_at_most(p, k);
         const double lost = second_order_at_most(p, k, j) / (n * n);
         return detail::enclosed(1, lost, detail::next_order(p, k, share(kind, p, j)), rounding(p))

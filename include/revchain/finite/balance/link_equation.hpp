@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
+
 #include "revchain/finite/balance/links.hpp"
+#include "revchain/numeric/compiled.hpp"
 
 /// The equation of one link, lambda pull t + length cross s(t) = R, with t the tangent and s the
 /// sine of its inclination. `stiffness` is lambda pull, `turning` is length cross.
@@ -31,11 +34,35 @@ S turning_of(const Link<S>& link) {
     return is_zero(link.cross) ? link.cross : link.length * link.cross;
 }
 
-using detail::down;
-using detail::up;
-
 /// The largest value of t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
 inline constexpr double steepest_half_bend = 0.2862167011199732;
+
+/// Define `any` and `if_less` for numbers, so that templates can use numbers and packs alike.
+REVCHAIN_LAZY
+bool any(bool yes) { return yes; }
+template <Real T>
+const T& if_less(const T& x, const T& y, const T& a, const T& b) {
+    return x < y ? a : b;
+}
+
+/// Returns enclosures of the sine and the cosine of the inclination of one tangent. Packs need only
+/// one division, for a sine one ulp wider, and have no branch for a tangent with a large square.
+template <class T>
+[[gnu::always_inline]] inline std::array<Interval<T>, 2> sine_and_cosine(const T& x) {
+    using std::abs;
+    const Interval<T> tangent(x), one(T(1));
+    if constexpr (IsPack<T>) {
+        const Interval<T> cosine = one / sqrt(one + square(tangent));
+        return {tangent * cosine, cosine};
+    } else {
+        if (is_horizontal(x)) {  // the sine is 1 to the last digit
+            const Interval<T> sine(detail::down(T(1)), T(1));
+            return {x < T(0) ? -sine : sine, one / Interval<T>(abs(x))};
+        }
+        const Interval<T> secant = sqrt(one + square(tangent));
+        return {tangent / secant, one / secant};
+    }
+}
 
 /// Encloses the sine of the inclination of tangent t, and its derivatives by t, for t in an
 /// interval. Each has its extremes at an end of the interval or where the next derivative is 0.
@@ -44,31 +71,26 @@ struct Sine {
     Interval<T> value, slope, half_bend;  // s, (1+t^2)^-3/2, t (1+t^2)^-5/2 = -s''/3
 
     explicit Sine(const Interval<T>& t) {
-        using std::abs;
-        const Interval<T> one(T(1));
-        const auto at = [&](const T& x) {  // returns sine and cosine
-            if (is_horizontal(x)) {        // the sine is 1 to the last digit; x^2 may overflow
-                const Interval<T> sine(down(T(1)), T(1));
-                return std::pair(x < T(0) ? -sine : sine, one / Interval<T>(abs(x)));
+        const T zero(0), one(1), half(0.5), steepest(steepest_half_bend);
+        bool is_point = false;
+        if constexpr (!IsPack<T>) {
+            if (!(t.low <= t.high)) {
+                value = slope = half_bend = Interval<T>(std::numeric_limits<T>::quiet_NaN());
+                return;
             }
-            const Interval<T> tangent(x), secant = sqrt(one + square(tangent));
-            return std::pair(tangent / secant, one / secant);
-        };
-        if (!(t.low <= t.high)) {
-            value = slope = half_bend = Interval<T>(std::numeric_limits<T>::quiet_NaN());
-            return;
+            is_point = t.low == t.high;
         }
-        const auto [low, c0] = at(t.low);
-        const auto [high, c1] = t.low == t.high ? std::pair(low, c0) : at(t.high);
+        const auto [low, c0] = sine_and_cosine(t.low);
+        const auto [high, c1] = is_point ? std::array{low, c0} : sine_and_cosine(t.high);
         value = {low.low, high.high};
-        const Interval<T> g0 = c0 * square(c0), g1 = c1 * square(c1);
-        slope = hull(g0, g1);
-        if (t.low < T(0) && t.high > T(0)) slope.high = T(1);
-        const Interval<T> b0 = low * square(square(c0)), b1 = high * square(square(c1));
-        half_bend = hull(b0, b1);
-        const T half = T(1) / T(2);
-        if (t.contains(half)) half_bend.high = T(steepest_half_bend);
-        if (t.contains(-half)) half_bend.low = T(-steepest_half_bend);
+        const Interval<T> squared0 = square(c0), squared1 = square(c1);
+        slope = hull(c0 * squared0, c1 * squared1);
+        slope.high = if_less(t.low, zero, if_less(zero, t.high, one, slope.high), slope.high);
+        half_bend = hull(low * square(squared0), high * square(squared1));
+        half_bend.high =
+            if_less(half, t.low, half_bend.high, if_less(t.high, half, half_bend.high, steepest));
+        half_bend.low =
+            if_less(-half, t.low, half_bend.low, if_less(t.high, -half, half_bend.low, -steepest));
     }
 };
 
@@ -81,66 +103,58 @@ Interval<T> sine_at(const Interval<T>& tangent) {
     return Sine<T>(tangent).value;
 }
 
-/// Returns the tangent under the load R by Newton's method. It starts at t, on a side from which
-/// the method does not overshoot.
+/// Returns the tangent under the load R by Newton's method. It starts at `start`, on a side from
+/// which the method does not overshoot.
 template <class S>
-S tangent_from(S t, const S& stiffness, const S& turning, const S& R) {
+[[gnu::always_inline]] inline S tangent_from(const S& start, const S& stiffness, const S& turning,
+                                             const S& R) {
     using std::abs;
+    S t = start;
     for (int round = 0; round < 100; ++round) {
         const S cosine = cosine_at(t), slope = stiffness + turning * cosine * cosine * cosine;
         const S step = (R - stiffness * t - turning * t * cosine) / slope;
         t = t + step;
-        if (!(abs(step) > S(4) * epsilon<S>() * abs(t))) break;
+        if (!any(abs(step) > S(4) * S(epsilon<Lane<S>>()) * abs(t))) break;
     }
     return t;
 }
 
-/// Returns the tangent under the load R. It requires stiffness + min(0, turning) > 0, so that the
-/// load increases with the tangent.
+/// Returns the tangent under the load R of a link other than a plummet. It requires stiffness +
+/// min(0, turning) > 0, so that the load increases with the tangent.
 template <class S>
-S tangent_of(const S& stiffness, const S& turning, const S& R) {
-    if (is_zero(turning)) return R / stiffness;
-    const S slope = turning > S(0) ? stiffness + turning : stiffness;
+[[gnu::always_inline]] inline S tangent_of(const S& stiffness, const S& turning, const S& R) {
+    const S slope = if_less(S(0), turning, S(stiffness + turning), stiffness);
     return tangent_from(S(R / slope), stiffness, turning, R);
 }
 
-/// Returns the first of t, t + step, t + 3 step, t + 7 step, ... to pass a test; NaN after `tries`.
-template <class T, class Test>
-T first_passing(T t, T step, int tries, const Test& passes) {
-    for (int round = 0; round < tries; ++round, step = step * T(2)) {
-        if (passes(t)) return t;
-        t = t + step;
-    }
-    return std::numeric_limits<T>::quiet_NaN();
-}
 /// Returns the first step away from a tangent that Newton's method found.
 template <class T>
-T rounding_step(const T& t) {
+[[gnu::always_inline]] inline T rounding_step(const T& t) {
     using std::abs;
-    return T(2) * epsilon<T>() * abs(t) + std::numeric_limits<T>::denorm_min();
+    using N = Lane<T>;
+    return T(1.5) * T(epsilon<N>()) * abs(t) + T(std::numeric_limits<N>::denorm_min());
 }
 
-/// Encloses the tangents under the loads R, for a stiffness of any width; NaN if no bound is found.
-template <Real T>
-Interval<T> tangent_of(const Interval<T>& stiffness, const Interval<T>& turning,
-                       const Interval<T>& R) {
-    if (is_zero(turning)) return R / stiffness;
-    const bool wide = stiffness.width() > T(16) * epsilon<T>() * stiffness.low;
-    const auto near = [&](const T& load, const T& steepest) {
-        return tangent_of(wide ? steepest : stiffness.middle(), turning.middle(), load);
+/// Encloses the tangents under the loads R of a link other than a plummet; NaN if no bounds are
+/// found. From t, Newton's result, each end is the first of t, t + step, t + 3 step, ... whose load
+/// is certainly beyond R. The load is odd in t, so both ends are upper ends.
+template <class T>
+[[gnu::always_inline]] inline Interval<T> tangent_of(const Interval<T>& stiffness,
+                                                     const Interval<T>& turning,
+                                                     const Interval<T>& R) {
+    const auto upper_end = [&](const T& wanted) REVCHAIN_INLINED {
+        T t = tangent_of(if_less(wanted, T(0), stiffness.high, stiffness.low),
+                         if_less(wanted, T(0), turning.high, turning.low), wanted);
+        T step = rounding_step(t), load(0);
+        for (int round = 0; round < 41; ++round, step = step + step) {
+            load = (stiffness * Interval<T>(t) + turning * sine_and_cosine(t)[0]).low;
+            if (!any(load < wanted)) break;
+            t = if_less(load, wanted, T(t + step), t);
+        }
+        const T nan(std::numeric_limits<Lane<T>>::quiet_NaN());
+        return if_less(load, wanted, nan, T(t + (load - load)));
     };
-    const T low = near(R.low, R.low < T(0) ? stiffness.low : stiffness.high);
-    const T high = !wide && R.low == R.high
-                       ? low
-                       : near(R.high, R.high < T(0) ? stiffness.high : stiffness.low);
-    const auto load = [&](const T& t) {
-        return stiffness * Interval<T>(t) + turning * sine_at(Interval<T>(t));
-    };
-    constexpr int tries = 41;
-    return {first_passing(low, T(-rounding_step(low)), tries,
-                          [&](const T& t) { return load(t).high <= R.low; }),
-            first_passing(high, rounding_step(high), tries,
-                          [&](const T& t) { return load(t).low >= R.high; })};
+    return {-upper_end(-R.low), upper_end(R.high)};
 }
 
 }  // namespace revchain::finite

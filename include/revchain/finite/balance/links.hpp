@@ -168,12 +168,17 @@ bool is_horizontal(const S& tangent) {
     return abs(tangent) > S(1e100);
 }
 
-/// Returns the cosine of the inclination of a tangent, even if the square of the tangent overflows.
+/// Returns the cosine of the inclination of a tangent, even if the square of the tangent overflows
+/// (in a pack, the cosine is then 0).
 template <class S>
-S cosine_at(const S& tangent) {
+[[gnu::always_inline]] inline S cosine_at(const S& tangent) {
     using std::abs;
     using std::sqrt;
-    return S(1) / (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
+    if constexpr (IsPack<S>)
+        return S(1) / root(S(1) + tangent * tangent);
+    else
+        return S(1) /
+               (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
 }
 
 }  // namespace revchain::finite

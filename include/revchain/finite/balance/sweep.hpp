@@ -56,7 +56,8 @@ struct PlainSweep {
 
     const S& tighten(const S& x) const { return x; }
     bool propagate(std::size_t m, const S& R, S& t) const {
-        t = tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
+        const S stiffness = height * links[m].pull, turning = turning_of(links[m]);
+        t = is_zero(turning) ? S(R / stiffness) : tangent_of(stiffness, turning, R);
         return true;
     }
     S sine(std::size_t, const S& t) const { return sine_at(t); }

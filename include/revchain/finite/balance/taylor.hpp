@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "revchain/finite/balance/link_lanes.hpp"
 #include "revchain/finite/balance/sweep.hpp"
+#include "revchain/simd/interval_lanes.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -193,9 +193,9 @@ class CellSweep {
             const I pace = spread(kept->pace);
             speed_ = pace / sqrt(height), centre_speed_ = pace / sqrt(centre_height);
         }
-        start(in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
+        start(spread(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
         for (std::size_t m = 1; m < links.size(); ++m)
-            pass(m, in_lanes<T>(links[m]), is_zero(links[m].cross));
+            pass(m, spread(links[m]), is_zero(links[m].cross));
     }
     [[gnu::always_inline]] Taylor<T, D> offset() const {
         return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_);
@@ -209,11 +209,13 @@ class CellSweep {
         I offset, sum;
     };
 
+    /// Returns a copy in each lane.
     [[gnu::always_inline]] static I spread(const Interval<Lane<T>>& x) {
-        if constexpr (IsPack<T>)
-            return I(T(x.low), T(x.high));
-        else
-            return x;
+        return {T(x.low), T(x.high)};
+    }
+    [[gnu::always_inline]] static Link<I> spread(const Link<Interval<Lane<T>>>& l) {
+        return {spread(l.length), spread(l.pull), spread(l.cross), spread(l.moment),
+                spread(l.rest)};
     }
     /// The pull, `whole`; 1st and 2nd derivative by lambda of lambda times it: `growing`, `bend`.
     struct Pull {

@@ -310,7 +310,7 @@ class Diagram {
             if (!(tight < first)) break;
             DiagramProver prover(diagram, options_.proof_budget);
             const auto is_known = [&](const auto& at, const auto& within) {
-                return known(diagram, at, within);
+                return find_branch(diagram, at, within);
             };
             const auto proof =
                 prover.run(tight, first, diagram.last(tight) * (1 + 1e-12), is_known);
@@ -319,7 +319,9 @@ class Diagram {
         }
         return whole;
     }
-    bool known(const EnclosedDiagram& diagram, const DiagramPoint& at, const Rectangle& within) {
+    /// Returns true if a branch through the point is known or found, and adds one that is found.
+    bool find_branch(const EnclosedDiagram& diagram, const DiagramPoint& at,
+                     const Rectangle& within) {
         for (const Branch& each : result_.branches)
             if (goes_through(each, corrector_, at, within, diagram.side())) return true;
         if (stuck_ >= 20) return false;

@@ -24,6 +24,16 @@ struct LoadedTangents {
     bool possible = true, smooth = true;
 };
 
+/// Returns the first of t, t + step, t + 3 step, t + 7 step, ... to pass a test; NaN after `tries`.
+template <class T, class Test>
+T first_passing(T t, T step, int tries, const Test& passes) {
+    for (int round = 0; round < tries; ++round, step = step * T(2)) {
+        if (passes(t)) return t;
+        t = t + step;
+    }
+    return std::numeric_limits<T>::quiet_NaN();
+}
+
 /// The tangents of one link in one posture as functions of its load R.
 template <Real T>
 class Response {
@@ -46,7 +56,7 @@ class Response {
 
     LoadedTangents<T> met(MonotoneBranch branch, const Interval<T>& R) const {
         if (branch == MonotoneBranch::whole)
-            return {tangent_of(stiffness_, turning_, R), true, true};
+            return {is_plummet() ? R / stiffness_ : tangent_of(stiffness_, turning_, R)};
         if (branch == MonotoneBranch::right) return right_of_joint(R);
         if (branch == MonotoneBranch::middle) return between_joints(R);
         LoadedTangents<T> image = right_of_joint(-R);
@@ -67,10 +77,9 @@ class Response {
         const double root = cbrt(ratio);
         T near(sqrt(std::max(0.0, root * root - 1)));
         for (int round = 0; round < 3 && near > T(0); ++round) {  // to the accuracy of T
-            const T secant_squared = T(1) + near * near, secant = sqrt(secant_squared);
-            const T slope = stiffness_.low + turning_.low / (secant * secant_squared);
-            near = near +
-                   slope * secant * secant_squared * secant_squared / (T(3) * turning_.low * near);
+            const T cosine = cosine_at(near), cube = cosine * cosine * cosine;
+            near = near + (stiffness_.low / cube + turning_.low) * (T(1) + near * near) /
+                              (T(3) * turning_.low * near);
             if (!(near > T(0))) near = T(0);
         }
         constexpr int to_overflow = 2 * std::numeric_limits<T>::max_exponent;

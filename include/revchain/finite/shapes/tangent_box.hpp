@@ -119,9 +119,7 @@ class WholeBalance {
         return y;
     }
 
-    Interval<T> sine(std::size_t m, const Interval<T>& t) const {
-        return signed_(m, Sine<T>(t).value);
-    }
+    Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, sine_at(t)); }
 
     /// Encloses all zeros of F in the box (Krawczyk). If the result is strictly within the box,
     /// there is exactly one. Returns none if the derivative has no inverse. Cost N^3. The tests of
@@ -229,12 +227,10 @@ class WholeBalance {
     }
     /// Returns the inverse of the derivative in T: double is too coarse near a critical height.
     std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
-        using std::sqrt;
         std::vector<T> jacobian(size_ * size_);
         for (std::size_t r = 0; r < size_; ++r) {
-            const T secant_squared = T(1) + t[r] * t[r];
-            const T slope =
-                T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
+            const T cosine = cosine_at(t[r]),
+                    slope = T(static_cast<int>(posture_[r])) * cosine * cosine * cosine;
             for (std::size_t m = 0; m < size_; ++m)
                 jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
             jacobian[r * size_ + r] += stiffness_[r].middle();

@@ -108,12 +108,13 @@ struct Inverse {
         const std::size_t n = of_p.size();
         std::vector<double> result(n);
         double sum = 0;
-        for (std::size_t m = 0; m < n; sum += of_p[m++]) result[m] = size(q[m]) * sum * share();
+        for (std::size_t m = 0; m < n; sum += of_p[m++]) result[m] = size(q[m]) * sum * scale();
         sum = 0;
-        for (std::size_t m = n; m-- > 0; sum += of_q[m]) result[m] += size(p[m]) * sum * share();
+        for (std::size_t m = n; m-- > 0; sum += of_q[m]) result[m] += size(p[m]) * sum * scale();
         return result;
     }
-    double share() const { return 1.0000001 / size(w); }
+    /// Returns an upper bound of 1/|w|.
+    double scale() const { return 1.0000001 / size(w); }
     static double size(const Far& x) { return std::abs(as_double(x)); }
     static double size(const Span& x) { return as_double(x.size()) * 1.0000001; }
 };
@@ -161,7 +162,7 @@ std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links
         by_p[m] = Inverse::size(p[m]) * left, by_q[m] = Inverse::size(q[m]) * left;
     }
     std::vector<double> step = inverse.spread(by_p, by_q);
-    for (std::size_t m = 0; m < n; ++m) step[m] += Inverse::size(p[m]) * by_q[m] * inverse.share();
+    for (std::size_t m = 0; m < n; ++m) step[m] += Inverse::size(p[m]) * by_q[m] * inverse.scale();
     std::vector<Span> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
@@ -219,7 +220,7 @@ Verified verified(const EnclosedLinks<Far>& links, const Span& height, std::vect
         const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
         const double change = Inverse::size(p[m] - p_above) * above[m + 1] +
                               Inverse::size(q[m] - q[m + 1]) * below[m + 1];
-        result.condition = std::max(result.condition, change * found->inverse.share() / opposite);
+        result.condition = std::max(result.condition, change * found->inverse.scale() / opposite);
     }
     if (radius && worst == worst) result.inclination_error = worst;
     return result;

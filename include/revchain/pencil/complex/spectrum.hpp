@@ -148,9 +148,9 @@ inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& root
 /// Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1). Here s
 /// is the sum of r_k/(|x_j - x_k| - r_k). Returns marks of the discs that meet others; without any,
 /// `found` is valid.
-inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros,
-                                 Conjugates& at, std::vector<EnclosedRoot>& found,
-                                 const std::function<void(double)>& advance) {
+inline std::vector<bool> isolate_in_discs(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                                          Conjugates& at, std::vector<EnclosedRoot>& found,
+                                          const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
     const std::size_t n = at.roots.size();
@@ -240,7 +240,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
     for (const double flat : {0x1p-40, 1e-22}) {
         std::vector<bool> meets(words.size(), true);
         if (auto there = detail::conjugates(words, flat)) {
-            meets = detail::isolate(pencil, zeros, *there, result.roots, advance);
+            meets = detail::isolate_in_discs(pencil, zeros, *there, result.roots, advance);
             result.proved = meets.empty();
             if (result.proved) break;
             words = std::move(there->roots);

@@ -118,7 +118,7 @@ class Candidates {
     /// Sets the first shifts. Proved counts at both ends show that there are as many eigenvalues.
     bool separate(Index first, Index last, Index total) {
         std::vector<Window> found;
-        if (!isolate(chain_, first, last, found, all_)) return false;
+        if (!isolate_eigenvalues(chain_, first, last, found, all_)) return false;
         begin_ = found.front().first;
         const Index end = found.back().last;
         const auto is_proved = [&](double mu, Index above) {
@@ -169,7 +169,7 @@ class Candidates {
         for (int round = 0; round < 3; ++round) {
             // These are the bounds of `proved` if counts between intervals are as expected.
             const double infinity = std::numeric_limits<double>::infinity();
-            const auto foreseen = roots_between(-infinity, infinity, [&](double x) {
+            const auto predicted = roots_between(-infinity, infinity, [&](double x) {
                 const auto below = std::lower_bound(starts_.begin(), starts_.end(), 1 / x);
                 return CertifiedCount{begin_ + (below - starts_.begin()), true};
             });
@@ -177,7 +177,7 @@ class Candidates {
             for (std::size_t i = 0; i < all_.size(); ++i) {
                 Candidate& c = all_[i];
                 const double value = c.root.root.high;
-                const double off = foreseen ? (*foreseen)[i].off : infinity;
+                const double off = predicted ? (*predicted)[i].off : infinity;
                 const double ulp = epsilon<double>() * value;
                 const bool done = std::isfinite(off) && c.root.off <= 64 * ulp;
                 if (done && (!fine_ || (round > 0 && off < 0.01 * ulp))) continue;

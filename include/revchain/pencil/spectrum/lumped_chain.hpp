@@ -140,8 +140,8 @@ LumpedChain lumped(const ElementPencil<S>& wide) {
 }
 
 /// Returns the number of links between checks of sizes, a power of 2. Growth stays below 2^300.
-inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift,
-                                  std::size_t longest) {
+inline std::size_t links_between_checks(const LumpedChain& chain, double largest_shift,
+                                        std::size_t longest) {
     const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.max_mass_to_stiffness);
     return std::bit_floor(
         std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));

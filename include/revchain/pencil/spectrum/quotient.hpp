@@ -122,7 +122,7 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
                     std::size_t lowest, std::size_t highest, std::size_t longest) {
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest),
+    const std::size_t leg = links_between_checks(chain, largest, longest),
                       last = (chain.size() - 1) / leg;
     return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
 }

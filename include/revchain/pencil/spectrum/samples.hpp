@@ -45,7 +45,7 @@ template <class V, bool has_cross, bool count>
         offset[p] = V(1.0);
         force[p] = mu[p] * chain.tip_mass;
     }
-    const std::size_t n = chain.size(), stretch = stretch_length(chain, largest, 16);
+    const std::size_t n = chain.size(), stretch = links_between_checks(chain, largest, 16);
     [[maybe_unused]] const std::size_t words = history_words(n);
     for (std::size_t begin = 0; begin < n; begin += stretch) {
         const std::size_t end = std::min(begin + stretch, n);

@@ -147,8 +147,8 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
 /// (see the function `place`) for each eigenvalue. Windows whose interpolant has too few or too
 /// many zeros are cut. Returns false if the windows do not cover the range.
 template <class Candidate>
-bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
-             std::vector<Candidate>& candidates) {
+bool isolate_eigenvalues(const LumpedChain& chain, Index first, Index last,
+                         std::vector<Window>& found, std::vector<Candidate>& candidates) {
     found = windows(chain, first, last, 48);
     if (found.empty() || found.front().first > first || found.back().last < last) return false;
     const Index begin = found.front().first;
