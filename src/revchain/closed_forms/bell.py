@@ -58,8 +58,8 @@ class BellAndClapper(Result):
     """
 
     __slots__ = ()
-    system: Field[Chain] = Field("Two links: the clapper, and above it the bell.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    system: Field[Chain] = Field("Two links: the clapper, and above it the bell.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     angular_speed: Field[Floats] = Field(
         "Speed of each mode, rad/s, shape (2,).",
         lambda b: _core.conical_pendulum_angular_speed(np.asarray(b.conical_height), np.asarray(b.gravity)),
@@ -67,26 +67,22 @@ class BellAndClapper(Result):
     conical_height: Field[Floats] = Field(
         "Conical height of the slower mode, in which both lean the same way, and of the faster mode, in which they lean "
         "opposite ways, m, shape (2,).",
-        part=True,
     )
     inclination_ratio: Field[Floats] = Field(
         "Inclination of the clapper divided by that of the bell in each mode, shape (2,). If the first is 1, both swing "
         "as one piece in the slower mode and the bell is silent. In the faster mode they never swing as one piece.",
-        part=True,
     )
     silent_height: Field[float] = Field(
         "Conical height of the slower mode if both swing as one piece, m: the pendulum length of the clapper plus the "
         "joint.",
-        part=True,
     )
-    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.", part=True)
+    mismatch: Field[float] = Field("``h1 - (m + 1) l1 - m (a2 - l2)``, m: 0 if both swing as one piece.")
     present: Field[dict[str, float]] = Field(
         "The data: ``clapper_weight``, ``clapper_centroid``, ``clapper_radius_of_gyration``, ``bell_weight``, "
         "``joint`` (from the axle of the bell to the pin of the clapper), ``bell_centroid``, ``bell_radius_of_gyration``.",
-        part=True,
     )
     derivative: Field[dict[str, float]] = Field(
-        "Derivative of the first inclination ratio with respect to each datum, the others constant.", part=True
+        "Derivative of the first inclination ratio with respect to each datum, the others constant."
     )
 
     def with_ratio(self, ratio: float) -> dict[str, float]:

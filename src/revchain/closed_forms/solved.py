@@ -19,15 +19,20 @@ class Solved(Result):
     """
 
     __slots__ = ()
-    _given: Field[dict[str, Any]] = Field("The numbers given, by name.", part=True)
+    _given: Field[dict[str, Any]] = Field("The numbers given, by name.")
     _solver: ClassVar[Any]
     _row: ClassVar[str]
 
-    def _solve(self, given: dict[str, Any]) -> None:
-        object.__setattr__(self, "_kept", {"_given": given})
-        object.__setattr__(self, "_core", self._again())
+    def __init_subclass__(cls, **given: Any) -> None:
+        super().__init_subclass__(**given)
+        for name, field in cls._fields.items():
+            field.part = name == "_given"
 
-    def _again(self) -> Any:
+    def _solve(self, given: dict[str, Any]) -> None:
+        self.__dict__.update(_given=given, _core=None)
+        self._found()
+
+    def _from_parts(self) -> Any:
         return self._solver(**self._given)
 
     def _facts(self) -> dict[str, float]:

@@ -31,7 +31,7 @@ class TransverseModes(Result):
     """
 
     __slots__ = ()
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     angular_speed: Field[Floats] = Field(
         "Natural angular frequency, rad/s, shape (n,).",
         lambda m: conical_pendulum.angular_speed(m.conical_height, m.gravity),
@@ -44,12 +44,11 @@ class TransverseModes(Result):
         "Period of one oscillation, s, shape (n,).",
         lambda m: conical_pendulum.period(m.conical_height, m.gravity),
     )
-    conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).", part=True)
-    error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).", part=True)
+    conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).")
+    error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).")
     shape: Field[Floats] = Field(
         "Offsets of the first support, the weights and the last support, shape (n, n + 2). The largest is 1; the offset "
         "of the first weight is positive.",
-        part=True,
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -80,17 +79,16 @@ class FunicularPolygon(Result):
     """
 
     __slots__ = ()
-    weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).", part=True)
-    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).", part=True)
-    height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).", part=True)
+    weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).")
+    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).")
+    height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).")
     rise: Field[Floats] = Field(
         "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs from "
         "the pole to ``(horizontal_tension, rise)`` on the load line.",
-        part=True,
     )
-    tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).", part=True)
+    tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).")
     horizontal_tension: Field[float] = Field(
-        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.", part=True
+        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line."
     )
 
     def transverse_modes(self, *, gravity: float = STANDARD_GRAVITY) -> TransverseModes:

@@ -48,13 +48,12 @@ class PairShape(Result):
     """
 
     __slots__ = ()
-    inclination: Field[Floats] = Field("Inclination of each link to the vertical, rad, shape (2,).", part=True)
+    inclination: Field[Floats] = Field("Inclination of each link to the vertical, rad, shape (2,).")
     offset: Field[Floats] = Field(
         "Distance from the axis of the lower plummet (for a link, its centre of oscillation) and of the joint, shape (2,).",
-        part=True,
     )
-    tension: Field[Floats] = Field("Tension above each link, divided by the whole weight, shape (2,).", part=True)
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
+    tension: Field[Floats] = Field("Tension above each link, divided by the whole weight, shape (2,).")
+    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.")
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [

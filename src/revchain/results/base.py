@@ -11,7 +11,7 @@ import numpy as np
 
 from ..systems.numbers import integer, read_only, shown
 from ..systems.unchangeable import Unchangeable
-from .sheet import Sheet, as_dataframe, as_dataset, as_dict, as_html, as_text
+from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_text
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -21,16 +21,52 @@ Value = TypeVar("Value")
 
 
 class Field(Generic[Value]):
-    """One number, array or result of a result: computed (or read from the compiled result) on first use, then kept.
+    """One number, array or result of a result: computed (or read from the compiled result) on first use, then stored.
 
-    Two results are equal if all fields with `part` are equal, and a file holds all of these. Other fields follow from
-    them; a file holds those that were computed.
+    Two results are equal if all fields that are parts are equal, and a file holds all of these. Other fields follow from
+    them; a file holds those that were computed. A field without a function is a part unless it says ``part=False``.
+
+    A field with a heading is a column of the printed table, in the order of the fields, and one with `axes` a column of
+    dictionaries, data frames and files. A field with `fact` describes the whole result there. A column that a result does
+    not have, or that is None, is left out.
+
+    Attributes
+    ----------
+    heading : str
+        Heading of the column, to which the unit is added.
+    unit : str
+        Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
+        the unit of its weights, which is unknown.
+    digits : int
+        Number of significant digits in printed tables.
+    axes : tuple of str, optional
+        Names of the axes after the first, which counts the rows.
+    shown : callable, optional
+        Function of the result that returns what is printed instead, such as words.
+    column : str, optional
+        Name of the column, if it is not that of the field.
     """
 
-    def __init__(self, doc: str, compute: Callable[[Any], Any] | None = None, *, part: bool = False) -> None:
+    def __init__(
+        self,
+        doc: str,
+        compute: Callable[[Any], Any] | None = None,
+        *,
+        part: bool | None = None,
+        heading: str | None = None,
+        unit: str = "",
+        digits: int = 6,
+        axes: tuple[str, ...] | None = None,
+        shown: Callable[[Any], Any] | None = None,
+        fact: bool = False,
+        column: str | None = None,
+    ) -> None:
         self.__doc__ = doc
         self.compute = compute
-        self.part = part
+        self.part = compute is None if part is None else part
+        self.key = column
+        self.heading, self.unit, self.digits, self.shown, self.fact = heading, unit, digits, shown, fact
+        self.axes = () if axes is None and heading is not None else axes
 
     def __set_name__(self, owner: type[Result], name: str) -> None:
         self.name = name
@@ -40,16 +76,23 @@ class Field(Generic[Value]):
     @overload
     def __get__(self, result: Any, owner: type[Any]) -> Value: ...
     def __get__(self, result: Any, owner: type[Any]) -> Any:
+        # Not called where the dictionary of the result has the name: a descriptor without __set__ comes after it.
         if result is None:
             return self
-        kept = result._kept
-        if self.name in kept:
-            return kept[self.name]
         found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
-        return kept.setdefault(self.name, found)  # two threads that compute it at once get one object
+        return result.__dict__.setdefault(self.name, found)  # two threads that compute it at once get one object
 
-    def __set__(self, result: Result, value: object) -> None:
-        raise AttributeError(f"a {type(result).__name__} cannot be changed: {self.name} was not set")
+    def column(self, result: Any) -> Column:
+        """The column of a result."""
+        values = getattr(result, self.name)
+        heading, unit, shown = self.heading or "", self.unit, None if self.shown is None else self.shown(result)
+        if unit == "force":
+            unit = "N" if result.system.by_mass else ""
+        if heading and unit == "rad":
+            heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
+        elif heading and unit:
+            heading = f"{heading} ({unit})"
+        return Column(self.key or self.name, values, heading, self.digits, self.axes or (), shown, unit=unit)
 
 
 class UnavailableError(AttributeError, ValueError):
@@ -59,17 +102,28 @@ class UnavailableError(AttributeError, ValueError):
 class Result(Unchangeable):
     """The base of all results: immutable values that can be pickled; two are equal if all their parts are equal.
 
-    A subclass lists its data as `Field`s. Its `_sheet` returns the table, and its `_again` repeats the question for a
-    field that a file did not hold.
+    A subclass lists its data as `Field`s, from which the table, dictionaries, files and equality follow. Where a field
+    is computed by a compiled result, the subclass says in `_from_parts` how that is made from the parts of a loaded one.
+    Arguments of the class statement:
+
+    - `row`: name of what a row of the table is, such as ``"mode"``;
+    - `title`: line above the table, with names of fields in braces;
+    - `notes`: lines below it, likewise;
+    - `spread`: whether a long table prints evenly spaced rows instead of the first ones.
     """
 
-    __slots__ = ("_core", "_kept")
-    _core: Any
-    _kept: dict[str, Any]
+    __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
     _fields: ClassVar[dict[str, Field[Any]]] = {}
     _kinds: ClassVar[dict[str, type[Result]]] = {}
+    _row: ClassVar[str] = "row"
+    _title: ClassVar[str] = ""
+    _notes: ClassVar[tuple[str, ...]] = ()
+    _spread: ClassVar[bool] = False
 
     def __init_subclass__(cls, **given: Any) -> None:
+        for name in ("row", "title", "notes", "spread"):
+            if name in given:
+                setattr(cls, f"_{name}", given.pop(name))
         super().__init_subclass__(**given)
         own = {name: value for name, value in vars(cls).items() if isinstance(value, Field)}
         cls._fields = {**cls._fields, **own}
@@ -77,36 +131,56 @@ class Result(Unchangeable):
             Result._kinds[cls.__name__] = cls
 
     def __init__(self) -> None:
-        raise TypeError(f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; call a question, such as revchain.modes")
+        raise TypeError(
+            f"revchain.{type(self).__name__}: is what a question returns or revchain.load reads; call a question, such as "
+            "revchain.modes"
+        )
 
     @classmethod
-    def _made(cls, core: Any, **parts: Any) -> Self:
+    def _made(cls, core: Any = None, **parts: Any) -> Self:
         """A result from a compiled one and the parts that the compiled one does not hold."""
         result = object.__new__(cls)
-        _set(result, "_core", core)
         for name, value in parts.items():
             if type(value) in _HOLD:
                 parts[name] = frozen(value)
-        _set(result, "_kept", parts)
+        parts["_core"] = core
+        result.__dict__.update(parts)
         return result
 
     def _found(self) -> Any:
         """The compiled result."""
-        if self._core is None:
-            _set(self, "_core", self._again())
-        return self._core
+        core = self.__dict__["_core"]
+        if core is None:
+            core = self.__dict__["_core"] = self._from_parts()
+        return core
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
+        """The compiled result, made from the parts of a loaded one."""
         raise NotImplementedError
+
+    def _is_good(self) -> bool:
+        """Whether everything was found and proved."""
+        known = self.__dict__
+        return known.get("complete", True) is not False and known.get("status", "success") in ("success", "found")
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        """The data as columns; with `brief` only the columns that a printed table shows."""
-        raise NotImplementedError
+        """The data as columns; with `brief` only what a printed table shows."""
+        columns, facts = [], {}
+        for name, field in self._fields.items():
+            if field.axes is not None and (field.heading or not brief):
+                if getattr(self, name, None) is not None:
+                    columns.append(field.column(self))
+            elif field.fact and not brief:
+                facts[name] = getattr(self, name)
+        words = _Words(self)
+        notes = [text for note in self._notes if (text := note.format_map(words))]
+        title = self._title.format_map(words)
+        return Sheet(self._row, title, columns, facts, notes, self._is_good(), self._spread)
 
     def _state(self) -> dict[str, Any]:
         """All parts, and the other fields computed so far."""
         parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
-        return parts | {name: value for name, value in dict(self._kept).items() if name in self._fields}
+        return parts | {name: value for name, value in dict(self.__dict__).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data of the table as plain Python data.
@@ -266,10 +340,17 @@ class Results(Result, Listed[Item]):
     """A list of results, with fields of its own."""
 
     __slots__ = ()
-    _items: Field[tuple[Any, ...]] = Field("The results.", part=True)
+    _items: Field[tuple[Any, ...]] = Field("The results.")
 
 
-_set = object.__setattr__
+class _Words:
+    """The fields of a result by name, for the text of titles and notes."""
+
+    def __init__(self, result: Result) -> None:
+        self.result = result
+
+    def __getitem__(self, name: str) -> Any:
+        return getattr(self.result, name)
 
 
 _HOLD = (np.ndarray, list, tuple)  # types that may hold writable arrays

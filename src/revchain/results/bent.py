@@ -57,11 +57,10 @@ class _Bent(Shape):
     inclination: Field[Floats] = Field(
         "Inclination of each link or place to the vertical, rad, within (-pi, pi]; positive if it approaches the axis going "
         "up.",
-        part=True,
     )
-    offset: Field[Floats] = Field("Distance of each pin or place from the axis, m.", part=True)
+    offset: Field[Floats] = Field("Distance of each pin or place from the axis, m.")
     height: Field[Floats] = Field(
-        "Height of each pin or place above the support, m; for a held system above its lower end.", part=True
+        "Height of each pin or place above the support, m; for a held system above its lower end."
     )
     tension: Field[Floats] = Field(
         "Tension at each pin or place, N or in the unit of the weights.", forced("tension"), part=True
@@ -69,9 +68,8 @@ class _Bent(Shape):
     condition: Field[float] = Field(
         "Largest change of an inclination, rad, divided by the relative change of length, span or conical height that "
         "causes it. It is large near a critical height.",
-        part=True,
     )
-    _asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.", part=True)
+    _asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.")
 
     @property
     def _reach(self) -> float:
@@ -139,11 +137,10 @@ class CordShape(_Bent):
     """
 
     __slots__ = ()
-    arc_length: Field[Floats] = Field("Distance of each place from the free end along the cord, m, shape (n,).", part=True)
+    arc_length: Field[Floats] = Field("Distance of each place from the free end along the cord, m, shape (n,).")
     residual: Field[float] = Field(
         "Unbalanced horizontal force of the whole cord at the support, divided by its tension there. For a density "
         "function: difference between the series of the tension and the tension from pull and weight, likewise divided.",
-        part=True,
     )
     error_estimate: Field[float] = Field(
         "Estimate of the error of each inclination, rad, and of each offset and height divided by the length. Measured "
@@ -224,7 +221,7 @@ class CordShape(_Bent):
         driven = is_driven("revchain.CordShape.stability", frame)
         return judged(_core.cord_stability(self.system._compiled, self._found(), driven), frame, self)
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         core = self.system._compiled
         if len(self._asked) == 4:
             return _core.cord_shape_near(core, *self._asked)
@@ -251,9 +248,9 @@ class _HeldShape(_Bent):
         lambda s: s._per * np.array(s._found().upper_pull),
         part=True,
     )
-    span: Field[float] = Field("Distance between the two ends along the axis, m.", part=True)
+    span: Field[float] = Field("Distance between the two ends along the axis, m.")
     residual: Field[float] = Field(
-        "Largest unbalanced force divided by the tension, or largest gap at an end divided by the length.", part=True
+        "Largest unbalanced force divided by the tension, or largest gap at an end divided by the length."
     )
     _note: ClassVar[str] = "lower end: inclination there from the upward vertical"
     _place_note: ClassVar[str] = "heights above the lower end"
@@ -272,7 +269,7 @@ class _HeldShape(_Bent):
             Column("upper_pull", np.array([x.upper_pull for x in shapes]), axes=("axis",)),
         ]
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         *asked, place = self._asked
         held = self.system
         if asked and asked[0] == "branch":
@@ -301,7 +298,7 @@ class HeldShape(_HeldShape):
 
     __slots__ = ()
     force_inclination: Field[Floats] = Field(
-        "Inclination of the upward force at each pin (`tension`) to the vertical, rad, shape (N + 1,).", part=True
+        "Inclination of the upward force at each pin (`tension`) to the vertical, rad, shape (N + 1,)."
     )
     joint_angle: Field[Floats] = Field(
         "Inclination of the link below each pin minus that of the link above it, rad, shape (N + 1,); 0 beyond the "
@@ -313,8 +310,8 @@ class HeldShape(_HeldShape):
         "weights; at the lower end the force on the bearing.",
         lambda s: force_above(s.tension, s.force_inclination),
     )
-    error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.", part=True)
-    proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
+    error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.")
+    proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.")
     sensitivity: Field[ShapeSensitivity] = Field(
         "Derivatives of inclinations, offsets and tensions at the pins with respect to the speed, the data of each link, the "
         "span or the tension, and the supports of the ends. Each part is a `HeldShapeDerivatives`.",
@@ -323,7 +320,6 @@ class HeldShape(_HeldShape):
     moment_of_inertia: Field[float] = Field(
         "Moment of inertia about the axis, with the masses on springs, kg m^2; for a chain given by weight, in weight times "
         "length squared.",
-        part=True,
     )
     effective_energy: Field[float] = Field(
         "Potential energy (with that of the springs) less that of the centrifugal forces, J. It is stationary among figures "
@@ -387,14 +383,14 @@ class HeldCordShape(_HeldShape):
     """
 
     __slots__ = ()
-    arc_length: Field[Floats] = Field("Distance of each place from the lower end along the cord, m, shape (n,).", part=True)
+    arc_length: Field[Floats] = Field("Distance of each place from the lower end along the cord, m, shape (n,).")
     error_estimate: Field[float] = Field(
         "Estimate of the error of each inclination, rad, and of each offset and height divided by the length.",
         lambda s: s._found().error_bound,
         part=True,
     )
     moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, kg m^2; for a cord given by weight, in weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a cord given by weight, in weight times length squared."
     )
 
     def stability(self, *, frame: str = "free") -> Stability:

@@ -38,11 +38,11 @@ class StabilityWindow(Result):
     """
 
     __slots__ = ()
-    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
+    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.")
     conical_height: Field[Pair] = Field(
-        "Conical height at both ends, m; the end nearer to the start of the branch first.", part=True
+        "Conical height at both ends, m; the end nearer to the start of the branch first."
     )
-    arc: Field[Pair] = Field("`Branch.arc` at both ends.", part=True)
+    arc: Field[Pair] = Field("`Branch.arc` at both ends.")
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -69,9 +69,9 @@ class Branch(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
+    system: Field[Chain | Rig] = Field("The chain or rig.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.")
     mode: Field[int | None] = Field(
         "Number of the mode at whose critical speed the branch leaves the vertical; 1 for a branch from rest; None for "
         "an isolated branch.",
@@ -81,40 +81,36 @@ class Branch(Result, Moving):
     birth: Field[str] = Field(
         "Start of the branch. ``'vertical'``: it leaves the straight chain at a critical speed. ``'rest'``: it starts at "
         "rest, with the support off the axis. ``'fold'``: it is isolated; two shapes start at a fold.",
-        part=True,
     )
     arc: Field[Floats] = Field(
         "Arc length of the branch from its first point, dimensionless: the root of the mean square of the links' ``d "
         "arsinh(tan(inclination))`` plus the square of ``d log(conical_height)``, summed up.",
-        part=True,
     )
-    conical_height: Field[Floats] = Field("Conical height of the speed, m.", part=True)
+    conical_height: Field[Floats] = Field("Conical height of the speed, m.")
     angular_speed: Field[Floats] = Field("Speed at each point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
     tip_inclination: Field[Floats] = Field(
         "Inclination of the lowest link to the vertical, rad. Of two mirror images the branch follows the one that agrees "
         "with the mode shape of `modes`; an isolated branch follows the one that starts with the free end at a positive "
         "offset. The link is vertical where the sign changes. With the support off the axis there are no mirror images; "
         "outwards is positive.",
-        part=True,
     )
-    tip_radius: Field[Floats] = Field("Signed offset of the free end from the axis, m.", part=True)
+    tip_radius: Field[Floats] = Field("Signed offset of the free end from the axis, m.")
     top_tension: Field[Floats] = Field(
         "Magnitude of the reaction at the topmost pin, N or in the unit of the weights.",
         forced("top_tension"),
         part=True,
     )
     moment_of_inertia: Field[Floats] = Field(
-        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared."
     )
     effective_energy: Field[Floats] = Field(
         "Potential energy minus half the moment of inertia times the speed squared, J.",
         forced("effective_energy"),
         part=True,
     )
-    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", part=True)
+    half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.")
     folds: Field[Whole] = Field(
         "Indices of the points at which the conical height has a local extremum: two shapes appear or merge there.",
-        part=True,
     )
     end: Field[str] = Field(
         "Reason why the branch ends. ``'height'``: the given conical height is reached. ``'closed'``: the branch is "
@@ -122,9 +118,8 @@ class Branch(Result, Moving):
         "``'stuck'``: no step passed every check. ``'slow'``: it approaches rest. ``'slack'``: flywheels cancel the "
         "tension of a link, which becomes horizontal. ``'loose'``: the spring at the support no longer holds the "
         "chain.",
-        part=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("Arguments of the call, used to compute shapes later.", part=True)
+    asked: Field[tuple[Any, ...]] = Field("Arguments of the call, used to compute shapes later.")
 
     def shape(self, point: int) -> SteadyShape:
         """Return the shape at a point of the branch.
@@ -286,7 +281,7 @@ class Branch(Result, Moving):
     def _compiled(self) -> Any:
         return self.system._under(self.gravity) if isinstance(self.system, Rig) else self.system._compiled
 
-    def _again(self) -> _core.Branch:
+    def _from_parts(self) -> _core.Branch:
         core = self._compiled()
         if len(self.asked) == 4:
             found: _core.Branch = _core.branch(core, *self.asked, self.gravity, self.direction)
@@ -332,18 +327,17 @@ class Branches(Results[Branch], Moving):
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
+    system: Field[Chain | Rig] = Field("The chain or rig.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.")
     consistent: Field[bool] = Field(
         "Whether at each of the speeds `looked_at` the list is proved and each of its shapes lies on exactly one branch.",
-        part=True,
     )
     complete: Field[bool] = Field(
-        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds.", part=True
+        "Whether it is also proved that no branch is missing, even a closed one between two of these speeds."
     )
-    looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.", part=True)
-    remark: Field[str] = Field("A sentence that says what may be missing.", part=True)
+    looked_at: Field[Floats] = Field("Conical heights at which all shapes were listed, m, descending.")
+    remark: Field[str] = Field("A sentence that says what may be missing.")
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
         """Draw the bifurcation diagram: a quantity of each branch against the speed divided by the first critical speed.

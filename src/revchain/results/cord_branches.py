@@ -26,7 +26,7 @@ class CordBranch(Branch):
     """
 
     __slots__ = ()
-    system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
+    system: Field[Cord] = Field("The cord.")  # type: ignore[assignment]
     direction: Field[int] = Field("Always 1: a cord is alike in both directions of rotation.", lambda b: 1, part=True)
     birth: Field[str] = Field(
         "Start of the branch. ``'vertical'``: it leaves the straight cord at a critical speed. ``'fold'``: it is isolated; "
@@ -37,7 +37,6 @@ class CordBranch(Branch):
     arc: Field[Floats] = Field(
         "Arc length of the branch from its first point, dimensionless: the root of the squares of ``d "
         "arsinh(tan(tip_inclination))`` and ``d log(conical_height)``, summed up.",
-        part=True,
     )
 
     def shape(self, point: int) -> CordShape:  # type: ignore[override]
@@ -145,7 +144,7 @@ class CordBranch(Branch):
         is_driven(place, frame)
         raise ValueError(f"{place}: is for chains; use the stability of shapes: branch.shape(-1).stability()")
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         core = self.system._compiled
         if len(self.asked) == 4:
             return _core.cord_branch(core, *self.asked)
@@ -164,15 +163,14 @@ class CordBranches(Branches):
     """
 
     __slots__ = ()
-    system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
+    system: Field[Cord] = Field("The cord.")  # type: ignore[assignment]
     direction: Field[int] = Field("Always 1: a cord is alike in both directions of rotation.", lambda b: 1, part=True)
     consistent: Field[bool] = Field(
-        "Whether at each of the speeds `looked_at` each shape found by a scan lies on exactly one branch.", part=True
+        "Whether at each of the speeds `looked_at` each shape found by a scan lies on exactly one branch."
     )
     complete: Field[bool] = Field(
         "Whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end. Then no branch "
         "is missing.",
-        part=True,
     )
 
 

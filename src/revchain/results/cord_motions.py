@@ -43,29 +43,27 @@ class CordSwing(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Cord] = Field("The cord.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
-    arc_length: Field[Floats] = Field("Distance of each place from the free end, m, shape (n,).", part=True)
-    offset: Field[Floats] = Field("Offsets of the places, m, shape (T, n): sums of the k modes used.", part=True)
-    velocity: Field[Floats] = Field("Velocities of the places, m/s, shape (T, n).", part=True)
+    system: Field[Cord] = Field("The cord.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    time: Field[Floats] = Field("Times, s, shape (T,).")
+    arc_length: Field[Floats] = Field("Distance of each place from the free end, m, shape (n,).")
+    offset: Field[Floats] = Field("Offsets of the places, m, shape (T, n): sums of the k modes used.")
+    velocity: Field[Floats] = Field("Velocities of the places, m/s, shape (T, n).")
     angular_frequency: Field[Floats] = Field(
-        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
+        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`."
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); it is constant.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); it is constant."
     )
-    shape: Field[Floats] = Field("Shape of each mode, shape (k, n), 1 at the free end.", part=True)
+    shape: Field[Floats] = Field("Shape of each mode, shape (k, n), 1 at the free end.")
     cosine: Field[Floats] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.",
-        part=True,
     )
-    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
-    energy_left_out: Field[float] = Field("Energy of the start that is not in the modes used.", part=True)
+    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.")
+    energy_left_out: Field[float] = Field("Energy of the start that is not in the modes used.")
     error_estimate: Field[Floats] = Field(
         "Estimate of the error of each offset at any time, m, shape (n,): largest effect of modes k + 1 to 2 k, and of higher "
         "ones by extrapolation.",
-        part=True,
     )
 
     def plot(self, ax: Axes | None = None, *, kind: str = "shapes", places: Iterable[int] = (0,)) -> Axes:

@@ -34,11 +34,11 @@ class CordDerivatives(_ByDatum):
 
     __slots__ = ()
     _known = CORD_DATA
-    length: Field[Floats] = Field("Numbers for the length, shape (k,); see `CordSensitivity.length`.", part=True)
-    mass: Field[Floats] = Field("Numbers for the mass, shape (k,); see `CordSensitivity.mass`.", part=True)
-    tip_mass: Field[Floats] = Field("Numbers for the tip, shape (k,); see `CordSensitivity.tip_mass`.", part=True)
-    exponent: Field[Floats] = Field("Numbers for the exponent, shape (k,); see `CordSensitivity.exponent`.", part=True)
-    tension: Field[Floats] = Field("Numbers for the tension, shape (k,); see `CordSensitivity.tension`.", part=True)
+    length: Field[Floats] = Field("Numbers for the length, shape (k,); see `CordSensitivity.length`.")
+    mass: Field[Floats] = Field("Numbers for the mass, shape (k,); see `CordSensitivity.mass`.")
+    tip_mass: Field[Floats] = Field("Numbers for the tip, shape (k,); see `CordSensitivity.tip_mass`.")
+    exponent: Field[Floats] = Field("Numbers for the exponent, shape (k,); see `CordSensitivity.exponent`.")
+    tension: Field[Floats] = Field("Numbers for the tension, shape (k,); see `CordSensitivity.tension`.")
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Values by datum", self._columns())
@@ -70,26 +70,24 @@ class CordSensitivity(_ByDatum):
     __slots__ = ()
     _known = CORD_DATA
     length: Field[Floats] = Field(
-        "d(conical height)/d(length), shape (k,); the density keeps its proportions along the cord.", part=True
+        "d(conical height)/d(length), shape (k,); the density keeps its proportions along the cord."
     )
     mass: Field[Floats] = Field(
         "Derivative with respect to the mass of the cord without its tip, m/kg, shape (k,); for a cord given by weight, with "
         "respect to its weight.",
-        part=True,
     )
     tip_mass: Field[Floats] = Field(
-        "Derivative with respect to the mass of the tip; 0 for a cord held at both ends.", part=True
+        "Derivative with respect to the mass of the tip; 0 for a cord held at both ends."
     )
     exponent: Field[Floats] = Field(
         "Derivative with respect to the exponent of the density at constant mass; NaN for a density function, 0 for a cord "
         "held at both ends.",
-        part=True,
     )
     tension: Field[Floats] = Field(
-        "Derivative with respect to the tension at the upper end; 0 for a hanging cord.", part=True
+        "Derivative with respect to the tension at the upper end; 0 for a hanging cord."
     )
     relative: Field[CordDerivatives] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these.", part=True
+        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these."
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -109,10 +107,10 @@ class CordUncertainty(Uncertainty):
 
     __slots__ = ()
     share: Field[CordDerivatives] = Field(  # type: ignore[assignment]
-        "Part of each variance that comes from each datum; the parts of a mode add up to 1.", part=True
+        "Part of each variance that comes from each datum; the parts of a mode add up to 1."
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and 0 in place of a link.", part=True
+        "For each mode the datum that contributes most, and 0 in place of a link."
     )
 
     def _most(self, row: int) -> str:

@@ -32,31 +32,29 @@ class ForceDiagram(Result):
 
     __slots__ = ()
     pin: Field[Floats] = Field(
-        "Vertices of the funicular polygon, shape (N + 1, 2); the support, at (0, 0), is the last.", part=True
+        "Vertices of the funicular polygon, shape (N + 1, 2); the support, at (0, 0), is the last."
     )
     load: Field[Floats] = Field(
-        "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative).", part=True
+        "Load on each pin without the support, shape (N, 2): centrifugal force outwards, weight (negative)."
     )
     ray: Field[Floats] = Field(
-        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m.", part=True
+        "Vector from the pole to ``Q_m``, shape (N, 2): parallel to link m, the side between pins m - 1 and m."
     )
     reaction: Field[Floats] = Field(
-        "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray.", part=True
+        "Reaction at the upper pin of each link on the chain below, shape (N, 2); for point masses the ray."
     )
     lifted: Field[Floats] = Field(
         "Place where the line of each load from the pole meets the horizontal line ``conical_height`` below it, shape (N,). "
         "For point masses these are their offsets: P lifted vertically onto that line.",
-        part=True,
     )
     centre_of_gravity: Field[Floats] = Field(
         "Centre of gravity ``G_m`` of link m and all links below, shape (N, 2). ``K_m`` lies on the axis, ``conical_height`` "
         "higher. ``G_m K_m`` is parallel to the reaction, that is, to the thread above a point mass.",
-        part=True,
     )
     crossing: Field[Floats] = Field(
-        "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel.", part=True
+        "Height of ``C_m``, at which the line of link m meets the axis, shape (N,); infinite if they are parallel."
     )
-    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed: the distances ON and HK.")
 
     def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
         """Draw the shape and its force diagram side by side, with the letters of Fig. 3 of the paper.

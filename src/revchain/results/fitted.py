@@ -39,15 +39,13 @@ class Fitted(Result):
     status: Field[str] = Field(
         "``'success'``; ``'undetermined'`` if the measurements do not determine some data, see `undetermined`; "
         "``'not_converged'`` if the search stopped before the minimum of the sum of squares.",
-        part=True,
     )
-    vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.", part=True)
-    system: Field[Any] = Field("The system with the new values.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    vary: Field[tuple[str, ...]] = Field("Paths of the data, as given.")
+    system: Field[Any] = Field("The system with the new values.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     value: Field[Floats] = Field(
         "Values of the data, shape (p,); ``fitted[path]`` is one of them. Many other values of the data in `undetermined` fit "
         "equally well.",
-        part=True,
     )
     standard_uncertainty: Field[Floats] = Field(
         "Standard uncertainty of each value, shape (p,): the root of its variance. NaN if the covariance is NaN.",
@@ -56,21 +54,19 @@ class Fitted(Result):
     covariance: Field[Floats] = Field(
         "Covariance of the values, shape (p, p), to first order. NaN for data in `undetermined`; NaN for all data if no "
         "uncertainties were given and there are no more measurements than data to estimate them.",
-        part=True,
     )
     correlation: Field[Floats] = Field(
         "Covariance divided by both standard uncertainties, shape (p, p).",
         lambda f: _over(f.covariance, np.outer(f.standard_uncertainty, f.standard_uncertainty)),
     )
-    present: Field[Floats] = Field("Values of the data before the fit, shape (p,).", part=True)
-    number: Field[Whole] = Field("Numbers of the measured modes, shape (m,); negative for backward modes of a rig.", part=True)
-    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.", part=True)
+    present: Field[Floats] = Field("Values of the data before the fit, shape (p,).")
+    number: Field[Whole] = Field("Numbers of the measured modes, shape (m,); negative for backward modes of a rig.")
+    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); negative for backward modes.")
     measured_uncertainty: Field[Floats] = Field(
         "Standard uncertainties of the measured speeds, rad/s, shape (m,): as given, else one relative uncertainty for all "
         "speeds, estimated from the residuals; NaN if there are no more measurements than data.",
-        part=True,
     )
-    computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", part=True)
+    computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).")
     residual: Field[Floats] = Field(
         "Measured speeds minus computed ones, rad/s, shape (m,).", lambda f: f.measured - f.computed
     )
@@ -81,16 +77,13 @@ class Fitted(Result):
     chi_square: Field[float | None] = Field(
         "Sum of squares of the normalized residuals; about `degrees_of_freedom` if model and uncertainties are correct. "
         "None if no uncertainties were given.",
-        part=True,
     )
     degrees_of_freedom: Field[int] = Field(
         "Number of measurements minus number of data, m - p, plus the number of undetermined combinations of data.",
-        part=True,
     )
     undetermined: Field[tuple[tuple[str, ...], ...]] = Field(
         "Groups of paths that the measurements do not determine. A single path has no effect on the measured speeds; the "
         "effects of several paths cancel.",
-        part=True,
     )
 
     def __getitem__(self, path: str) -> float:

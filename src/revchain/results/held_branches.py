@@ -36,12 +36,11 @@ class HeldBranch(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Held] = Field("The held system.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    system: Field[Held] = Field("The held system.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
     mode: Field[int] = Field(
         "Number of the branch: its half waves at the greatest speed. With ends off the axis the number is ``2 * k - 1`` if the "
         "lowest link of the k half waves leads outwards, ``2 * k`` if inwards.",
-        part=True,
     )
     conical_height: Field[Floats] = Field(
         "Conical height of the speed, m.", lambda b: _each(b, lambda s: s.conical_height), part=True
@@ -80,9 +79,8 @@ class HeldBranch(Result, Moving):
         "measured 2e-5, relative). ``'folded'``: a cord hangs folded along the axis. ``'speed'``: the greatest speed "
         "is reached again. ``'rest'``: with ends off the axis the chain hangs as at rest, at a conical height of "
         "10,000 lengths. ``'budget'``: 3000 steps are done.",
-        part=True,
     )
-    asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.", part=True)
+    asked: Field[tuple[Any, ...]] = Field("Data to repeat the question, and the index in the list.")
 
     def shape(self, point: int) -> HeldShape | HeldCordShape:
         """Return the shape at a point of the branch.
@@ -160,7 +158,7 @@ class HeldBranch(Result, Moving):
     def __len__(self) -> int:
         return int(self.conical_height.size)
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         return branch_again(self.system, self.asked)
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -195,8 +193,8 @@ class HeldBranches(Results[HeldBranch], Moving):
     """
 
     __slots__ = ()
-    system: Field[Held] = Field("The held system.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    system: Field[Held] = Field("The held system.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
         """Draw a quantity of each branch against the speed, coloured by half waves; folds are marked.

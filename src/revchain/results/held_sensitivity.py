@@ -39,21 +39,21 @@ class HeldShapeDerivatives(DerivativesByLink):
     """
 
     __slots__ = ()
-    span: Field[Floats] = Field("Derivatives with respect to the span, per m, shape (M,).", part=True)
-    tension: Field[Floats] = Field("Derivatives with respect to the given tension, per N, shape (M,).", part=True)
-    lower_radius: Field[Floats] = Field("Derivatives with respect to the radius of the lower end, shape (M,).", part=True)
+    span: Field[Floats] = Field("Derivatives with respect to the span, per m, shape (M,).")
+    tension: Field[Floats] = Field("Derivatives with respect to the given tension, per N, shape (M,).")
+    lower_radius: Field[Floats] = Field("Derivatives with respect to the radius of the lower end, shape (M,).")
     lower_stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the lower end, per N/m, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the stiffness of the lower end, per N/m, shape (M,); 0 if it is firm."
     )
     lower_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass on the spring of the lower end, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the mass on the spring of the lower end, shape (M,); 0 if it is firm."
     )
-    upper_radius: Field[Floats] = Field("Derivatives with respect to the radius of the upper end, shape (M,).", part=True)
+    upper_radius: Field[Floats] = Field("Derivatives with respect to the radius of the upper end, shape (M,).")
     upper_stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the upper end, per N/m, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the stiffness of the upper end, per N/m, shape (M,); 0 if it is firm."
     )
     upper_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass on the spring of the upper end, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the mass on the spring of the upper end, shape (M,); 0 if it is firm."
     )
 
     def _names(self) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ TURN64 = 2 * np.pi
 SPEED_ROUNDING = 2.1 * 2.0**-52  # rounding of a speed computed from a height
 
 
-class Certificate(Result):
+class Certificate(Result, row="mode", title="Certificate: intervals proved to hold the conical heights"):
     """Intervals that are proved to contain the conical heights, and the counts that prove it.
 
     Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]``, and ``above_upper[i]`` exceed
@@ -57,28 +57,33 @@ class Certificate(Result):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-    lower: Field[Numbers] = Field("Lower end of each interval, m, shape (k,); 0 if nothing could be proved.", part=True)
-    upper: Field[Numbers] = Field("Upper end of each interval, m, shape (k,); infinite if nothing could be proved.", part=True)
-    above_lower: Field[Whole] = Field("Proved count of the heights above each lower end, shape (k,).", part=True)
-    above_upper: Field[Whole] = Field("Proved count of the heights above each upper end, shape (k,).", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,).", heading="mode", column="mode")
+    lower: Field[Numbers] = Field(
+        "Lower end of each interval, m, shape (k,); 0 if nothing could be proved.", heading="height above", unit="m", digits=17
+    )
+    upper: Field[Numbers] = Field(
+        "Upper end of each interval, m, shape (k,); infinite if nothing could be proved.",
+        heading="height at most",
+        unit="m",
+        digits=17,
+    )
+    above_lower: Field[Whole] = Field(
+        "Proved count of the heights above each lower end, shape (k,).", heading="heights > lower"
+    )
+    above_upper: Field[Whole] = Field(
+        "Proved count of the heights above each upper end, shape (k,).", heading="heights > upper"
+    )
     lower_low: Field[Floats | None] = Field(
-        "Second double of each lower end with ``precision='double-double'``, else None.", part=True
+        "What a double leaves out of each lower end: with ``precision='double-double'`` its second double, with "
+        "``'extended'`` the rest; else None.",
+        lambda c: rest(c.lower),
+        part=True,
+        axes=(),
+        unit="m",
     )
     upper_low: Field[Floats | None] = Field(
-        "Second double of each upper end with ``precision='double-double'``, else None.", part=True
+        "What a double leaves out of each upper end, see `lower_low`.", lambda c: rest(c.upper), part=True, axes=(), unit="m"
     )
-
-    def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", self.number, "mode"),
-            Column("lower", self.lower, "height above (m)", 17),
-            Column("upper", self.upper, "height at most (m)", 17),
-            Column("above_lower", self.above_lower, "heights > lower"),
-            Column("above_upper", self.above_upper, "heights > upper"),
-        ]
-        columns += _rest("lower", self.lower, self.lower_low) + _rest("upper", self.upper, self.upper_low)
-        return Sheet("mode", "Certificate: intervals proved to hold the conical heights", columns)
 
 
 def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
@@ -121,9 +126,9 @@ class Modes(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The system.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    number: Field[Whole] = Field("Mode numbers, shape (k,): the slowest of all modes has number 1.", part=True)
+    system: Field[Any] = Field("The system.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    number: Field[Whole] = Field("Mode numbers, shape (k,): the slowest of all modes has number 1.")
     angular_speed: Field[Numbers] = Field(
         "Whirl speed of each mode, ``sqrt(gravity / conical_height)``, rad/s, shape (k,). For a hanging chain it is also the "
         "natural angular frequency of its swing in a plane. longdouble with ``precision='extended'``, else float64.",
@@ -144,39 +149,39 @@ class Modes(Result, Moving):
     )
     conical_height: Field[Numbers] = Field(
         "Conical height ``gravity / angular_speed**2`` of each mode, m, shape (k,), descending.",
-        part=True,
     )
     error_bound: Field[Numbers] = Field(
         "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored. It is proved; for "
         "cords it is checked by measurement.",
-        part=True,
     )
     conical_height_low: Field[Floats | None] = Field(
         "Second double of each height with ``precision='double-double'``, to be added to `conical_height`; `error_bound` then "
         "bounds the error of the sum. Else None.",
-        part=True,
     )
     shape: Field[Numbers] = Field(
         "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last. The largest magnitude of "
-        "each mode is 1, and the free end is positive."
+        "each mode is 1, and the free end is positive.",
+        part=False,
     )
     residual: Field[Numbers] = Field(
         "Residual of each shape, shape (k,): largest unbalanced force at a pin divided by the largest sum of the "
-        "magnitudes of the forces at a pin."
+        "magnitudes of the forces at a pin.",
+        part=False,
     )
     nodes: Field[tuple[Numbers, ...]] = Field(
         "For each mode, the distances from the free end along the chain at which it crosses the axis, excluding the "
-        "support."
+        "support.",
+        part=False,
     )
     certificate: Field[Certificate | None] = Field(
         "The proof of the error bounds with ``certify=True``, else None.",
         lambda m: _certificate(m.number, m._found().certificate),
         part=True,
     )
-    method: Field[str] = Field("The method that found the heights.", part=True)
-    status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", part=True)
-    precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.", part=True)
-    rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.", part=True)
+    method: Field[str] = Field("The method that found the heights.")
+    status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.")
+    precision: Field[str] = Field("Arithmetic of the result, see `revchain.modes`.")
+    rtol: Field[float | None] = Field("Requested relative tolerance; None for full accuracy.")
     sensitivity: Field[Sensitivity | RigSensitivity] = Field(
         "Derivatives with respect to each datum of each link. Cost: 2 microseconds per link and mode.",
         lambda m: _sensitivity(m),
@@ -218,7 +223,7 @@ class Modes(Result, Moving):
                 f"revchain.{type(self).__name__}.at: {what} has other modes at another gravity; call revchain.modes again"
             )
         speeds = ("angular_speed", "frequency", "rpm", "period")
-        kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}
+        kept = {name: value for name, value in dict(self.__dict__).items() if name not in speeds}
         kept["gravity"] = one_positive("revchain.Modes.at", "gravity", gravity)
         return type(self)._made(self._core, **kept)
 
@@ -323,7 +328,7 @@ class Modes(Result, Moving):
 
         return plot_modes(self, ax, modes, carried)
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         if not len(self):
             none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
@@ -359,7 +364,7 @@ class Modes(Result, Moving):
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         """Columns of the shapes; with `brief`, nodes only if they are known or cheap."""
-        if brief and "nodes" not in self._kept and self.system.size * len(self) > MOST_OFFSETS:
+        if brief and "nodes" not in self.__dict__ and self.system.size * len(self) > MOST_OFFSETS:
             return []
         nodes = self._node_column()
         return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
@@ -377,7 +382,8 @@ class Modes(Result, Moving):
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]
-        columns += _rest("conical_height", self.conical_height, self.conical_height_low)
+        low = rest(self.conical_height) if self.conical_height_low is None else self.conical_height_low
+        columns += [] if low is None else [Column("conical_height_low", low)]
         if self.certificate is not None:
             for column in self.certificate._sheet().columns[1:]:
                 columns.append(Column(f"certificate_{column.name}", column.values))
@@ -405,15 +411,14 @@ class OtherModes(Result):
     """
 
     __slots__ = ()
-    conical_height: Field[Complex] = Field("Conical heights, m, shape (m,).", part=True)
+    conical_height: Field[Complex] = Field("Conical heights, m, shape (m,).")
     angular_speed: Field[Complex] = Field(
         "Speeds ``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,). Offsets vary as ``exp(1j * n * t)``.",
-        part=True,
     )
     growth_rate: Field[Floats] = Field(
-        "Size of the imaginary part of each speed, 1/s. Small offsets grow as ``exp(growth_rate * t)``.", part=True
+        "Size of the imaginary part of each speed, 1/s. Small offsets grow as ``exp(growth_rate * t)``."
     )
-    error_bound: Field[Floats] = Field("Proved bound of the error of each height, relative to its size.", part=True)
+    error_bound: Field[Floats] = Field("Proved bound of the error of each height, relative to its size.")
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
@@ -445,18 +450,17 @@ class RigModes(Modes):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,), from 1.", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,), from 1.")
     direction: Field[Whole] = Field(
         "Direction of each mode, shape (k,): 1 forward, -1 backward. Without momentum the directions do not differ, "
         "and all are 1.",
-        part=True,
     )
     angular_speed: Field[Numbers] = Field(
-        "Whirl speed of each mode, rad/s, shape (k,), negative for backward modes.", part=True
+        "Whirl speed of each mode, rad/s, shape (k,), negative for backward modes."
     )
     frequency: Field[Numbers] = Field("Revolutions per second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
     period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
-    speed_error_bound: Field[Floats] = Field("Proved bound of the relative error of each speed, shape (k,).", part=True)
+    speed_error_bound: Field[Floats] = Field("Proved bound of the relative error of each speed, shape (k,).")
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
     certificate: Field[Certificate | None] = Field(
         "The proof of the error bounds with ``certify=True``, else None. Its counts are for the direction of each "
@@ -466,13 +470,13 @@ class RigModes(Modes):
     )
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
     rtol: Field[float | None] = Field(
-        "Requested relative tolerance; None if left out. Rigs have full accuracy.", part=True
+        "Requested relative tolerance; None if left out. Rigs have full accuracy."
     )
-    available: Field[tuple[int, int]] = Field("Number of existing modes, forward and backward.", part=True)
+    available: Field[tuple[int, int]] = Field("Number of existing modes, forward and backward.")
     has_momentum: Field[bool] = Field(
-        "Whether a flywheel has constant momentum, so that the two directions differ.", part=True
+        "Whether a flywheel has constant momentum, so that the two directions differ."
     )
-    other_available: Field[int] = Field("Number of solutions that are not steady motions, found by counting.", part=True)
+    other_available: Field[int] = Field("Number of solutions that are not steady motions, found by counting.")
     other: Field[OtherModes] = Field(
         "The solutions that are not steady motions, computed when first read. Cost: 1 microsecond per solution and "
         "link.",
@@ -481,13 +485,12 @@ class RigModes(Modes):
     slack_link: Field[Whole] = Field(
         "Indices of links (0 is the lowest) whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
         "and the fastest computed speed of its direction.",
-        part=True,
     )
     slack_speed: Field[Floats] = Field(
-        "Speeds at which the effective tension of these links vanishes, rad/s, signed, slowest first.", part=True
+        "Speeds at which the effective tension of these links vanishes, rad/s, signed, slowest first."
     )
     complete: Field[bool] = Field(
-        "Whether the modes and the other solutions are proved to be all solutions.", part=True
+        "Whether the modes and the other solutions are proved to be all solutions."
     )
 
     def uncertainty(
@@ -560,9 +563,9 @@ class RigModes(Modes):
         }
         return rig_uncertainty(self, given)
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         if not len(self):
-            return super()._again()
+            return super()._from_parts()
         first, last = int(self.number.min()), int(self.number.max())
         each = [self.number[self.direction == way] for way in (1, -1)]
         kept = [int(n) for numbers in each for n in (numbers.min(initial=last + 1), numbers.size)]
@@ -799,7 +802,7 @@ class CordModes(Modes):
             refuse_beyond_memory(f"revchain.CordModes.{name}", "the number of the last mode", int(self.number[-1]), 8)
         return getattr(self._found(), name)
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         if not len(self):
             none = lambda arc: np.empty((0, len(arc)))  # noqa: E731
             return SimpleNamespace(offset=none, slope=none, nodes=(), vertical_points=())
@@ -833,17 +836,18 @@ def _speed_bound(error: Floats) -> Floats:
     return np.asarray(bound * (1 + 1e-9) + SPEED_ROUNDING)
 
 
-def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
-    """The part of the values that a float of a dictionary or a text file cannot hold, as a column; none for doubles."""
-    if low is None and values.dtype == np.longdouble:
-        with np.errstate(invalid="ignore"):
-            low = np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
-    return [] if low is None else [Column(f"{name}_low", low)]
+def rest(values: Numbers) -> Floats | None:
+    """What doubles leave out of longdouble numbers, which a file of text cannot hold; None for doubles."""
+    if values.dtype != np.longdouble:
+        return None
+    with np.errstate(invalid="ignore"):
+        return np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
 
 
 def _certificate(number: Whole, found: tuple[Any, ...] | None) -> Certificate | None:
     names = ("lower", "upper", "above_lower", "above_upper", "lower_low", "upper_low")
-    return None if found is None else Certificate._made(None, number=number, **dict(zip(names, found, strict=True)))
+    given = None if found is None else dict(zip(names, found, strict=True))
+    return given and Certificate._made(None, number=number, **{name: x for name, x in given.items() if x is not None})
 
 
 def _sensitivity(modes: Modes) -> Any:

@@ -46,22 +46,20 @@ class Response(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).", part=True)
+    system: Field[Any] = Field("The chain or rig.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).")
     frequency: Field[Floats] = Field("Revolutions per second, Hz, shape (...).", lambda r: r.angular_speed / TURN)
     rpm: Field[Floats] = Field("Revolutions per minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
     period: Field[Floats] = Field("Time of one revolution, s, shape (...).", lambda r: TURN / np.abs(r.angular_speed))
-    conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).", part=True)
-    support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
+    conical_height: Field[Floats] = Field("Conical heights ``gravity / angular_speed**2``, m, shape (...).")
+    support_radius: Field[float] = Field("Radius of the circle, m.")
     pins: Field[Whole] = Field(
         "Numbers of the pins, from 0 for the free end, shape (P,). If a single number was given, the shape is (), and "
         "`offset` has no dimension for pins.",
-        part=True,
     )
     offset: Field[Floats] = Field(
         "Offsets of the pins from the axis, m, shape (..., P), positive on the side of the support. NaN at a resonance.",
-        part=True,
     )
     amplification: Field[Floats] = Field(
         "Offsets divided by the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
@@ -69,20 +67,17 @@ class Response(Result, Moving):
     error_bound: Field[Floats] = Field(
         "Proved bound of the error of each offset of the chain, divided by the largest offset, shape (...): half an ulp, more "
         "close to a resonance, infinite at a resonance.",
-        part=True,
     )
     modes_below: Field[Whole] = Field(
         "Number of whirl speeds of the chain with a fixed support that are below the speed, shape (...). A resonance "
         "that cannot be separated from the speed is not counted.",
-        part=True,
     )
-    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
-    resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).", part=True)
+    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).")
+    resonant: Field[Flags] = Field("Whether the speed cannot be separated from a resonance, shape (...).")
     support_force: Field[Floats] = Field(
         "Horizontal outward pull of the chain on the moving support, N or in the unit of the weights, shape (...).",
-        part=True,
     )
-    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.", part=True)
+    support_force_error: Field[Floats] = Field("Proved bound of the error of `support_force`, in its unit.")
 
     def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
         """Draw the distances of pins from the axis against the speed, on a logarithmic scale.
@@ -202,42 +197,38 @@ class Swing(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Chain | Rig] = Field("The chain of N links, or the rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
+    system: Field[Chain | Rig] = Field("The chain of N links, or the rig.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    time: Field[Floats] = Field("Times, s, shape (T,).")
     offset: Field[Floats] = Field(
         "Offsets of the pins, m, shape (T, N + 1), free end first, support last: sums of the k modes used.",
-        part=True,
     )
-    velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
+    velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).")
     angular_frequency: Field[Floats] = Field(
-        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
+        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`."
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, J (weight times length), shape (k,); it is constant.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); it is constant."
     )
-    shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.", part=True)
+    shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.")
     cosine: Field[Floats] = Field(
         "Coefficients, shape (k,), in offset = sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.",
-        part=True,
     )
-    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.", part=True)
+    sine: Field[Floats] = Field("Coefficients of the sines, shape (k,), see `cosine`.")
     start: Field[Floats] = Field(
         "Offsets at time 0, shape (N + 1,): those given; pins without inertia move at once to the positions where "
         "their neighbours pull them.",
-        part=True,
     )
-    projected: Field[bool] = Field("Whether `start` differs from the given offsets.", part=True)
+    projected: Field[bool] = Field("Whether `start` differs from the given offsets.")
     energy_left_out: Field[float] = Field(
-        "Upper bound on the initial energy that is not in the modes used.", part=True
+        "Upper bound on the initial energy that is not in the modes used."
     )
     truncation_error: Field[Floats] = Field(
-        "Proved bound of the effect of the modes not used on each offset at any time, shape (N + 1,).", part=True
+        "Proved bound of the effect of the modes not used on each offset at any time, shape (N + 1,)."
     )
     error_bound: Field[Floats] = Field(
         "Proved bound of the rounding error of each offset as a sum of the modes used, shape (T,). It grows with time "
         "only after about 1e9 swings.",
-        part=True,
     )
 
     def plot(
@@ -336,39 +327,35 @@ class WhirlSwing(Result, Moving):
     """
 
     __slots__ = ()
-    system: Field[Rig] = Field("The rig of N links.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    time: Field[Floats] = Field("Times, s, shape (T,).", part=True)
+    system: Field[Rig] = Field("The rig of N links.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.")
+    time: Field[Floats] = Field("Times, s, shape (T,).")
     offset: Field[Complex] = Field(
         "Offsets of the pins in the two horizontal directions, x + i y, m, shape (T, N + 1), free end first, support last: "
         "sums of the k whirls used.",
-        part=True,
     )
-    velocity: Field[Complex] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
+    velocity: Field[Complex] = Field("Velocities of the pins, m/s, shape (T, N + 1).")
     angular_speed: Field[Floats] = Field(
         "Speed of each whirl, rad/s, negative for backward ones, shape (k,), slowest first: those of `modes` for links that do "
         "not turn about their own axes.",
-        part=True,
     )
     amplitude: Field[Complex] = Field(
-        "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_speed * t)``.", part=True
+        "Coefficients, shape (k,), in offset = sum of ``shape * amplitude * exp(1j * angular_speed * t)``."
     )
     energy: Field[Floats] = Field(
         "Energy of each whirl, J (weight times length), shape (k,); it is constant. It is negative if momentum keeps "
         "an inverted link from falling.",
-        part=True,
     )
-    shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.", part=True)
+    shape: Field[Floats] = Field("Shape of each whirl, shape (k, N + 1), the largest offset 1.")
     energy_left_out: Field[float] = Field(
-        "Upper bound on the initial energy that is not in the whirls used; infinite if a link is inverted.", part=True
+        "Upper bound on the initial energy that is not in the whirls used; infinite if a link is inverted."
     )
     truncation_error: Field[Floats] = Field(
-        "Proved bound of the effect of the whirls not used on each offset at any time, shape (N + 1,).", part=True
+        "Proved bound of the effect of the whirls not used on each offset at any time, shape (N + 1,)."
     )
     error_bound: Field[Floats] = Field(
         "Proved bound of the rounding error of each offset as a sum of the whirls used, shape (T,); infinite if a link "
         "is inverted.",
-        part=True,
     )
 
     def plot(self, ax: Axes | None = None, *, kind: str = "path", pins: Iterable[int] = (0,)) -> Axes:

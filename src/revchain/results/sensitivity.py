@@ -29,7 +29,7 @@ class _ByDatum(Result):
 
     __slots__ = ()
     _known: ClassVar[tuple[str, ...]] = DATA
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,).")
 
     def __getitem__(self, quantity: str) -> Floats:
         """The array of a quantity by its name."""
@@ -63,14 +63,14 @@ class Derivatives(_ByDatum):
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `Sensitivity.mass`.", part=True)
-    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N); see `Sensitivity.length`.", part=True)
-    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N); see `Sensitivity.centroid`.", part=True)
+    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `Sensitivity.mass`.")
+    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N); see `Sensitivity.length`.")
+    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N); see `Sensitivity.centroid`.")
     radius_of_gyration: Field[Floats] = Field(
-        "Numbers for the radii of gyration, shape (k, N); see `Sensitivity.radius_of_gyration`.", part=True
+        "Numbers for the radii of gyration, shape (k, N); see `Sensitivity.radius_of_gyration`."
     )
     length_in_proportion: Field[Floats] = Field(
-        "Numbers for lengths in proportion, shape (k, N); see `Sensitivity.length_in_proportion`.", part=True
+        "Numbers for lengths in proportion, shape (k, N); see `Sensitivity.length_in_proportion`."
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -105,29 +105,26 @@ class Sensitivity(_ByDatum):
     mass: Field[Floats] = Field(
         "d(conical height)/d(mass), m/kg, shape (k, N), links lowest first; for a chain given by weight, with respect to its "
         "weights.",
-        part=True,
     )
     length: Field[Floats] = Field(
         "Derivative with respect to the distance between the pins, at constant centre of gravity and radius of gyration: only "
         "the lower pin moves. 0 for the lowest link. A point mass becomes a body.",
-        part=True,
     )
     centroid: Field[Floats] = Field(
-        "Derivative with respect to the distance of the centre of gravity below the upper pin.", part=True
+        "Derivative with respect to the distance of the centre of gravity below the upper pin."
     )
     radius_of_gyration: Field[Floats] = Field(
-        "Derivative with respect to the radius of gyration: never negative, 0 if the radius is 0.", part=True
+        "Derivative with respect to the radius of gyration: never negative, 0 if the radius is 0."
     )
     length_in_proportion: Field[Floats] = Field(
         "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
         "of a point mass or a rod. Never negative.",
-        part=True,
     )
     error_bound: Field[Derivatives] = Field(
-        "Proved bound of the absolute error of each derivative: in most cases half an ulp.", part=True
+        "Proved bound of the absolute error of each derivative: in most cases half an ulp."
     )
     relative: Field[Derivatives] = Field(
-        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these.", part=True
+        "Logarithmic derivatives ``(x / height) d(height)/dx``. Those of the speeds are -1/2 times these."
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -149,30 +146,28 @@ class Uncertainty(Result):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
-    conical_height: Field[Floats] = Field("Standard deviation of each conical height, m, shape (k,).", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,).")
+    conical_height: Field[Floats] = Field("Standard deviation of each conical height, m, shape (k,).")
     relative: Field[Floats] = Field(
         "Standard deviation of each height divided by the height, shape (k,). For speeds, periods and frequencies it is half "
         "as much.",
-        part=True,
     )
     angular_speed: Field[Floats] = Field(
-        "Standard deviation of each whirl speed, rad/s, shape (k,), for exact gravity.", part=True
+        "Standard deviation of each whirl speed, rad/s, shape (k,), for exact gravity."
     )
     frequency: Field[Floats] = Field(
         "Standard deviation of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi)
     )
-    period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).", part=True)
+    period: Field[Floats] = Field("Standard deviation of each period, s, shape (k,).")
     share: Field[Derivatives] = Field(
         "Part of each variance that comes from each datum of each link; the parts of a mode add up to 1. With a covariance a "
         "part may be negative.",
-        part=True,
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0.", part=True
+        "For each mode the datum that contributes most, and its link, counted from 0."
     )
 
-    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.", part=True)
+    names: Field[tuple[str, ...] | None] = Field("Names of the links; None if no names were given.")
 
     def _most(self, row: int) -> str:
         datum, link = self.largest[row]
@@ -269,8 +264,8 @@ class _ByRigDatum(_ByDatum):
 
     __slots__ = ()
     _known = (*DATA, "momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
-    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).")
+    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.")
 
     def _columns(self) -> list[Column]:
         mode, *columns = super()._columns()
@@ -290,17 +285,17 @@ class RigDerivatives(_ByRigDatum):
     """
 
     __slots__ = ()
-    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `RigSensitivity`.", part=True)
-    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N).", part=True)
-    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N).", part=True)
-    radius_of_gyration: Field[Floats] = Field("Numbers for the radii of gyration, shape (k, N).", part=True)
-    length_in_proportion: Field[Floats] = Field("Numbers for lengths in proportion, shape (k, N).", part=True)
-    momentum: Field[Floats] = Field("Numbers for the momenta of flywheels, shape (k, N).", part=True)
-    spin: Field[Floats] = Field("Numbers for the spins of flywheels, shape (k, N).", part=True)
-    displaced_mass: Field[Floats] = Field("Numbers for the displaced masses, shape (k, N).", part=True)
-    added_mass: Field[Floats] = Field("Numbers for the added masses, shape (k, N).", part=True)
-    stiffness: Field[Floats] = Field("Numbers for the stiffness of the support, shape (k,).", part=True)
-    support_mass: Field[Floats] = Field("Numbers for the mass that moves with the support, shape (k,).", part=True)
+    mass: Field[Floats] = Field("Numbers for the masses, shape (k, N), links lowest first; see `RigSensitivity`.")
+    length: Field[Floats] = Field("Numbers for the lengths, shape (k, N).")
+    centroid: Field[Floats] = Field("Numbers for the centroids, shape (k, N).")
+    radius_of_gyration: Field[Floats] = Field("Numbers for the radii of gyration, shape (k, N).")
+    length_in_proportion: Field[Floats] = Field("Numbers for lengths in proportion, shape (k, N).")
+    momentum: Field[Floats] = Field("Numbers for the momenta of flywheels, shape (k, N).")
+    spin: Field[Floats] = Field("Numbers for the spins of flywheels, shape (k, N).")
+    displaced_mass: Field[Floats] = Field("Numbers for the displaced masses, shape (k, N).")
+    added_mass: Field[Floats] = Field("Numbers for the added masses, shape (k, N).")
+    stiffness: Field[Floats] = Field("Numbers for the stiffness of the support, shape (k,).")
+    support_mass: Field[Floats] = Field("Numbers for the mass that moves with the support, shape (k,).")
 
     def _sheet(self, brief: bool = False) -> Sheet:
         return Sheet("mode", "Values by datum; the lowest link is shown", self._columns())
@@ -334,38 +329,35 @@ class RigSensitivity(_ByRigDatum):
     mass: Field[Floats] = Field(
         "Derivative with respect to the mass of each link, shape (k, N). For a chain given by weight, masses here and below are "
         "weights.",
-        part=True,
     )
     length: Field[Floats] = Field(
         "Derivative with respect to the distance between the pins of each link, shape (k, N): only the lower pin moves; the "
         "momentum of the flywheel and the place and size of the displaced fluid are constant.",
-        part=True,
     )
     centroid: Field[Floats] = Field(
-        "Derivative with respect to the distance of the centre of gravity below the upper pin, shape (k, N).", part=True
+        "Derivative with respect to the distance of the centre of gravity below the upper pin, shape (k, N)."
     )
     radius_of_gyration: Field[Floats] = Field(
-        "Derivative with respect to the radius of gyration of each link, shape (k, N).", part=True
+        "Derivative with respect to the radius of gyration of each link, shape (k, N)."
     )
     length_in_proportion: Field[Floats] = Field(
         "Derivative with respect to a length with which centroid and radius of gyration grow in proportion, shape (k, N).",
-        part=True,
     )
     momentum: Field[Floats] = Field(
-        "Derivative with respect to the angular momentum of each flywheel, shape (k, N).", part=True
+        "Derivative with respect to the angular momentum of each flywheel, shape (k, N)."
     )
     spin: Field[Floats] = Field(
-        "Derivative with respect to the spin of each flywheel, shape (k, N); 0 if flywheels were given by momentum.", part=True
+        "Derivative with respect to the spin of each flywheel, shape (k, N); 0 if flywheels were given by momentum."
     )
     displaced_mass: Field[Floats] = Field(
-        "Derivative with respect to the mass of fluid that each link displaces, shape (k, N).", part=True
+        "Derivative with respect to the mass of fluid that each link displaces, shape (k, N)."
     )
-    added_mass: Field[Floats] = Field("Derivative with respect to the added mass of each link, shape (k, N).", part=True)
+    added_mass: Field[Floats] = Field("Derivative with respect to the added mass of each link, shape (k, N).")
     stiffness: Field[Floats] = Field(
-        "Derivative with respect to the stiffness of the support, shape (k,); 0 if it is firm.", part=True
+        "Derivative with respect to the stiffness of the support, shape (k,); 0 if it is firm."
     )
     support_mass: Field[Floats] = Field(
-        "Derivative with respect to the mass that moves with the support, shape (k,); 0 if it is firm.", part=True
+        "Derivative with respect to the mass that moves with the support, shape (k,); 0 if it is firm."
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -385,15 +377,14 @@ class RigUncertainty(Uncertainty):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).", part=True)
-    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.", part=True)
+    number: Field[Whole] = Field("Number of each mode among those of its direction, shape (k,).")
+    direction: Field[Whole] = Field("Direction of each mode, shape (k,): 1 forward, -1 backward.")
     share: Field[RigDerivatives] = Field(  # type: ignore[assignment]
         "Part of each variance that comes from each datum; the parts of a mode add up to 1. With a covariance a part may be "
         "negative.",
-        part=True,
     )
     largest: Field[tuple[tuple[str, int], ...]] = Field(
-        "For each mode the datum that contributes most, and its link, counted from 0 (0 for the support).", part=True
+        "For each mode the datum that contributes most, and its link, counted from 0 (0 for the support)."
     )
 
     def _most(self, row: int) -> str:

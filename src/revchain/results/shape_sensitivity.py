@@ -29,26 +29,23 @@ class DerivativesByLink(Result):
     """The base of derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
-    angular_speed: Field[Floats] = Field("Derivatives with respect to the speed, per rad/s, shape (M,).", part=True)
+    angular_speed: Field[Floats] = Field("Derivatives with respect to the speed, per rad/s, shape (M,).")
     mass: Field[Floats] = Field(
         "Derivatives with respect to the mass of each link, per kg, shape (M, N); for a chain given by weight, its weight.",
-        part=True,
     )
     length: Field[Floats] = Field(
         "Derivatives with respect to the distance between the pins of each link, shape (M, N), at constant centre of gravity "
         "and radius of gyration.",
-        part=True,
     )
     centroid: Field[Floats] = Field(
-        "Derivatives with respect to the distance of the centre of gravity below the upper pin, shape (M, N).", part=True
+        "Derivatives with respect to the distance of the centre of gravity below the upper pin, shape (M, N)."
     )
     radius_of_gyration: Field[Floats] = Field(
-        "Derivatives with respect to the radius of gyration of each link, shape (M, N).", part=True
+        "Derivatives with respect to the radius of gyration of each link, shape (M, N)."
     )
     length_in_proportion: Field[Floats] = Field(
         "Derivatives with respect to a length with which centroid and radius of gyration grow in proportion, as for the thread "
         "of a point mass, shape (M, N).",
-        part=True,
     )
 
     def _names(self) -> tuple[str, ...]:
@@ -64,7 +61,7 @@ class ShapeDerivatives(DerivativesByLink):
     """Derivatives of M numbers of a shape, one row for each number; see `ShapeSensitivity`."""
 
     __slots__ = ()
-    support_radius: Field[Floats] = Field("Derivatives with respect to the radius of the support, shape (M,).", part=True)
+    support_radius: Field[Floats] = Field("Derivatives with respect to the radius of the support, shape (M,).")
 
     def _names(self) -> tuple[str, ...]:
         return ("angular_speed", "support_radius", *DATA)
@@ -79,28 +76,26 @@ class RigShapeDerivatives(ShapeDerivatives):
 
     __slots__ = ()
     stiffness: Field[Floats] = Field(
-        "Derivatives with respect to the stiffness of the support, per N/m, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the stiffness of the support, per N/m, shape (M,); 0 if it is firm."
     )
     support_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass that moves with the support, shape (M,); 0 if it is firm.", part=True
+        "Derivatives with respect to the mass that moves with the support, shape (M,); 0 if it is firm."
     )
     momentum: Field[Floats] = Field(
-        "Derivatives with respect to the constant angular momentum of each link, shape (M, N).", part=True
+        "Derivatives with respect to the constant angular momentum of each link, shape (M, N)."
     )
     spin: Field[Floats] = Field(
         "Derivatives with respect to the spin of each flywheel, per rad/s, shape (M, N); 0 if flywheels were given by "
         "momentum.",
-        part=True,
     )
     axial_moment: Field[Floats] = Field(
         "Derivatives with respect to the moment of inertia of the turning parts of each link about its axis, shape (M, N).",
-        part=True,
     )
     displaced_mass: Field[Floats] = Field(
-        "Derivatives with respect to the mass of fluid that each link displaces, shape (M, N).", part=True
+        "Derivatives with respect to the mass of fluid that each link displaces, shape (M, N)."
     )
     added_mass: Field[Floats] = Field(
-        "Derivatives with respect to the added mass of each link, shape (M, N); 0 in a fluid that turns.", part=True
+        "Derivatives with respect to the added mass of each link, shape (M, N); 0 in a fluid that turns."
     )
 
     def _names(self) -> tuple[str, ...]:
@@ -140,13 +135,12 @@ class ShapeSensitivity(Result):
     inclination: Field[ShapeDerivatives] = Field(
         "Derivatives of the inclination of each link, rad; M = N. For a `Rig` this and the next two are "
         "`RigShapeDerivatives`.",
-        part=True,
     )
     offset: Field[ShapeDerivatives] = Field(
-        "Derivatives of the offset of each pin from the axis, m; row 0 is the tip; M = N + 1.", part=True
+        "Derivatives of the offset of each pin from the axis, m; row 0 is the tip; M = N + 1."
     )
     tension: Field[ShapeDerivatives] = Field(
-        "Derivatives of the reaction at the upper pin of each link, N or in the unit of the weights; M = N.", part=True
+        "Derivatives of the reaction at the upper pin of each link, N or in the unit of the weights; M = N."
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:

@@ -63,43 +63,37 @@ class Stability(Result):
     """
 
     __slots__ = ()
-    frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.", part=True)
-    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.", part=True)
+    frame: Field[str] = Field("Frame of the analysis: ``'free'`` or ``'driven'``.")
+    verdict: Field[str] = Field("``'minimum'``, ``'spectrally stable'``, ``'unstable'`` or ``'undecided'``.")
     exponents: Field[NDArray[np.complex128]] = Field(
         "All ``s`` of ``exp(s n t)``, ordered by imaginary part, without those of the rotation itself: ``4 N - 2`` for N links "
         "in the free frame, ``2 N`` in the driven frame. The links are rods without inertia about their own axes. A pin "
         "without mass reduces the number: the two links that meet there stay in line. A support that yields adds 4 in the "
         "free frame, 2 in the driven frame. A support carried round adds 2 in the free frame, because no rotation is left "
         "out.",
-        part=True,
     )
     exponent_error: Field[Floats] = Field(
         "Estimate of the error of each exponent due to rounding in the shape, its tensions and all later steps (for a "
         "cord, at least the difference of two discretisations). It is large where two exponents meet, or one is near "
         "0.",
-        part=True,
     )
     internal_damping: Field[Floats] = Field(
         "Effect of friction at the pins on each exponent, in 1/(kg m^2): this number times a small damping c is added to the "
         "growth rate (1/s). The damping c, N m s, is the moment at each pin divided by the relative angular speed of its "
         "links in the turning frame. NaN if two exponents coincide.",
-        part=True,
     )
     external_damping: Field[Floats] = Field(
         "Effect of drag in still air on each exponent, in m/kg: this number times a small drag c is added to the growth rate. "
         "The drag c, N s/m^2, is the force per metre of link divided by its velocity in space. Without flywheels, a drag "
         "proportional to mass lowers each growth rate by half the ratio of drag to mass.",
-        part=True,
     )
     growth_rate: Field[float] = Field(
         "Largest real part of the exponents, in units of the turning speed; NaN in a rotating fluid, where it is "
         "unknown.",
-        part=True,
     )
-    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.", part=True)
+    margin: Field[float] = Field("The largest `exponent_error`: errors cause no growth rate above it.")
     negative_directions: Field[int] = Field(
         "Number of negative directions of the energy in the turning frame, at constant angular momentum in the free frame.",
-        part=True,
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -149,14 +143,14 @@ class Shape(Result, Moving):
     """One steady shape (relative equilibrium) of a system at one speed; arrays start at the free or lower end."""
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.")
     angular_speed: Field[float] = Field("The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity))
     frequency: Field[float] = Field("Revolutions per second, Hz.", lambda s: s.angular_speed / TURN)
     rpm: Field[float] = Field("Revolutions per minute.", lambda s: s.angular_speed * (60 / TURN))
     period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
-    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.")
+    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.")
     position: Field[Floats] = Field(
         "Coordinates x, y, z of each pin or place, m, shape (n, 3), while the shape is in the plane y = 0: x is the offset, "
         "z the height.",
@@ -223,23 +217,22 @@ class SteadyShape(Shape):
     """
 
     __slots__ = ()
-    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.", part=True)
+    direction: Field[int] = Field("Direction of rotation, 1 or -1; only a rig with flywheels depends on it.")
     inclination: Field[Floats] = Field(
-        "Inclination of each link to the downward vertical, rad, shape (N,), within (-pi, pi].", part=True
+        "Inclination of each link to the downward vertical, rad, shape (N,), within (-pi, pi]."
     )
     offset: Field[Floats] = Field(
         "Signed distance of each pin from the axis, m, shape (N + 1,). The last is that of the support; it is 0 unless a `Rig` "
         "moves it.",
-        part=True,
     )
-    height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).", part=True)
+    height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).")
     tension: Field[Floats] = Field(
         "Magnitude of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
         forced("tension"),
         part=True,
     )
     reaction_inclination: Field[Floats] = Field(
-        "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,).", part=True
+        "Inclination of the reaction at the upper pin of each link to the vertical, rad, shape (N,)."
     )
     joint_angle: Field[Floats] = Field(
         "Inclination of each link minus that of the link above it, rad, shape (N,); for the top link, its own "
@@ -252,19 +245,17 @@ class SteadyShape(Shape):
         lambda s: force_above(s.tension, s.reaction_inclination),
     )
     residual: Field[float] = Field(
-        "Largest moment about a pin of the chain below it, divided by total weight times total length.", part=True
+        "Largest moment about a pin of the chain below it, divided by total weight times total length."
     )
     error_bound: Field[float] = Field(
         "Bound of the error of each inclination, rad. It is proved, except at a fold of a branch, where it is an estimate.",
-        part=True,
     )
     condition: Field[float] = Field(
         "Largest change of an inclination, rad, divided by the relative change of the forces that causes it. Each "
         "weight and each centrifugal force changes by up to this fraction, with any sign.",
-        part=True,
     )
     moment_of_inertia: Field[float] = Field(
-        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared.", part=True
+        "Moment of inertia about the axis, kg m^2; for a chain given by weight, in weight times length squared."
     )
     effective_energy: Field[float] = Field(
         "Potential energy minus half the moment of inertia times the speed squared, J; it is stationary at a steady "
@@ -410,7 +401,7 @@ class SteadyShape(Shape):
         core: _core.Chain = self.system._compiled
         return core
 
-    def _again(self) -> Any:
+    def _from_parts(self) -> Any:
         per = {"tension": self._per, "effective_energy": self._per}
         return _core.SteadyShape(**{name: getattr(self, name) / per.get(name, 1) for name in _CORE})
 
@@ -492,23 +483,21 @@ class SteadyShapes(Results[Any], Moving):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
-    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
-    angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.")
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.")
+    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.")
+    angular_speed: Field[float] = Field("The turning speed, rad/s.")
     complete: Field[bool] = Field(
         "Whether it is proved that no shape is missing: for a chain or rig no hanging shape, or with "
         "``hanging_only=False`` no shape at all; for a held system no shape with up to `max_half_waves` half waves. "
         "False if both ends of a held chain are off the axis: shapes may then leave their plane, and such shapes are "
         "not searched for.",
-        part=True,
     )
     undecided: Field[Floats] = Field(
         "Ranges of the inclination of the lowest link in which there may be more shapes, rad, shape (k, 2). For a held chain: "
         "shapes in the plane of the axis and the ends.",
-        part=True,
     )
-    cells: Field[int] = Field("Number of parts of the range that were examined.", part=True)
+    cells: Field[int] = Field("Number of parts of the range that were examined.")
     hanging_only: Field[bool] = Field(
         "Whether shapes with a link above its upper pin were left out (of a rig: with other links inverted than those of the "
         "rig); false for cords and held systems.",
@@ -516,7 +505,7 @@ class SteadyShapes(Results[Any], Moving):
         part=True,
     )
     missing: Field[tuple[int, ...]] = Field(
-        "For a held system: numbers of half waves without a shape, up to `max_half_waves`.", part=True
+        "For a held system: numbers of half waves without a shape, up to `max_half_waves`."
     )
 
     def plot(self, ax: Axes | None = None) -> Axes:

@@ -38,6 +38,8 @@ class Column:
         Values to print instead, such as degrees or words.
     left : bool
         Whether printed tables align the column on the left.
+    unit : str
+        Unit of `values`.
     """
 
     name: str
@@ -47,19 +49,28 @@ class Column:
     axes: tuple[str, ...] = ()
     shown: Any = None
     left: bool = False
+    unit: str = ""
 
-    def cell(self, row: int) -> str:
-        """Text of a row in a printed table."""
-        value = (self.values if self.shown is None else self.shown)[row]
-        if isinstance(value, str):
-            return value
-        if isinstance(value, bool | np.bool_):
-            return "yes" if value else "no"
-        if isinstance(value, int | np.integer):
-            return f"{value:,}"
-        if np.ndim(value):
-            return f"{len(value):,}"
-        return f"{value:.1e}" if self.name.endswith(("error_bound", "error_estimate")) else digits(value, self.digits)
+    def texts(self, rows: Any) -> list[str]:
+        """The cells of some rows in a printed table."""
+        values = self.values if self.shown is None else self.shown
+        if isinstance(values, np.ndarray) and values.ndim == 1:
+            values = values.tolist()
+        numbers = ".1e" if self.name.endswith(("error_bound", "error_estimate")) else f"#.{self.digits}g"
+        found = []
+        for row in rows:
+            value = values[row]
+            if isinstance(value, str):
+                found.append(value)
+            elif isinstance(value, bool | np.bool_):
+                found.append("yes" if value else "no")
+            elif isinstance(value, int | np.integer):
+                found.append(f"{value:,}")
+            elif isinstance(value, float | np.floating):
+                found.append(format(value, numbers).removesuffix("."))
+            else:
+                found.append(f"{len(value):,}")
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,8 +110,8 @@ class Sheet:
 def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
     """Columns of the speeds, which are given in rad/s, in rad/s and in rpm."""
     return [
-        Column("angular_speed", speed, "speed (rad/s)", digits),
-        Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits),
+        Column("angular_speed", speed, "speed (rad/s)", digits, unit="rad/s"),
+        Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits, unit="rpm"),
     ]
 
 
@@ -114,24 +125,26 @@ def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
     shown = [column for column in sheet.columns if column.heading]
     if not shown:
         return [], [], sheet.notes
-    count = min(len(sheet), MOST_ROWS)
-    last = len(sheet) if sheet.spread else count
-    rows = [[column.cell(int(k)) for column in shown] for k in np.linspace(0, last - 1, count).round()]
-    hidden = len(sheet) - count
-    return [column.heading for column in shown], rows, ([f"and {hidden:,} more"] if hidden > 0 else []) + sheet.notes
+    size = len(sheet)
+    rows: Any = range(size)
+    if size > MOST_ROWS:
+        rows = np.linspace(0, size - 1, MOST_ROWS).round().astype(int).tolist() if sheet.spread else range(MOST_ROWS)
+    table = [*map(list, zip(*[column.texts(rows) for column in shown], strict=True))]
+    notes = [f"and {size - MOST_ROWS:,} more", *sheet.notes] if size > MOST_ROWS else sheet.notes
+    return [column.heading for column in shown], table, notes
 
 
 def as_text(sheet: Sheet) -> str:
     """The table that a prompt shows."""
     headings, rows, notes = cells(sheet)
-    widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)] if rows else []
+    if not rows:
+        return "\n".join([sheet.heading, *notes])
     left = [column.left for column in sheet.columns if column.heading]
-
-    def line(row: list[str]) -> str:
-        places = zip(row, widths, left, strict=True)
-        return "  ".join(cell.ljust(width) if words else cell.rjust(width) for cell, width, words in places).rstrip()
-
-    lines = [line(row) for row in [headings, *rows]] if rows else []
+    padded = []
+    for cells_below, words in zip(zip(headings, *rows, strict=True), left, strict=True):
+        width = max(map(len, cells_below))
+        padded.append([cell.ljust(width) if words else cell.rjust(width) for cell in cells_below])
+    lines = ["  ".join(line).rstrip() for line in zip(*padded, strict=True)]
     return "\n".join([sheet.heading, *lines, *notes])
 
 
@@ -210,7 +223,11 @@ def as_dataset(sheet: Sheet) -> Dataset:
     """The table as an xarray data set: the first axis counts the rows; facts are variables (arrays) or attributes."""
     xarray = require("xarray", "netcdf", "to_xarray")
     variables = {
-        column.name: ((sheet.row, *column.axes), padded(column.values, 1 + len(column.axes)))
+        column.name: (
+            (sheet.row, *column.axes),
+            padded(column.values, 1 + len(column.axes)),
+            {"units": column.unit} if column.unit else {},
+        )
         for column in sheet.columns
         if column.name != sheet.row
     }

@@ -82,7 +82,7 @@ class SweepResult(Result):
     """
 
     __slots__ = ()
-    _study: Field[str] = Field("The study as JSON.", part=True)
+    _study: Field[str] = Field("The study as JSON.")
     _arrays: Field[dict[str, NDArray[Any]]] = Field(
         "Stored results of all points, by name.", lambda result: result._found().read(), part=True
     )
@@ -92,7 +92,7 @@ class SweepResult(Result):
     def _of(cls, made: Made, **kept: Any) -> SweepResult:
         return cls._made(made, _study=json.dumps(made.study.to_dict()), **kept)
 
-    def _again(self) -> Made:
+    def _from_parts(self) -> Made:
         study = Study.from_dict(json.loads(self._study))
         return Made(study, study._plan("study"))
 
@@ -173,7 +173,7 @@ class SweepResult(Result):
 
     def _one(self, name: str) -> NDArray[Any]:
         """An array by its name, the status as 0, 1, 2; computed or read on first use, then kept."""
-        kept, made = self._kept, self._found()
+        kept, made = self.__dict__, self._found()
         if name == "status" and "_arrays" not in kept:
             kept.setdefault("[status]", made.read(status_alone=True)["status"])
             return kept["[status]"]  # type: ignore[no-any-return]
