@@ -12,7 +12,7 @@ Questions
     modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain;
     conical_heights for many chains at once
 Results
-    Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
+    Modes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
     HeldBranches, HeldBranch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
@@ -73,9 +73,7 @@ from .results.held_branches import HeldBranches as HeldBranches
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted
-from .results.modes import CordModes as CordModes
 from .results.modes import Modes as Modes
-from .results.modes import RigModes as RigModes
 from .results.motions import Response as Response
 from .results.motions import Swing as Swing
 from .results.sensitivity import Sensitivity as Sensitivity

@@ -497,7 +497,7 @@ def check_places(worst, d, modes, exact, allowed):
     largest, steepest = (max(1.0 * first, np.abs(f(grid)).max()) for f, first in ((modes.offset, 1), (modes.slope, 0)))
     for share in places(d):
         offset, slope = exact(mp.mpf(share * length) / mp.mpf(length))
-        worst.note("offset", off(modes.offset(share * length)[0], offset) / mp.mpf(largest) / allowed)
+        worst.note("offset", off(modes.along(share * length)[0], offset) / mp.mpf(largest) / allowed)
         worst.note("slope", off(modes.slope(share * length)[0], slope) / mp.mpf(steepest) / allowed)
 
 
@@ -524,7 +524,7 @@ def test_modes_of_a_uniform_cord():
         for share in places(d):
             x = length * share
             z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
-            worst.note("offset", off(found.offset(x)[0], mp.besselj(0, z)) / 1e-15 / mode)
+            worst.note("offset", off(found.along(x)[0], mp.besselj(0, z)) / 1e-15 / mode)
             slope = mp.mpf(float(found.slope(x)[0])) * mp.mpf(found.conical_height[0])
             worst.note("slope", abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode)
     worst.check()

@@ -54,7 +54,7 @@ def test_small_amplitude_is_the_linear_mode():
     mode = rc.modes(Cord(1.0), 1, first=2)
     shape = rc.steady_shapes(Cord(1.0), conical_height=mode.conical_height[0] * (1 - 1e-6))[1]
     s = np.linspace(0, 1, 11)
-    np.testing.assert_allclose(shape.at(s).offset / shape.offset[0], mode.offset(s)[0], atol=1e-5)
+    np.testing.assert_allclose(shape.at(s).offset / shape.offset[0], mode.along(s)[0], atol=1e-5)
 
 
 def test_many_links_come_near():

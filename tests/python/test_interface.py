@@ -272,8 +272,8 @@ def test_order_of_the_links():
 
 def test_gravity_is_kept_in_the_result():
     m = rc.modes(POINTS, gravity=1.62)
-    assert m.gravity == 1.62 and m.at(gravity="9.81 m/s^2").gravity == 9.81
-    assert np.array_equal(m.at(gravity=9.81).angular_speed, rc.modes(POINTS, gravity=9.81).angular_speed)
+    assert m.gravity == 1.62 and m.with_gravity("9.81 m/s^2").gravity == 9.81
+    assert np.array_equal(m.with_gravity(9.81).angular_speed, rc.modes(POINTS, gravity=9.81).angular_speed)
     assert rc.steady_shapes(POINTS, angular_speed=3.0, gravity=1.62)[0].gravity == 1.62
 
 
@@ -378,10 +378,10 @@ def test_classes_of_results_can_be_imported(repository):
 def test_what_does_not_scale_with_gravity():
     held = rc.Held(rc.Chain.uniform_rods(5, length=1.0, mass=1.0), tension=30.0)
     with pytest.raises(ValueError, match="tension in newtons.*call revchain.modes again"):
-        rc.modes(held).at(gravity=1.62)
+        rc.modes(held).with_gravity(1.62)
     by_weight = rc.Held(rc.Chain.uniform_rods(5, length=1.0, weight=1.0), tension=30.0)
     moon = rc.modes(by_weight, gravity=1.62)
-    assert np.array_equal(rc.modes(by_weight).at(gravity=1.62).angular_speed, moon.angular_speed)
+    assert np.array_equal(rc.modes(by_weight).with_gravity(1.62).angular_speed, moon.angular_speed)
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ CALLS = {
     "modes of a cord": "rc.modes(rc.Cord(1.0, density=lambda s: 1 + s), 100_000)",
     "modes of a cord with a tip": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000_000)",
     "modes of a cord that tapers": "rc.modes(rc.Cord(1.0, density=0.7), 30_000_000)",
-    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0), 5).offset(many / 50)",
+    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0), 5).along(many / 50)",
     "slopes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 5).slope(many / 50)",
     "nodes of a cord": "rc.modes(rc.Cord(1.0), 30_000).nodes",
     "vertical points of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000).vertical_points",

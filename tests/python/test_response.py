@@ -335,7 +335,7 @@ def test_swing_of_the_continuous_chain():
     # started in the shape of its second mode, a fine chain keeps it
     chain = rc.Chain.uniform_rods(400, length=1.0)
     second = rc.modes(rc.Cord(1.0), 1, first=2, gravity=G)
-    start = 1e-3 * second.offset(np.linspace(0, 1, 401))[0]
+    start = 1e-3 * second.along(np.linspace(0, 1, 401))[0]
     start[-1] = 0.0
     (n,) = second.angular_speed
     found = rc.swing(chain, start, None, [0.0, math.pi / n, 2 * math.pi / n])

@@ -424,7 +424,7 @@ def test_uncertainty_of_a_rig_in_all_its_forms():
         ({"spin": 1.0, "momentum": 1.0}, "give either spin or momentum"),
         ({"weight": 1.0}, "given by mass: give mass, not weight"),
     ]:
-        with pytest.raises(ValueError, match=f"^revchain.RigModes.uncertainty: .*{message}"):
+        with pytest.raises(ValueError, match=f"^revchain.Modes.uncertainty: .*{message}"):
             found.uncertainty(**wrong)
     by_momentum = rc.modes(rc.Rig(chain, flywheels=rc.Flywheel(momentum=1.0)))
     with pytest.raises(ValueError, match="spin is for flywheels that were given by spin; give momentum, got 1"):

@@ -560,7 +560,7 @@ def test_threads_may_read_and_pickle_the_same_result():
         try:
             for name in type(result)._fields:
                 assert getattr(result, name) is getattr(result, name)
-                pickle.dumps(result.at(gravity=1.62))
+                pickle.dumps(result.with_gravity(1.62))
         except Exception as error:
             raised.append(error)
 

@@ -272,7 +272,7 @@ def test_what_does_not_fit_in_the_memory_says_how_much_it_would_take(count):
 def test_what_rigs_do_not_have():
     modes = rc.modes(RIG)
     with pytest.raises(ValueError, match="another gravity; call revchain.modes again"):
-        modes.at(gravity=1.62)
+        modes.with_gravity(1.62)
     for name, value in {"method": "dense", "precision": "extended"}.items():
         with pytest.raises(ValueError, match=f"revchain.modes: {name} is for a Chain"):
             rc.modes(RIG, **{name: value})

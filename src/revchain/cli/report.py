@@ -111,7 +111,7 @@ class Report:
         if self.units == "deg":
             return sheet
         def in_rad(column: Column) -> Column:
-            return replace(column, heading=column.heading.replace("(°)", "(rad)"), shown=None)
+            return column._replace(heading=column.heading.replace("(°)", "(rad)"), shown=None)
 
         return replace(sheet, columns=[in_rad(each) if "(°)" in each.heading else each for each in sheet.columns])
 

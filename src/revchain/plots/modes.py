@@ -258,7 +258,7 @@ def rows_of(place: str, modes: Modes, which: Iterable[int] | None) -> Whole:
 
 
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
-    """See `Modes.plot` and `RigModes.plot`."""
+    """See `Modes.plot`."""
     place = f"revchain.{type(modes).__name__}.plot"
     system = modes.system
     rigged = isinstance(system, Rig)

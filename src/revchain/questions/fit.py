@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..results.fitted import Fitted
-from ..results.modes import RigModes
+
 from ..results.sensitivity import rig_derivatives
 from ..systems.chain import Chain
 from ..systems.cord import Cord
@@ -175,7 +175,7 @@ class _Model:
 
     def _rates(self, there: Speeds) -> Any:
         """Derivatives of the speeds by the data of a chain or a rig; None if there are none."""
-        if isinstance(there.modes, RigModes):
+        if there.modes.system._kind == "rig":
             return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
         if not isinstance(self.system, Chain):
             return None

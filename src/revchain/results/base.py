@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
 import numpy as np
 
 from ..systems.numbers import integer, read_only, shown
 from ..systems.unchangeable import Unchangeable
-from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_text
+from .sheet import Column, Sheet, as_dataframe, as_dataset, as_dict, as_html, as_rows, as_text
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -32,8 +32,10 @@ class Field(Generic[Value]):
 
     Attributes
     ----------
-    heading : str
-        Heading of the column, to which the unit is added.
+    otherwise : callable, optional
+        Function of the result for what its compiled result does not have.
+    heading : str or callable
+        Heading of the column, or a function of the result that returns it; the unit is added unless it ends with ")".
     unit : str
         Unit of the numbers. Angles (``"rad"``) are printed in degrees. ``"force"`` is N for a system given by mass, else
         the unit of its weights, which is unknown.
@@ -43,6 +45,8 @@ class Field(Generic[Value]):
         Names of the axes after the first, which counts the rows.
     shown : callable, optional
         Function of the result that returns what is printed instead, such as words.
+    joined : bool
+        Whether the field is a result with the same rows, whose columns are added to those of this one.
     column : str, optional
         Name of the column, if it is not that of the field.
     """
@@ -52,19 +56,21 @@ class Field(Generic[Value]):
         doc: str,
         compute: Callable[[Any], Any] | None = None,
         *,
+        otherwise: Callable[[Any], Any] | None = None,
         part: bool | None = None,
-        heading: str | None = None,
+        heading: str | Callable[[Any], str] | None = None,
         unit: str = "",
         digits: int = 6,
         axes: tuple[str, ...] | None = None,
         shown: Callable[[Any], Any] | None = None,
         fact: bool = False,
+        joined: bool = False,
         column: str | None = None,
     ) -> None:
         self.__doc__ = doc
-        self.compute = compute
+        self.compute, self.otherwise = compute, otherwise
         self.part = compute is None if part is None else part
-        self.key = column
+        self.key, self.joined = column, joined
         self.heading, self.unit, self.digits, self.shown, self.fact = heading, unit, digits, shown, fact
         self.axes = () if axes is None and heading is not None else axes
 
@@ -79,20 +85,33 @@ class Field(Generic[Value]):
         # Not called where the dictionary of the result has the name: a descriptor without __set__ comes after it.
         if result is None:
             return self
-        found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
+        if self.compute is not None:
+            found = self.compute(result)
+        else:
+            core = result.__dict__["_core"] or result._found()
+            if self.otherwise is None or hasattr(core, self.name):
+                found = getattr(core, self.name)
+            else:
+                found = self.otherwise(result)
+        if type(found) is np.ndarray:
+            found.flags.writeable = False
+        elif type(found) is list or (type(found) is tuple and self.compute is not None):
+            found = frozen(found)
         return result.__dict__.setdefault(self.name, found)  # two threads that compute it at once get one object
 
     def column(self, result: Any) -> Column:
         """The column of a result."""
         values = getattr(result, self.name)
-        heading, unit, shown = self.heading or "", self.unit, None if self.shown is None else self.shown(result)
+        heading = self.heading(result) if callable(self.heading) else self.heading or ""
+        unit, shown = self.unit, None if self.shown is None else self.shown(result)
         if unit == "force":
             unit = "N" if result.system.by_mass else ""
         if heading and unit == "rad":
             heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
-        elif heading and unit:
+        elif heading and unit and heading[-1] != ")":
             heading = f"{heading} ({unit})"
-        return Column(self.key or self.name, values, heading, self.digits, self.axes or (), shown, unit=unit)
+        data = (self.key or self.name, values, heading, self.digits, self.axes or (), shown, False, unit)
+        return tuple.__new__(Column, data)  # Column(...) would take a call more
 
 
 class UnavailableError(AttributeError, ValueError):
@@ -113,6 +132,7 @@ class Result(Unchangeable):
     """
 
     __slots__ = ("__dict__",)  # has the fields known so far and, as `_core`, the compiled result
+    _core: Any
     _fields: ClassVar[dict[str, Field[Any]]] = {}
     _kinds: ClassVar[dict[str, type[Result]]] = {}
     _row: ClassVar[str] = "row"
@@ -163,17 +183,25 @@ class Result(Unchangeable):
         known = self.__dict__
         return known.get("complete", True) is not False and known.get("status", "success") in ("success", "found")
 
+    def _left_out(self) -> Collection[str]:
+        """Names of columns that a printed table leaves out, because they would take long to compute."""
+        return ()
+
     def _sheet(self, brief: bool = False) -> Sheet:
         """The data as columns; with `brief` only what a printed table shows."""
-        columns, facts = [], {}
+        columns, facts, left_out = [], {}, self._left_out() if brief else ()
         for name, field in self._fields.items():
             if field.axes is not None and (field.heading or not brief):
-                if getattr(self, name, None) is not None:
+                if name not in left_out and getattr(self, name, None) is not None:
                     columns.append(field.column(self))
-            elif field.fact and not brief:
-                facts[name] = getattr(self, name)
+            elif brief or not (field.fact or field.joined) or (value := getattr(self, name, None)) is None:
+                continue
+            elif field.joined:
+                columns += [each._replace(name=f"{name}_{each.name}", heading="") for each in value._sheet().columns[1:]]
+            else:
+                facts[field.key or name] = as_rows(value._sheet()) if isinstance(value, Result) else value
         words = _Words(self)
-        notes = [text for note in self._notes if (text := note.format_map(words))]
+        notes = [line for note in self._notes for line in note.format_map(words).splitlines()]
         title = self._title.format_map(words)
         return Sheet(self._row, title, columns, facts, notes, self._is_good(), self._spread)
 
@@ -380,3 +408,27 @@ def same(one: Any, other: Any) -> bool:
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(same(item, other[name]) for name, item in one.items())
     return bool(one == other or (one != one and other != other))
+
+
+class Row:
+    """One row of a result: the number, text or array of each of its columns, by the names of the fields."""
+
+    __slots__ = ("_index", "_result")
+
+    def __init__(self, result: Result, index: int) -> None:
+        self._result, self._index = result, index
+
+    def __getattr__(self, name: str) -> Any:
+        field = type(self._result)._fields.get(name)
+        if field is None or field.axes is None:
+            raise AttributeError(f"a row of {type(self._result).__name__} has no {name}; see dir(row)")
+        values = getattr(self._result, name)
+        return None if values is None else values[self._index]
+
+    def __dir__(self) -> list[str]:
+        return [name for name, field in self._result._fields.items() if field.axes is not None]
+
+    def __repr__(self) -> str:
+        sheet = self._result._sheet(brief=True)
+        cells = [f"{column.heading} {column.texts([self._index])[0]}" for column in sheet.columns if column.heading]
+        return ", ".join(cells)

@@ -16,7 +16,7 @@ from .sensitivity import Uncertainty, _ByDatum, _deviations, _refuse_no_deviatio
 from .sheet import Sheet
 
 if TYPE_CHECKING:
-    from .modes import CordModes
+    from .modes import Modes
 
 CORD_DATA = ("length", "mass", "tip_mass", "exponent", "tension")
 
@@ -127,8 +127,8 @@ def _values(system: Cord | Held) -> dict[str, float]:
     return dict(zip(CORD_DATA, (cord.length, cord._compiled.weight, tip, exponent, tension or 0.0), strict=True))
 
 
-def of_cord(modes: CordModes) -> CordSensitivity:
-    """`CordModes.sensitivity`."""
+def of_cord(modes: Modes) -> CordSensitivity:
+    """`Modes.sensitivity`."""
     found: Any = _core.cord_sensitivity(modes._found()) if len(modes) else [np.empty(0)] * len(CORD_DATA)
     rates = dict(zip(CORD_DATA, found, strict=True))
     if isinstance(modes.system, Held):
@@ -140,9 +140,9 @@ def of_cord(modes: CordModes) -> CordSensitivity:
     )
 
 
-def cord_uncertainty(modes: CordModes, given: dict[str, Any]) -> CordUncertainty:
-    """`CordModes.uncertainty`; `given` by the names of the arguments."""
-    place = "revchain.CordModes.uncertainty"
+def cord_uncertainty(modes: Modes, given: dict[str, Any]) -> CordUncertainty:
+    """`Modes.uncertainty`; `given` by the names of the arguments."""
+    place = "revchain.Modes.uncertainty"
     system, values = modes.system, _values(modes.system)
     heavy, other = ("mass", "weight") if system.by_mass else ("weight", "mass")
     for name in (other, f"tip_{other}"):

@@ -13,12 +13,12 @@ from .. import _core
 from ..systems.chain import checked, like
 from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
 from ..systems.units import unpacked
-from .base import Field, Result
+from .base import Field, Result, UnavailableError
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from ..systems.rig import Rig
-    from .modes import Modes, RigModes
+    from .modes import Modes
 
 
 DATA = ("mass", *_core.DATA[1:])
@@ -398,8 +398,8 @@ class RigUncertainty(Uncertainty):
         return sheet
 
 
-def of_rig(modes: RigModes) -> RigSensitivity:
-    """`RigModes.sensitivity`."""
+def of_rig(modes: Modes) -> RigSensitivity:
+    """`Modes.sensitivity`."""
     found = rig_derivatives(modes.system, modes.angular_speed, modes.shape, modes.gravity)
     return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **found)
 
@@ -429,9 +429,9 @@ def shared_out(parts: dict[str, Floats]) -> tuple[Floats, Floats, dict[str, Floa
     return table, variance, share
 
 
-def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigUncertainty:
-    """`RigModes.uncertainty`."""
-    place, rig = "revchain.RigModes.uncertainty", modes.system
+def rig_uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> RigUncertainty:
+    """`Modes.uncertainty`."""
+    place, rig = "revchain.Modes.uncertainty", modes.system
     if given["mass"] is not None or given["weight"] is not None:
         given["mass"] = like(place, rig.chain, given["mass"], given["weight"])
     wheels = {} if rig.flywheels is None else rig.flywheels._given
@@ -511,3 +511,33 @@ def _refuse_no_deviations(place: str, name: str, array: Floats) -> None:
         refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{place}: {name} must be finite and not negative")
     elif not (np.isfinite(array).all() and (array == array.T).all() and (array.diagonal() >= 0).all()):
         raise ValueError(f"{place}: covariance of {name} must be finite, symmetric, and no variance negative")
+
+
+def sensitivity_of_modes(modes: Modes) -> Any:
+    """`Modes.sensitivity`."""
+    from .cord_sensitivity import of_cord
+
+    kind = modes.system._kind
+    if kind == "held chain":
+        raise UnavailableError(
+            "revchain.Modes.sensitivity: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and "
+            "call modes again"
+        )
+    return of_modes(modes) if kind == "chain" else of_rig(modes) if kind == "rig" else of_cord(modes)
+
+
+def uncertainty_of_modes(modes: Modes, given: dict[str, Any]) -> Any:
+    """`Modes.uncertainty`."""
+    from .cord_sensitivity import CORD_DATA, cord_uncertainty
+
+    place, kind = "revchain.Modes.uncertainty", modes.system._kind
+    if kind == "held chain":
+        raise ValueError(
+            f"{place}: is for a Chain, a Rig or a Cord, got a chain held at both ends; change the datum and call modes again"
+        )
+    known = {"chain": DATA, "rig": _ByRigDatum._known}.get(kind, (*CORD_DATA, "tip_weight"))
+    for name, value in given.items():
+        if name not in (*known, "weight"):
+            raise ValueError(f"{place}: a {kind} has no {name}; leave it out, got {shown(value)}")
+    every = dict.fromkeys((*known, "mass", "weight")) | given
+    return {"chain": uncertainty, "rig": rig_uncertainty}.get(kind, cord_uncertainty)(modes, every)

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from itertools import repeat
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 20
 
 
-@dataclass(frozen=True, slots=True)
-class Column:
+class Column(NamedTuple):
     """One quantity: a number for each row, or an array whose first axis counts the rows.
 
     Attributes
@@ -57,7 +57,7 @@ class Column:
         if isinstance(values, np.ndarray) and values.ndim == 1:
             values = values.tolist()
         numbers = ".1e" if self.name.endswith(("error_bound", "error_estimate")) else f"#.{self.digits}g"
-        found = []
+        found: list[str] = []
         for row in rows:
             value = values[row]
             if isinstance(value, str):
@@ -141,10 +141,9 @@ def as_text(sheet: Sheet) -> str:
         return "\n".join([sheet.heading, *notes])
     left = [column.left for column in sheet.columns if column.heading]
     padded = []
-    for cells_below, words in zip(zip(headings, *rows, strict=True), left, strict=True):
-        width = max(map(len, cells_below))
-        padded.append([cell.ljust(width) if words else cell.rjust(width) for cell in cells_below])
-    lines = ["  ".join(line).rstrip() for line in zip(*padded, strict=True)]
+    for column, words in zip(zip(headings, *rows, strict=True), left, strict=True):
+        padded.append([*map(str.ljust if words else str.rjust, column, repeat(max(map(len, column))))])
+    lines = map(str.rstrip, map("  ".join, zip(*padded, strict=True)))
     return "\n".join([sheet.heading, *lines, *notes])
 
 
@@ -164,9 +163,13 @@ def as_html(sheet: Sheet) -> str:
 
 def as_dict(sheet: Sheet) -> dict[str, Any]:
     """Facts, then a dictionary for each row."""
+    return {**plain(sheet.facts), f"{sheet.row}s": as_rows(sheet)}
+
+
+def as_rows(sheet: Sheet) -> list[dict[str, Any]]:
+    """A dictionary for each row."""
     columns = {column.name: plain(column.values) for column in sheet.columns}
-    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-    return {**plain(sheet.facts), f"{sheet.row}s": rows}
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def plain(value: Any) -> Any:

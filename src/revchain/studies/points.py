@@ -17,7 +17,7 @@ from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
 from .. import _core
-from ..results.modes import RigModes
+
 from ..scenes.ask import DEFAULT_MODES, AskModes, AskResponse, AskShapes, Spread
 from ..scenes.chain import Numbers
 from ..scenes.scene import Scene, is_by_mass
@@ -487,7 +487,7 @@ def one_by_one(scene: Scene, find: tuple[str, ...]) -> tuple[dict[str, Any], boo
     good = True
     if "modes" in find:
         modes: Any = scene.modes()
-        if isinstance(modes, RigModes):
+        if modes.system._kind == "rig":
             for turn, which in (("forward", modes.direction > 0), ("backward", modes.direction < 0)):
                 found |= {f"{turn}_{name}": np.abs(getattr(modes, name)[which]) for name in _SPEED}
             found |= {"other_modes": modes.other_available, "modes_complete": modes.complete}

@@ -195,6 +195,13 @@ class Cord(System):
         tip = f", tip {self._compiled.tip_weight:.6g}" if self._compiled.tip_weight else ""
         return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
 
+    _kind = "cord"
+    mode_count = None  # infinitely many
+    size = 0  # links
+
+    def _modes_again(self, modes: Any) -> _core.CordModes:
+        return _core.cord_modes(self._compiled, int(modes.number[0]), len(modes), None, None, modes.rtol)
+
     def _under(self, gravity: float) -> _core.Cord:
         return self._compiled
 

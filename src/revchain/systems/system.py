@@ -16,6 +16,7 @@ class System(Unchangeable):
 
     __slots__ = ()
     by_mass: bool
+    _kind: str  # "chain", "rig", "cord", "held chain" or "held cord": by this questions find what is for the system
     _kinds: ClassVar[dict[str, type[System]]] = {}
 
     def __init_subclass__(cls, **given: Any) -> None:
@@ -30,6 +31,15 @@ class System(Unchangeable):
     def _force(self, gravity: float) -> float:
         """Factor that turns a force of the compiled system into a force of the results."""
         return gravity if self.by_mass else 1.0
+
+    @property
+    def _fixes_gravity(self) -> str | None:
+        """Words for the system if the heights of its modes depend on gravity, else None."""
+        return None
+
+    def _modes_again(self, modes: Any) -> Any:
+        """The compiled modes with the numbers of modes that were loaded."""
+        raise NotImplementedError
 
     def _state(self) -> tuple[Any, ...]:
         """The numbers, words, arrays and systems that make up the system."""
