@@ -16,7 +16,7 @@ Results
     HeldBranches, HeldBranch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
-    be imported from here, too: CordBranch, WhirlSwing, RigUncertainty, Certificate and others
+    be imported from here, too: CordBranch, RigUncertainty, Certificate and others
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
@@ -60,8 +60,8 @@ from .questions.modes import count_modes as count_modes
 from .questions.modes import modes as modes
 from .questions.modes import recurrence_matrices as recurrence_matrices
 from .questions.response import response as response
-from .questions.response import swing as swing
 from .questions.shapes import steady_shapes as steady_shapes
+from .questions.swing import swing as swing
 from .questions.tune import tune as tune
 from .results.bent import CordShape as CordShape
 from .results.bent import HeldCordShape as HeldCordShape
@@ -118,12 +118,10 @@ if _TYPE_CHECKING:
     from .results.branches import StabilityWindow as StabilityWindow
     from .results.cord_branches import CordBranch as CordBranch
     from .results.cord_branches import CordBranches as CordBranches
-    from .results.cord_motions import CordSwing as CordSwing
     from .results.cord_sensitivity import CordSensitivity as CordSensitivity
     from .results.cord_sensitivity import CordUncertainty as CordUncertainty
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
-    from .results.motions import WhirlSwing as WhirlSwing
     from .results.sensitivity import RigSensitivity as RigSensitivity
     from .results.sensitivity import RigUncertainty as RigUncertainty
     from .results.shape_sensitivity import ShapeSensitivity as ShapeSensitivity
@@ -162,7 +160,6 @@ _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "CordBranch": "results.cord_branches",
     "CordBranches": "results.cord_branches",
     "CordSensitivity": "results.cord_sensitivity",
-    "CordSwing": "results.cord_motions",
     "CordUncertainty": "results.cord_sensitivity",
     "OtherModes": "results.modes",
     "Place": "results.bent",
@@ -171,7 +168,6 @@ _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "ShapeSensitivity": "results.shape_sensitivity",
     "StabilityWindow": "results.branches",
     "Strike": "closed_forms.bell",
-    "WhirlSwing": "results.motions",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
 _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}

@@ -279,7 +279,7 @@ def test_pages_of_long_chains_are_light(tmp_path):
     released = 0.1 * np.linspace(1.0, 0.0, 121) ** 2
     results = [
         rc.modes(chain, 6),
-        rc.swing(chain, released, None, [0.0, 60.0]),
+        rc.swing(chain, [0.0, 60.0], offset=released),
         rc.modes(rc.Chain.uniform_rods(20_000), 6),
     ]
     for found in [*results, rc.branches(rc.Chain.uniform_rods(40, length=1.0), max_angular_speed=30.0)]:
@@ -418,7 +418,7 @@ def test_nothing_to_show(tmp_path):
             "every pin is needed; compute the response without pins=",
         ),
         (rc.response(CHAIN, angular_speed=[]), "no speed to draw that is not a resonance"),
-        (rc.swing(CHAIN, RELEASED, None, [1.0]), "needs two times or more"),
+        (rc.swing(CHAIN, [1.0], offset=RELEASED), "needs two times or more"),
     ):
         with pytest.raises(ValueError, match=words):
             found.animate(path)

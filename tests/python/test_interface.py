@@ -116,7 +116,7 @@ QUESTIONS = {
     "branches": lambda system: rc.branches(system, max_angular_speed=9.0),
     "branch": lambda system: rc.branch(system, 1, max_angular_speed=9.0),
     "response": lambda system: rc.response(system, angular_speed=9.0),
-    "swing": lambda system: rc.swing(system, [0.1, 0.1, 0.1, 0.0], None, [0.0, 1.0]),
+    "swing": lambda system: rc.swing(system, [0.0, 1.0], offset=[0.1, 0.1, 0.1, 0.0]),
     "tune": lambda system: rc.tune(system, angular_speed=9.0),
     "fit": lambda system: rc.fit(system, {1: (9.0, 0.1)}, vary="length"),
     "explain": lambda system: rc.explain(system, 1),
@@ -202,7 +202,7 @@ def test_forces_come_out_in_newtons_of_masses():
         lambda c: rc.steady_shapes(c, angular_speed=9.0, gravity=g)[0].force_diagram().load,
         lambda c: rc.branch(c, 1, max_angular_speed=9.0, gravity=g).top_tension,
         lambda c: rc.response(c, angular_speed=4.0, gravity=g).support_force,
-        lambda c: rc.swing(c, [0.01, 0.0], None, 1.0, gravity=g).energy,
+        lambda c: rc.swing(c, 1.0, offset=[0.01, 0.0], gravity=g).energy,
         lambda c: rc.modes(rc.Held(c, tension=2e5), gravity=g).angular_speed,
         lambda c: rc.steady_shape(c, mode=1, top_tension=1.5 * MASS.sum() * g, gravity=g).angular_speed,
     ):
@@ -303,7 +303,7 @@ def test_numbers_with_units():
     assert rc.Chain(mass=np.array(["1 kg", "300 g"]), length=[np.array("1 m"), 2]) == rc.Chain(mass=[1, 0.3], length=[1.0, 2.0])
     assert rc.response(POINTS, angular_speed=np.array([["30 rpm"], ["60 rpm"]])).angular_speed.shape == (2, 1)
     assert rc.response(POINTS, angular_speed="30 rpm", support_radius="1 cm").support_radius == 0.01
-    assert rc.swing(POINTS, ["1 cm", 0.0], None, "2 min").time.tolist() == [120.0]
+    assert rc.swing(POINTS, "2 min", offset=["1 cm", 0.0]).time.tolist() == [120.0]
 
 
 @pytest.mark.parametrize(
@@ -348,7 +348,7 @@ def test_hasattr_of_every_attribute():
     for system in bent:
         found = rc.steady_shapes(system, angular_speed=12.0)
         things += [found, found[0], rc.branches(system, max_angular_speed=12.0)]
-    things += [rc.tune(POINTS, angular_speed=3.0), rc.explain(POINTS), rc.swing(POINTS, [0.1, 0.05, 0.0], None, [0.0, 1.0])]
+    things += [rc.tune(POINTS, angular_speed=3.0), rc.explain(POINTS), rc.swing(POINTS, [0.0, 1.0], offset=[0.1, 0.05, 0.0])]
     missing = {f"{type(thing).__name__}.{name}" for thing in things for name in dir(thing) if not hasattr(thing, name)}
     assert {"CordShape.sensitivity", "HeldCordShape.sensitivity", "Modes.sensitivity", "Chain.weight"} <= missing
     with pytest.raises(ValueError, match="cut the cord into links"):  # which it was and stays, too

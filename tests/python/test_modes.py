@@ -154,7 +154,7 @@ def test_gravity_refused(gravity):
         lambda: rc.modes(chain, gravity=gravity),
         lambda: rc.modes(chain, conical_height=(0.1, 1.0), gravity=gravity),
         lambda: rc.modes(rc.Rig(chain), gravity=gravity),
-        rc.modes(chain).at,
+        rc.modes(chain).with_gravity,
         lambda gravity=gravity: rc.count_modes(chain, angular_speed=[1.0, 2.0], gravity=gravity),
     ]
     several = isinstance(gravity, list)

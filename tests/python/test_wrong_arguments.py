@@ -144,7 +144,7 @@ def objects():
     held = rc.steady_shapes(HELD, conical_height=0.1)
     cord = rc.steady_shapes(rc.Held(CORD, span=0.6), conical_height=0.1)
     found += [held[0], cord[0], rc.steady_shapes(CORD, conical_height=0.2)[0]]
-    found += [rc.response(CHAIN, conical_height=[0.4, 0.5]), rc.swing(CHAIN, [0.1, 0.05, 0.0], None, [0.0, 1.0])]
+    found += [rc.response(CHAIN, conical_height=[0.4, 0.5]), rc.swing(CHAIN, [0.0, 1.0], offset=[0.1, 0.05, 0.0])]
     found.append(rc.BufferImpact(front_mass=1.0, rear_mass=2.0, buffer_stiffness=3.0, coupling_stiffness=4.0, speed=1.0))
     found.append(rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=0.3))
     found.append(rc.GyrostaticString(weight=1.0, length=1.0, tension=9.0, momentum=1.0))

@@ -15,10 +15,9 @@ from ..plots.branches import BY_WEIGHT, HELD_QUANTITIES, QUANTITIES
 from ..plots.modes import MOST_SHAPES, Straight, floating, rows_of
 from ..plots.style import MOST_PINS_AS_DOTS, thinned
 from ..results.branches import Branch, Branches
-from ..results.cord_motions import CordSwing
 from ..results.held_branches import HeldBranch, HeldBranches
 from ..results.modes import Modes
-from ..results.motions import Response, Swing, WhirlSwing
+from ..results.motions import Response, Swing
 from ..results.shapes import Shape, SteadyShapes
 from ..results.sheet import digits
 from ..systems.chain import Chain
@@ -297,24 +296,15 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 # ---- what swings
 
 
-@staged.register(Swing)
-@staged.register(CordSwing)
-def _(found: Any, asked: Asked) -> Film:
+@staged.register
+def _(found: Swing, asked: Asked) -> Film:
     def at(time: Floats) -> Complex:
-        angle = np.outer(time, found.angular_frequency)
-        return np.asarray((np.cos(angle) * found.cosine + np.sin(angle) * found.sine) @ found.shape + 0j)
+        whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
+        return whole if found.offset.dtype.kind == "c" else whole.real + 0j
 
-    cord = isinstance(found, CordSwing)
+    cord = found.arc_length is not None
     height = found.arc_length - found.system.length if cord else Straight(found.system).height
     return _swung(found, asked, at, height)
-
-
-@staged.register
-def _(found: WhirlSwing, asked: Asked) -> Film:
-    def at(time: Floats) -> Complex:
-        return np.asarray((np.exp(1j * np.outer(time, found.angular_speed)) * found.amplitude) @ found.shape)
-
-    return _swung(found, asked, at, Straight(found.system).height)
 
 
 def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Floats) -> Film:

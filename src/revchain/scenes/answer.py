@@ -14,8 +14,9 @@ from .. import _core
 from ..questions.branches import branches
 from ..questions.explain import explain
 from ..questions.modes import find_modes
-from ..questions.response import response, swing
+from ..questions.response import response
 from ..questions.shapes import steady_shapes
+from ..questions.swing import swing
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.rig import Rig
@@ -193,6 +194,6 @@ def answered(question: str, system: Any, given: Given, gravity: float, progress:
     if question == "modes":
         return find_modes(system, **given, progress=progress)
     if question == "swing":
-        return swing(system, given.pop("offset"), given.pop("velocity", None), given.pop("time"), **given)
+        return swing(system, **given)
     function: Any = {"shapes": steady_shapes, "response": response, "branches": branches}[question]
     return function(system, **given)
