@@ -16,7 +16,7 @@ Results
     HeldBranches, HeldBranch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads the
     files that their method ``save`` wrote. Variants of these, and classes of their fields, are in the reference and can
-    be imported from here, too: CordBranch, RigUncertainty, Certificate and others
+    be imported from here, too: CordBranch, Certificate and others
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
@@ -118,13 +118,8 @@ if _TYPE_CHECKING:
     from .results.branches import StabilityWindow as StabilityWindow
     from .results.cord_branches import CordBranch as CordBranch
     from .results.cord_branches import CordBranches as CordBranches
-    from .results.cord_sensitivity import CordSensitivity as CordSensitivity
-    from .results.cord_sensitivity import CordUncertainty as CordUncertainty
     from .results.modes import Certificate as Certificate
     from .results.modes import OtherModes as OtherModes
-    from .results.sensitivity import RigSensitivity as RigSensitivity
-    from .results.sensitivity import RigUncertainty as RigUncertainty
-    from .results.shape_sensitivity import ShapeSensitivity as ShapeSensitivity
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
@@ -159,13 +154,8 @@ _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Certificate": "results.modes",
     "CordBranch": "results.cord_branches",
     "CordBranches": "results.cord_branches",
-    "CordSensitivity": "results.cord_sensitivity",
-    "CordUncertainty": "results.cord_sensitivity",
     "OtherModes": "results.modes",
     "Place": "results.bent",
-    "RigSensitivity": "results.sensitivity",
-    "RigUncertainty": "results.sensitivity",
-    "ShapeSensitivity": "results.shape_sensitivity",
     "StabilityWindow": "results.branches",
     "Strike": "closed_forms.bell",
 }

@@ -135,7 +135,7 @@ def test_pictures():
     found = rc.swing(TIP, [0.0, 0.7], offset=lambda s: 0.1 * (1 - s))
     assert found.plot().get_ylabel() == "depth below the support (m)"
     assert found.plot(kind="time", pins=[0, 50]).get_xlabel() == "time (s)"
-    with pytest.raises(ValueError, match="places must be numbers from 0 to 100"):
+    with pytest.raises(ValueError, match="pins must be numbers from 0 to 100"):
         found.plot(kind="time", pins=[101])
 
 

@@ -396,7 +396,7 @@ def test_uncertainty_of_a_rig_is_that_of_a_sample():
     assert (u.angular_speed >= alone.angular_speed).all()
     np.testing.assert_allclose(u.relative, 2 * u.angular_speed / np.abs(found.angular_speed), rtol=1e-15)
     np.testing.assert_allclose(u.period / found.period, 0.5 * u.relative, rtol=1e-15)
-    share = sum(u.share[name].sum(axis=1) if u.share[name].ndim == 2 else u.share[name] for name in u.share._known)
+    share = sum(u.share[name].sum(axis=1) if u.share[name].ndim == 2 else u.share[name] for name in u.share.data)
     np.testing.assert_allclose(share, 1.0, rtol=1e-14)
 
 

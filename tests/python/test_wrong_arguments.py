@@ -177,7 +177,9 @@ def callables():
             if isinstance(value, types.FunctionType) and name[0] != "_":
                 found[f"{type(thing).__name__}.{name}"] = getattr(thing, name)
     found["GyrostaticString"] = rc.GyrostaticString
-    for refused in ("RigModes.at", "CordModes.uncertainty", "CordShape.stability", "HeldCordShape.stability"):
+    found["Modes.uncertainty of a chain"] = rc.modes(CHAIN).uncertainty
+    found["Modes.uncertainty of a rig"] = rc.modes(RIG).uncertainty
+    for refused in ("Modes.uncertainty", "CordShape.stability", "HeldCordShape.stability"):
         del found[refused]  # refuse whatever they are given: test_interface.py
     return found
 

@@ -299,7 +299,7 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 @staged.register
 def _(found: Swing, asked: Asked) -> Film:
     def at(time: Floats) -> Complex:
-        whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
+        whole: Complex = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
         return whole if found.offset.dtype.kind == "c" else whole.real + 0j
 
     cord = found.arc_length is not None

@@ -288,7 +288,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     for row, at in zip(rows, ticks[before:], strict=True):
         _draw_mode(ax, modes, straight, int(row), at)
     if not len(rows):
-        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)  # type: ignore[attr-defined]
+        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)
         said = f"no steady\nmotion:\ngrows as\nexp({rate} t),\nt in s"
         ax.text(ticks[-1] + SPACING, float(straight.level.mean()), said, ha="center", va="center")
     ax.set_xticks(ticks, labels, fontsize="small")

@@ -160,7 +160,7 @@ _PLACE = "revchain.modes"
 class _Asked(NamedTuple):
     """The checked arguments of `modes`."""
 
-    count: int | str | None
+    many: int | str | None
     first: int
     heights: Pair | None
     speeds: Pair | None
@@ -288,9 +288,9 @@ _FIND: dict[str, Callable[[Any, _Asked], Modes]] = {
 
 
 def _of_infinitely_many(asked: _Asked) -> int | None:
-    if asked.count == "all":
+    if asked.many == "all":
         raise ValueError(f"{_PLACE}: a cord has infinitely many modes; give count, or a window that ends")
-    return None if asked.heights or asked.speeds else count_of(_PLACE, asked.count, 10, each=24)
+    return None if asked.heights or asked.speeds else count_of(_PLACE, asked.many, 10, each=24)
 
 
 def _refuse_two_choices(height: Any, speed: Any, count: Any, first: int) -> None:
@@ -413,23 +413,23 @@ def count_modes(
     kind = getattr(system, "_kind", None)
     if kind not in _FIND:
         raise no_system(place, system)
+    of: Any = system
+    height: Any = conical_height
     speed: Any = None if angular_speed is None else floats(place, "angular_speed", angular_speed)
     if kind == "chain":
-        core, g = compiled(place, system), positive(place, "gravity", gravity)
+        core, g = compiled(place, of), positive(place, "gravity", gravity)
         if speed is None:
-            return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
+            return _core.count_modes(core, floats(place, "conical_height", height))[()]
         return _core.count_modes_at_speed(core, *together(place, angular_speed=speed, gravity=g))[()]
     one = one_positive(place, "gravity", gravity)
     if kind == "rig" and speed is not None:
-        return _core.count_rig_modes(system._under(one), speed, False, one)[()]
-    height = positive(place, "conical_height", conical_height) if speed is None else None
-    if height is None:
-        height = one / positive(place, "angular_speed", speed) ** 2
+        return _core.count_rig_modes(of._under(one), speed, False, one)[()]
+    height = positive(place, "conical_height", height) if speed is None else one / positive(place, "angular_speed", speed) ** 2
     if kind == "rig":
-        return _core.count_rig_modes(system._under(one), height, True, one)[()]
+        return _core.count_rig_modes(of._under(one), height, True, one)[()]
     if kind == "cord":
-        return _core.count_cord_modes(system._under(one), height)[()]
-    return _core.count_held_modes(straight(place, system, one), height, one)[()]
+        return _core.count_cord_modes(of._under(one), height)[()]
+    return _core.count_held_modes(straight(place, of, one), height, one)[()]
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:

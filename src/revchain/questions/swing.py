@@ -131,15 +131,17 @@ def swing(
     g = one_positive(_PLACE, "gravity", gravity)
     times = np.atleast_1d(times)
     arc: Floats | None = None
+    of: Any = system
+    names: tuple[str, ...] = _OF_A_CORD
     if system._kind == "cord":
         starts = [_start_of_cord("offset", offset), _start_of_cord("velocity", velocity)]
-        arc = _places(system, arc_length, starts)
-        asked = (*starts, times, arc, CORD_MODES if number is None else number, g)
-        names, swung = _OF_A_CORD, _core.cord_swing(system._under(g), *asked)
+        arc = _places(of, arc_length, starts)
+        many = CORD_MODES if number is None else number
+        swung = _core.cord_swing(of._under(g), starts[0], starts[1], times, arc, many, g)
     else:
         if arc_length is not None:
             raise ValueError(f"{_PLACE}: arc_length is for a Cord; a Chain has pins, leave it out, got {shown(arc_length)}")
-        turns = system._kind == "rig" and system.has_momentum
+        turns = system._kind == "rig" and of.has_momentum
         names = _TURNING if turns else _IN_A_PLANE
         ask: Any = _core.whirl_swing if turns else _core.swing if system._kind == "chain" else _core.rig_swing
         begin = [_start(name, given, system, turns) for name, given in (("offset", offset), ("velocity", velocity))]

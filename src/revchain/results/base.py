@@ -381,7 +381,7 @@ class _Words:
         return getattr(self.result, name)
 
 
-_HOLD = (np.ndarray, list, tuple)  # types that may hold writable arrays
+_HOLD = (np.ndarray, list, tuple, dict)  # types that may hold writable arrays
 
 
 def restored(kind: type[Result], state: dict[str, Any]) -> Result:

@@ -17,7 +17,7 @@ from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field, UnavailableError
 from .held_sensitivity import held_shape_sensitivity
-from .shape_sensitivity import ShapeSensitivity
+from .sensitivity import Sensitivity
 from .shapes import Shape, Stability, SteadyShapes, at_speed, force_above, forced, is_driven, judged
 from .sheet import Column, Sheet
 
@@ -119,7 +119,7 @@ class _Bent(Shape):
         return []
 
 
-def _no_sensitivity(shape: Any) -> ShapeSensitivity:
+def _no_sensitivity(shape: Any) -> Sensitivity:
     raise UnavailableError(
         f"revchain.{type(shape).__name__}.sensitivity: is for shapes of links; cut the cord into links: cord.chain(100), got a cord"
     )
@@ -148,7 +148,7 @@ class CordShape(_Bent):
         lambda s: s._found().error_bound,
         part=True,
     )
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
+    sensitivity: Field[Sensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
     _note: ClassVar[str] = "lower end: inclination there from the downward vertical; error: estimated"
     _place_note: ClassVar[str] = "arc lengths from the free end, heights above the support"
 
@@ -312,9 +312,9 @@ class HeldShape(_HeldShape):
     )
     error_bound: Field[float] = Field("Bound of the error of each inclination, rad; an estimate unless `proved`.")
     proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.")
-    sensitivity: Field[ShapeSensitivity] = Field(
+    sensitivity: Field[Sensitivity] = Field(
         "Derivatives of inclinations, offsets and tensions at the pins with respect to the speed, the data of each link, the "
-        "span or the tension, and the supports of the ends. Each part is a `HeldShapeDerivatives`.",
+        "span or the tension, and the supports of the ends.",
         held_shape_sensitivity,
     )
     moment_of_inertia: Field[float] = Field(
@@ -421,7 +421,7 @@ class HeldCordShape(_HeldShape):
         """
         driven = is_driven("revchain.HeldCordShape.stability", frame)
         return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
-    sensitivity: Field[ShapeSensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
+    sensitivity: Field[Sensitivity] = Field("Not available: raises an AttributeError.", _no_sensitivity)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return offset, height, inclination and tension at distances along the cord.

@@ -472,7 +472,8 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         from .sensitivity import uncertainty_of_modes
 
         given = {name: value for name, value in locals().items() if name in _DEVIATIONS and value is not None}
-        return uncertainty_of_modes(self, given)
+        found: Uncertainty = uncertainty_of_modes(self, given)
+        return found
 
     def plot(
         self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
@@ -620,7 +621,7 @@ class Modes(Result, Moving, row="mode", title="{summary}", notes=("{_remarks}",)
         return "\n".join(lines)
 
 
-_DEVIATIONS = frozenset(Modes.uncertainty.__kwdefaults__)
+_DEVIATIONS = frozenset(Modes.uncertainty.__kwdefaults__ or ())
 
 
 def _summary(modes: Modes) -> str:
@@ -688,4 +689,5 @@ def _others(modes: Modes) -> OtherModes:
 def _sensitivity(modes: Modes) -> Sensitivity:
     from .sensitivity import sensitivity_of_modes
 
-    return sensitivity_of_modes(modes)
+    found: Sensitivity = sensitivity_of_modes(modes)
+    return found

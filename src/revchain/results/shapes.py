@@ -18,7 +18,8 @@ from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .diagrams import ForceDiagram
 from .moving import Moving
-from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
+from .sensitivity import Sensitivity
+from .shape_sensitivity import shape_sensitivity
 from .sheet import Column, Sheet, digits
 
 if TYPE_CHECKING:
@@ -263,9 +264,9 @@ class SteadyShape(Shape):
         forced("effective_energy"),
         part=True,
     )
-    sensitivity: Field[ShapeSensitivity] = Field(
+    sensitivity: Field[Sensitivity] = Field(
         "Derivatives of inclinations, offsets and tensions with respect to the speed and each datum; see "
-        "`ShapeSensitivity`.",
+        "`Sensitivity`.",
         shape_sensitivity,
     )
     angular_momentum: Field[float] = Field(

@@ -237,7 +237,7 @@ def as_dataset(sheet: Sheet) -> Dataset:
     coordinates = {column.name: column.values for column in sheet.columns if column.name == sheet.row}
     for name, value in sheet.facts.items():
         if isinstance(value, np.ndarray):
-            variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value
+            variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value, {}
     facts = {name: value for name, value in sheet.facts.items() if name not in variables and value is not None}
     data: Dataset = xarray.Dataset(variables, coordinates, {name: _attribute(value) for name, value in facts.items()})
     return data
