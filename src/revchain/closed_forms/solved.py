@@ -6,9 +6,11 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..results.base import Field, Result
 from ..results.sheet import Column, Sheet
+from ..systems.numbers import as_length, count, floats, numbers, real
 
 
 class Solved(Result):
@@ -24,8 +26,23 @@ class Solved(Result):
     _row: ClassVar[str]
 
     def _solve(self, given: dict[str, Any]) -> None:
-        object.__setattr__(self, "_kept", {"_given": given})
+        """Check the arguments of the constructor, which are its `locals()`, and compute the result."""
+        place, checked = f"revchain.{type(self).__name__}", {}
+        for name, value in given.items():
+            if name == "half_waves":
+                checked[name] = count(place, name, value)
+            elif name != "self":
+                number = as_length(place, name, value) if name == "tension" else value
+                checked[name] = None if number is None and name in self._optional else real(place, name, number)
+        object.__setattr__(self, "_kept", {"_given": checked})
         object.__setattr__(self, "_core", self._again())
+
+    _optional: ClassVar[tuple[str, ...]] = ()
+
+    def _at(self, method: str, name: str, value: ArrayLike) -> tuple[Any, ...]:
+        """The columns that the method of the compiled result returns for an array."""
+        place = f"revchain.{type(self).__name__}.{method}"
+        return tuple(numbers(getattr(self._found(), method)(floats(place, name, value))))
 
     def _again(self) -> Any:
         return self._solver(**self._given)

@@ -81,6 +81,7 @@ ANY = {
     "amplitude": "Angle in rad",
     "angle": "Angle in rad to the downward vertical at time 0",
     "angle_rate": "Rate of the angle in rad/s at time 0",
+    "axial_inertia": "Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1",
     "ax": "Axes to draw in; a new figure if left out",
     "clearance": 'Angle of the clapper in the bell from the middle to the contact, rad or a text such as "25 deg", below pi/2',
     "complementary_modulus": "Complementary modulus ``sqrt(1 - modulus**2)``, from 0 to 1",
