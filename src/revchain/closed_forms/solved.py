@@ -17,13 +17,14 @@ class Solved(Result):
     """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
 
     In a subclass `_solver` is the compiled class that computes the result, and `_table` returns the fields that are
-    columns, with their headings. Angles, whose headings end in (°), are shown in degrees.
+    columns, with their headings; `_optional` are the arguments that may be None. Angles, whose headings end in (°), are shown in degrees.
     """
 
     __slots__ = ()
     _given: Field[dict[str, Any]] = Field("The numbers given, by name.", part=True)
     _solver: ClassVar[Any]
     _row: ClassVar[str]
+    _optional: ClassVar[tuple[str, ...]] = ()
 
     def _solve(self, given: dict[str, Any]) -> None:
         """Check the arguments of the constructor, which are its `locals()`, and compute the result."""
@@ -36,8 +37,6 @@ class Solved(Result):
                 checked[name] = None if number is None and name in self._optional else real(place, name, number)
         object.__setattr__(self, "_kept", {"_given": checked})
         object.__setattr__(self, "_core", self._again())
-
-    _optional: ClassVar[tuple[str, ...]] = ()
 
     def _at(self, method: str, name: str, value: ArrayLike) -> tuple[Any, ...]:
         """The columns that the method of the compiled result returns for an array."""

@@ -81,12 +81,16 @@ ANY = {
     "amplitude": "Angle in rad",
     "angle": "Angle in rad to the downward vertical at time 0",
     "angle_rate": "Rate of the angle in rad/s at time 0",
+    "axes": "Axes to draw in; a new figure if left out",
     "axial_inertia": "Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1",
     "ax": "Axes to draw in; a new figure if left out",
     "clearance": 'Angle of the clapper in the bell from the middle to the contact, rad or a text such as "25 deg", below pi/2',
     "complementary_modulus": "Complementary modulus ``sqrt(1 - modulus**2)``, from 0 to 1",
+    "first_height": "Height of the first support",
     "half_waves": "Number of half waves between the ends",
+    "last_height": "Height of the last support",
     "modulus": "Modulus, from 0 to 1",
+    "momentum": "Constant angular momentum of each wheel (moment of inertia times spin), in force times length times time",
     "time": "Times in s, finite, any shape",
     "u": "Argument, finite, any shape",
     "upper_centroid": "Distance of the centre of gravity of the upper link below the support",
@@ -103,7 +107,7 @@ _TYPES = {
     "Floats | list[Floats]": "ndarray, or list of ndarray",
 }
 _DRAWN = {"Axes": "The drawing."}
-_SHAPE = "The arguments broadcast; single numbers give a single number."
+_SHAPE = "Arrays have the broadcast shape of the arguments; single numbers give single numbers."
 _REFUSED = "If a number is out of its range or not finite, or if the shapes do not broadcast."
 
 FORMS: dict[str, Form] = {}
