@@ -169,5 +169,5 @@ class GyrostaticString:
             raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
         return plot_vibration(turn, float(self.phase(speed) + self.phase(-speed)) / 2, size, ax)
 
-    def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[Any, ...]:
+    def _at(self, method: str, name: str, value: ArrayLike, function: Any) -> tuple[FloatOrArray, ...]:
         return tuple(numbers(function(floats(f"revchain.GyrostaticString.{method}", name, value), **asdict(self))))

@@ -28,7 +28,8 @@ class Solved(Result):
 
     def _solve(self, given: dict[str, Any]) -> None:
         """Check the arguments of the constructor, which are its `locals()`, and compute the result."""
-        place, checked = f"revchain.{type(self).__name__}", {}
+        place = f"revchain.{type(self).__name__}"
+        checked: dict[str, Any] = {}
         for name, value in given.items():
             if name == "half_waves":
                 checked[name] = count(place, name, value)
