@@ -7,6 +7,7 @@ import itertools
 import math
 import pickle
 import pkgutil
+import re
 from operator import attrgetter
 
 import mpmath as mp
@@ -658,17 +659,19 @@ def test_the_table():
         function = attrgetter(name)(rc)
         assert inspect.signature(function) == form.signature == inspect.signature(form.function)
         assert inspect.getfullargspec(function).kwonlydefaults == inspect.getfullargspec(form.function).kwonlydefaults
-        assert function.__module__ == form.function.__module__ and function.__annotations__ == form.function.__annotations__
+        for attribute in ("__module__", "__qualname__", "__annotations__"):
+            assert getattr(function, attribute) == getattr(form.function, attribute)
         assert pickle.loads(pickle.dumps(function)) is function
-        for section in ("Parameters\n---", "Returns\n---", "Raises\n---", "Accuracy: ", "Cost: ", "Source: ", "Examples\n---"):
-            assert section in function.__doc__, (name, section)
-        given = [each.split(" : ")[0] for each in function.__doc__.splitlines() if " : array_like" in each or " : float" in each]
-        assert given == list(form.signature.parameters)
-    modules = [importlib.import_module(each.name) for each in pkgutil.iter_modules(closed_forms.__path__, "revchain.closed_forms.")]
-    functions = [f for module in modules for _, f in inspect.getmembers(module, inspect.isroutine)]
-    functions += [f for module in modules for _, kind in inspect.getmembers(module, inspect.isclass)
-                  for _, f in inspect.getmembers(kind, inspect.isfunction)]  # fmt: skip
-    arguments = {name for f in functions if f.__module__.startswith("revchain.closed_forms") for name in inspect.signature(f).parameters}
+        lines = function.__doc__.splitlines()
+        assert {"Parameters", "Returns", "Raises", "Notes", "Examples"} <= set(lines)
+        assert all(f"{fact}: " in function.__doc__ for fact in ("Accuracy", "Cost", "Source"))
+        described = [line.split(" : ")[0] for line in lines if re.search(" : (array_like|float)", line)]
+        assert described == list(form.signature.parameters)
+    path = closed_forms.__path__
+    modules = [importlib.import_module(f"revchain.closed_forms.{each.name}") for each in pkgutil.iter_modules(path)]
+    owners = modules + [kind for module in modules for _, kind in inspect.getmembers(module, inspect.isclass)]
+    functions = [function for owner in owners for _, function in inspect.getmembers(owner, inspect.isfunction)]
+    arguments = {name for function in functions for name in inspect.signature(function).parameters}
     assert {*table.POSITIVE, *table.NOT_NEGATIVE, *table.ANY} <= arguments
 
 

@@ -25,7 +25,7 @@ class Blow(NamedTuple):
 
 
 class CarriageState(NamedTuple):
-    """Displacements of both carriages towards the buffer since time 0, their speeds, and the buffer force (0 if apart)."""
+    """Displacements of both carriages towards the buffer since time 0, their speeds, the buffer force (0 if apart)."""
 
     front: FloatOrArray
     rear: FloatOrArray

@@ -2,8 +2,8 @@
 # mypy: disable-error-code="empty-body"
 """The conical pendulum: height, speed, period and gravity from one another.
 
-The conical height is ``gravity / angular_speed**2``: the depth of the circling weight below its support, for a thread of
-any greater length. Source: Greenhill (1908), section 1; numbers in brackets are its equations.
+The conical height is ``gravity / angular_speed**2``: the depth of the circling weight below its support, for a thread
+of any greater length. Source: Greenhill (1908), section 1; numbers in brackets are its equations.
 """
 
 from __future__ import annotations
@@ -22,9 +22,7 @@ __all__ = [
 
 @closed_form(_core.conical_pendulum_angular_speed, "2.1 ulp", "section 1 (1)")
 def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
-    """Return the speed at a conical height, ``sqrt(gravity / height)``.
-
-    returns: Speed in rad/s.
+    """Return the speed in rad/s at a conical height, ``sqrt(gravity / height)``.
 
     >>> float(rc.conical_pendulum.angular_speed(2.4525, gravity=9.81))
     2.0
@@ -33,9 +31,7 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> F
 
 @closed_form(_core.conical_pendulum_period, "2.1 ulp", "section 1 (2)")
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
-    """Return the time of one turn at a conical height, ``2 pi sqrt(height / gravity)``.
-
-    returns: Time in s.
+    """Return the time of one turn in s at a conical height, ``2 pi sqrt(height / gravity)``.
 
     The pendulum that beats seconds, in inches:
 
@@ -48,8 +44,6 @@ def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrA
 def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
     """Return the turns per second at a conical height, ``sqrt(gravity / height) / (2 pi)``.
 
-    returns: Turns per second, 1/s.
-
     >>> rc.conical_pendulum.revolutions_per_second([1.0, 0.25]).round(4)
     array([0.4984, 0.9968])
     """
@@ -57,9 +51,7 @@ def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAV
 
 @closed_form(_core.conical_pendulum_height, "2.1 ulp", "section 1 (1)")
 def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
-    """Return the conical height of a speed, ``gravity / angular_speed**2``.
-
-    returns: Height in the unit of length of `gravity`.
+    """Return the conical height of a speed, ``gravity / angular_speed**2``, in the unit of length of `gravity`.
 
     >>> float(rc.conical_pendulum.height(2.0, gravity=9.81))
     2.4525
@@ -68,9 +60,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> F
 
 @closed_form(_core.conical_pendulum_height_from_period, "2.1 ulp", "section 1 (1), (7)")
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
-    """Return the conical height of a period, ``gravity * period**2 / (4 pi**2)``.
-
-    returns: Height in the unit of length of `gravity`.
+    """Return the conical height of a period, ``gravity * period**2 / (4 pi**2)``, in the unit of length of `gravity`.
 
     >>> round(float(rc.conical_pendulum.height_from_period(2.0, gravity=386.29237)), 4)
     39.1396
@@ -80,8 +70,6 @@ def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY)
 @closed_form(_core.conical_pendulum_height_from_seconds_pendulum, "2.1 ulp", "section 1 (7)")
 def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike) -> FloatOrArray:
     """Return the conical height of a period from the seconds pendulum, ``seconds_pendulum * period**2 / 4``.
-
-    returns: Height in the unit of `seconds_pendulum`.
 
     >>> rc.conical_pendulum.height_from_seconds_pendulum(39.1396, period=2.0)
     39.1396

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Jacobi's elliptic functions near modulus 1, where ``scipy.special.ellipj`` loses all digits.
 
-Near ``modulus = 1`` give ``complementary_modulus = sqrt(1 - modulus**2)``: it cannot be computed accurately from a rounded
-modulus. `scipy.special.ellipj` takes the parameter ``m = modulus**2``. Its errors are 3e-15 for complementary moduli above
-0.5 and 7e-13 down to 1e-3; below 1e-8 no digit is correct.
+Near ``modulus = 1`` give ``complementary_modulus = sqrt(1 - modulus**2)``: it cannot be computed accurately from a
+rounded modulus. `scipy.special.ellipj` takes the parameter ``m = modulus**2``. Its errors are 3e-15 for complementary
+moduli above 0.5 and 7e-13 down to 1e-3; below 1e-8 no digit is correct.
 
-SciPy has the elliptic integrals. With ``c`` the complementary modulus, write ``ellipkm1(c**2)`` for the complete integral K,
-``ellipkm1(c**2)`` for the complete integral K, ``2 * elliprg(0, c**2, 1)`` for E, and the forms of Carlson (`elliprf`,
-`elliprd`, `elliprj`; DLMF 19.25) for incomplete integrals and those of the third kind.
+SciPy has the elliptic integrals. With ``c`` the complementary modulus, write ``ellipkm1(c**2)`` for the complete
+integral K, ``ellipe((1 - c) * (1 + c))`` for E, and the forms of Carlson (`elliprf`, `elliprd`, `elliprj`; DLMF 19.25)
+for incomplete integrals and those of the third kind, whose characteristic far below 0 must first be changed (DLMF
+19.7(iii)).
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ __all__ = ["Jacobi", "jacobi"]
 
 
 class Jacobi(NamedTuple):
-    """Jacobi's functions of ``u``: `amplitude` am u, `sn`, `cn`, `dn`, and `epsilon`, the integral of dn**2 from 0 to u.
+    """Jacobi's functions of ``u``: `amplitude` am u, `sn`, `cn`, `dn`, and `epsilon`, the integral of dn**2 to u.
 
     Examples
     --------
@@ -42,8 +43,8 @@ class Jacobi(NamedTuple):
 
 
 @described(
-    "``1e-15 * (|f| + |u df/du|)`` for complementary moduli from 1e-150 to 1; if ``abs(u)`` exceeds 1e15, no digit of sn, cn "
-    "and dn is correct",
+    "``1e-15 * (|f| + |u df/du|)`` for complementary moduli from 1e-150 to 1; if ``abs(u)`` exceeds 1e15, no digit of "
+    "sn, cn and dn is correct",
     cost="0.1 microseconds for each number",
 )
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:

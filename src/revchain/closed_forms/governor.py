@@ -37,12 +37,12 @@ class GovernorMotion(Solved):
     angular_speed: Speed of the axis, rad/s; 0 for a pendulum that does not turn.
     pendulum_length: Length of the equivalent simple pendulum about the hinge
     gravity: Acceleration of gravity; negative for an inverted axis.
-    raises: If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if numbers
-        differ by a factor of 1e150 or more, so that no digit of the motion is correct.
+    raises: If a number is not finite, `pendulum_length` is not positive, or `axial_inertia` is not from 0 to 1; if
+        numbers differ by a factor of 1e150 or more, so that no digit of the motion is correct.
     notes: Accuracy, measured against integration in quadruple precision: angles to 1e-13 of the greatest angle and of
-        ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest acceleration.
-        After 1e13 periods no digit is correct. Close to a motion that never returns, the rounding of the start to double
-        limits the accuracy.
+        ``t`` times the greatest rate; rates to 1e-13 of the greatest rate and of ``t`` times the greatest
+        acceleration. After 1e13 periods no digit is correct. Close to a motion that never returns, the rounding of
+        the start to double limits the accuracy.
 
     >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
     >>> swing.regime, round(swing.period, 4), round(swing.least_angle, 4)

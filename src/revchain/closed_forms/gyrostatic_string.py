@@ -54,7 +54,7 @@ class GyrostaticString:
     tension: Tension of the string, a force
     centroid: Distance of the centre of gravity of a link from a pin; the middle if left out.
     radius_of_gyration: Radius of gyration of a link about an axis across the line through its centre of gravity
-    gravity: Acceleration of gravity, which relates `weight` to mass; standard gravity in m/s^2 if left out
+    gravity: Acceleration of gravity, which relates `weight` to mass (standard gravity in m/s^2 if left out)
     raises: If a number is out of its range or not finite.
     notes: The model is for small offsets; the weight of the links acts only as inertia.
 
@@ -123,8 +123,8 @@ class GyrostaticString:
         """Return the angle by which the plane of a planar vibration turns from link to link.
 
         angular_speed: Angular frequency of the vibration, rad/s, positive and finite; other values raise a ValueError.
-        returns: Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and NaN
-            if one of the two circular waves does not pass.
+        returns: Angle in rad, in the direction of a positive momentum. It is equal for waves that run either way, and
+            NaN if one of the two circular waves does not pass.
 
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1e-9, centroid=1.0)
         >>> bool(string.plane_rotation(10.0) > 0)

@@ -2,8 +2,8 @@
 # mypy: disable-error-code="empty-body"
 """An endless chain that runs in a circle (the rim of a wheel, a tyre), and the nearly straight whirling string.
 
-A tension is given as the length of chain of equal weight. Source: Greenhill (1908), section 5; numbers in brackets are its
-equations.
+A tension is given as the length of chain of equal weight. Source: Greenhill (1908), section 5; numbers in brackets
+are its equations.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["WaveSpeeds", "speed", "string_revolutions_per_second", "tension", "w
 
 
 class WaveSpeeds(NamedTuple):
-    """Speeds in space of the two waves on a rim: `standing`, against the rim, is 0; `running`, with it, is twice its speed.
+    """Speeds in space of the two waves on a rim: `standing`, against the rim, is 0; `running` is twice its speed.
 
     Examples
     --------
@@ -35,9 +35,7 @@ class WaveSpeeds(NamedTuple):
 
 @closed_form(_core.hoop_tension, "3 ulp", "section 5 (6)")
 def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> FloatOrArray:
-    """Return the tension of a rim, ``speed**2 / gravity``, for a circle of any radius.
-
-    returns: Tension as a length.
+    """Return the tension of a rim as a length, ``speed**2 / gravity``, for a circle of any radius.
 
     >>> float(rc.hoop.tension(20.0, gravity=10.0))
     40.0

@@ -2,8 +2,8 @@
 # mypy: disable-error-code="empty-body"
 """One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
 
-All lengths are in one unit; tensions are divided by the weight; angles are in radians. Source: Greenhill (1908), section 1;
-numbers in brackets are its equations.
+All lengths are in one unit; tensions are divided by the weight; angles are in radians. Source: Greenhill (1908),
+section 1; numbers in brackets are its equations.
 """
 
 from __future__ import annotations

@@ -40,10 +40,10 @@ class RopePoints(NamedTuple):
 class TortuousPoints(NamedTuple):
     """Points of a tortuous rope.
 
-    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance from
-    the axis. `angle`: angle round the axis; for the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
-    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its component
-    along the axis.
+    `x`, `arc`: distances along the axis and along the rope from the point nearest to the axis. `radius`: distance
+    from the axis. `angle`: angle round the axis; for the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
+    `radius_slope`, `angle_slope`: ``d radius / dx``, ``d angle / dx``. `tension_ratio`: tension divided by its
+    component along the axis.
     """
 
     x: FloatOrArray
@@ -59,12 +59,12 @@ class TortuousPoints(NamedTuple):
 class SkippingRope(Solved):
     """A rope that whirls between two points of the axis without gravity: ``offset = sag sn(K x/a)``.
 
-    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of the
-    first four you may add one of `tension` and `angular_speed`.
+    Give two of five data: `span`, `length`, `slack`, `sag`, and the pair of `tension` and `angular_speed`. To two of
+    the first four you may add one of `tension` and `angular_speed`.
 
     length: Length of the whole rope
     tension: Tension in the middle of a half wave, as the length of rope of equal weight
-    gravity: Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out
+    gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
     raises: If a number is not positive and finite, if too few or too many are given, or if no rope has them: the length
         does not exceed the span, the sag is not below half the length, or the rope is too slow or too tight to bend.
     notes: Cost: 20 microseconds, and for each point 0.2 by `at` or 10 by `at_arc`.
@@ -80,7 +80,9 @@ class SkippingRope(Solved):
     has_speed: Field[bool] = Field("Whether angular speed or tension was given; both are then known.")
     angular_speed: Field[float] = Field("Turning speed, rad/s; a ValueError if neither speed nor tension was given.")
     conical_height: Field[float] = Field("Conical height of the speed; a ValueError if the speed raises one.")
-    tension_in_the_middle: Field[float] = Field("Tension in the middle of a half wave; a ValueError if the speed raises one.")
+    tension_in_the_middle: Field[float] = Field(
+        "Tension in the middle of a half wave; a ValueError if the speed raises one."
+    )
     tension_at_ends: Field[float] = Field("Tension at every node; a ValueError if the speed raises one.")
     half_waves: Field[int] = Field("Number of half waves between the ends.")
     span: Field[float] = Field("Distance between the ends.")
@@ -179,7 +181,7 @@ class TortuousRope(Solved):
 
     least_radius: Smallest distance of the rope from the axis; 0 gives the plane rope, `greatest_radius` a helix.
     tension: Component of the tension along the axis, as the length of rope of equal weight
-    gravity: Acceleration of gravity; it only relates weight to mass; standard gravity in m/s^2 if left out
+    gravity: Acceleration of gravity, which only relates weight to mass (standard gravity in m/s^2 if left out)
     raises: If a number is out of its range.
 
     >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)

@@ -17,7 +17,8 @@ class Solved(Result):
     """A result whose constructor computes it from numbers; two are equal if the numbers given are equal.
 
     In a subclass `_solver` is the compiled class that computes the result, and `_table` returns the fields that are
-    columns, with their headings; `_optional` are the arguments that may be None. Angles, whose headings end in (°), are shown in degrees.
+    columns, with their headings; `_optional` are the arguments that may be None. Angles, whose headings end in (°),
+    are shown in degrees.
     """
 
     __slots__ = ()

@@ -85,13 +85,14 @@ class FunicularPolygon(Result):
     place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).", part=True)
     height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).", part=True)
     rise: Field[Floats] = Field(
-        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs from "
-        "the pole to ``(horizontal_tension, rise)`` on the load line.",
+        "Vertical component of the tension of each side, shape (n + 1,). In the force diagram the ray of a side runs "
+        "from the pole to ``(horizontal_tension, rise)`` on the load line.",
         part=True,
     )
     tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).", part=True)
     horizontal_tension: Field[float] = Field(
-        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.", part=True
+        "Horizontal component of the tension, equal in all sides: the distance of the pole from the load line.",
+        part=True,
     )
 
     @described()
@@ -99,9 +100,9 @@ class FunicularPolygon(Result):
         """Return the small oscillations of the weights perpendicular to the plane of the polygon.
 
         returns: Result of `transverse_modes` for the weights, positions and horizontal tension of the polygon.
-        notes: The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section 3.
-            This is exact for small oscillations: a side of length a and tension T has the transverse stiffness T/a, which
-            equals the horizontal tension divided by the horizontal length.
+        notes: The weights are moved vertically to a horizontal thread of uniform tension, Greenhill (1908), section
+            3. This is exact for small oscillations: a side of length a and tension T has the transverse stiffness
+            T/a, which equals the horizontal tension divided by the horizontal length.
 
         >>> line = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
         >>> line.transverse_modes().conical_height.round(6)
@@ -173,7 +174,7 @@ def transverse_modes(
     weight: The n weights from the first support to the last
     place: The n + 2 positions of the first support, the weights and the last support along the string, increasing.
     tension: Tension of the string, uniform, in the unit of the weights
-    gravity: Acceleration of gravity, which relates weights to masses; standard gravity in m/s^2 if left out
+    gravity: Acceleration of gravity, which relates weights to masses (standard gravity in m/s^2 if left out)
     returns: All n modes.
     raises: If a number is out of its range, or there are not two more positions than weights.
     notes: Method: the modes of a hanging chain with these weights and spacings, stretched by a very great weight.

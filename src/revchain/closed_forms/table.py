@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table of closed forms: each row is a typed function without a body, below `closed_form`.
 
-A row has the compiled function of the formula, the accuracy, the source, the arguments with their types, and a docstring:
-a summary; paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that are more special than
-the vocabulary below says (lines that continue a text are indented); examples. `closed_form` checks the arguments, calls the
-formula and writes the docstring with its numpydoc sections. `described` writes the docstring only, of anything that has a
-body of its own.
+A row has the compiled function of the formula, the accuracy, the source, the arguments with their types, and a
+docstring: a summary; paragraphs; lines ``name: text`` for `returns`, `raises`, `notes` and for arguments that are
+more special than the vocabulary below says (lines that continue a text are indented); examples. `closed_form` checks
+the arguments, calls the formula and writes the docstring with its numpydoc sections. `described` writes the docstring
+only, of anything that has a body of its own.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable
-from functools import update_wrapper
+from functools import partial, update_wrapper
 from math import inf
 from textwrap import fill
 from types import FunctionType
@@ -25,11 +25,12 @@ from ..systems.numbers import Floats, as_length, beside, floats, numbers, positi
 
 P = ParamSpec("P")
 R = TypeVar("R")
-Thing = TypeVar("Thing", bound=Callable[..., Any])
+Formula: TypeAlias = Callable[..., Any]
+Thing = TypeVar("Thing", bound=Formula)
 FloatOrArray: TypeAlias = np.float64 | Floats
 
 POSITIVE = {
-    "angular_speed": 'Speed in rad/s, or a text such as "30 rpm" or "0.5 Hz"',
+    "angular_speed": 'Speed in rad/s (or a text such as "30 rpm" or "0.5 Hz")',
     "arm": "Length of the arm that carries the thread, perpendicular to the plane of axis and mass",
     "bell_centroid": "Distance of the centre of gravity of the bell below its axle",
     "bell_weight": "Weight of the bell",
@@ -37,11 +38,11 @@ POSITIVE = {
     "centroid": "Distance of the centre of gravity of the link below its upper pin",
     "clapper_centroid": "Distance of the centre of gravity of the clapper below its pin",
     "clapper_weight": "Weight of the clapper",
-    "coupling_stiffness": "Stiffness of the coupling, which pulls and pushes and is without force at first",
+    "coupling_stiffness": "Stiffness of the coupling (it pulls and pushes, and is without force at first)",
     "deflection": "Sideways deflection of the support under the weight of the pendulum",
     "distance": "Distance along the axis from the tie of the upper thread down to that of the lower one",
     "front_mass": "Mass of the front carriage",
-    "gravity": "Acceleration of gravity, in the unit of length per s^2; standard gravity in m/s^2 if left out",
+    "gravity": "Acceleration of gravity in the unit of length per s^2 (standard gravity in m/s^2 if left out)",
     "greatest_radius": "Largest distance of the rope from the axis",
     "half_length": "Half the total length of both threads",
     "height": "Conical height ``gravity / angular_speed**2``",
@@ -58,7 +59,7 @@ POSITIVE = {
     "rod": "Length of the rod of the upper plummet",
     "sag": "Largest distance of the rope from the axis",
     "seconds_pendulum": "Length of the simple pendulum that beats seconds at the place",
-    "slack": "Length of the rope less the span; give it if the two are nearly equal",
+    "slack": "Length of the rope less the span (give it if the two are nearly equal)",
     "span": "Distance between the ends",
     "speed": "Speed along the rim",
     "standing_weight": "Weight of the upper plummet",
@@ -74,7 +75,7 @@ NOT_NEGATIVE = {
     "bell_radius_of_gyration": "Radius of gyration of the bell about its centre of gravity",
     "clapper_radius_of_gyration": "Radius of gyration of the clapper about its centre of gravity",
     "lower_radius_of_gyration": "Radius of gyration of the lower link about its centre of gravity",
-    "radius_of_gyration": "Radius of gyration of the link about its centre of gravity; 0 is a plummet",
+    "radius_of_gyration": "Radius of gyration of the link about its centre of gravity (0 for a plummet)",
     "upper_radius_of_gyration": "Radius of gyration of the upper link about its centre of gravity",
 }
 ANY = {
@@ -84,13 +85,13 @@ ANY = {
     "axes": "Axes to draw in; a new figure if left out",
     "axial_inertia": "Moment of inertia about the line of the link, divided by that about the hinge; 0 to 1",
     "ax": "Axes to draw in; a new figure if left out",
-    "clearance": 'Angle of the clapper in the bell from the middle to the contact, rad or a text such as "25 deg", below pi/2',
+    "clearance": 'Angle of the clapper in the bell from the middle to contact, below pi/2 rad, or a text such as "25 deg"',
     "complementary_modulus": "Complementary modulus ``sqrt(1 - modulus**2)``, from 0 to 1",
     "first_height": "Height of the first support",
     "half_waves": "Number of half waves between the ends",
     "last_height": "Height of the last support",
     "modulus": "Modulus, from 0 to 1",
-    "momentum": "Constant angular momentum of each wheel (moment of inertia times spin), in force times length times time",
+    "momentum": "Constant angular momentum of each wheel (moment of inertia times spin), force times length times time",
     "time": "Times in s, finite, any shape",
     "u": "Argument, finite, any shape",
     "upper_centroid": "Distance of the centre of gravity of the upper link below the support",
@@ -108,7 +109,7 @@ _TYPES = {
 }
 _DRAWN = {"Axes": "The drawing."}
 _SHAPE = "Arrays have the broadcast shape of the arguments; single numbers give single numbers."
-_REFUSED = "If a number is out of its range or not finite, or if the shapes do not broadcast."
+_BROADCAST = ", or if the shapes do not broadcast"
 
 FORMS: dict[str, Form] = {}
 """The rows by name, such as ``"hoop.tension"``."""
@@ -117,14 +118,17 @@ FORMS: dict[str, Form] = {}
 class Form:
     """A row of the table: the formula, its arguments, its accuracy, source and cost."""
 
-    def __init__(self, function: Callable[..., Any], formula: Callable[..., Any], made: Callable[..., Any] | None) -> None:
+    def __init__(self, function: Formula, formula: Formula, made: Formula | None) -> None:
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
         self.place = f"revchain.{self.name}"
         self.function, self.formula = function, formula
         self.signature = inspect.signature(function)
         self.single = any(each.annotation == "float" for each in self.signature.parameters.values())
         result = function.__globals__.get(self.signature.return_annotation)
-        self.made = made or (_pairs if result is Floats else _columns(result) if hasattr(result, "_fields") else _as_is)
+        if result is Floats:  # the two numbers of a pair are beside each other
+            made = partial(np.stack, axis=-1)
+        columns = hasattr(result, "_fields")
+        self.made = made or (lambda found: result(*numbers(found)) if columns else found)  # type: ignore[misc]
         self.defaults = {name: each.default for name, each in self.signature.parameters.items()}
 
     def answer(self, given: tuple[Any, ...], named: dict[str, Any]) -> Any:
@@ -147,23 +151,10 @@ class Form:
         return array
 
 
-def _as_is(found: Any) -> Any:
-    return found
-
-
-def _pairs(found: tuple[Floats, ...]) -> Floats:
-    return np.stack(found, axis=-1)
-
-
-def _columns(result: Any) -> Callable[[tuple[Floats, ...]], Any]:
-    return lambda found: result(*numbers(found))
-
-
 def closed_form(
-    formula: Callable[..., Any], accuracy: str, source: str, *, cost: str = "O(1) for each number",
-    made: Callable[[Any], Any] | None = None,
+    formula: Formula, accuracy: str, source: str, *, cost: str = "O(1) for each number", made: Formula | None = None
 ) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """A decorator that makes a row of the table: it checks the arguments, calls the formula and writes the docstring.
+    """Make a row of the table, by a decorator that checks the arguments, calls the formula and writes the docstring.
 
     `made` turns what the formula returns into the answer; if left out, the type of the answer says how.
     """
@@ -187,27 +178,33 @@ def closed_form(
 def described(
     accuracy: str = "", source: str = "", cost: str = "", *, computed: bool = False
 ) -> Callable[[Thing], Thing]:
-    """A decorator that writes the docstring of a function or a class from its signature and its short docstring."""
+    """Write the docstring of a function or a class from its signature and its short docstring, by a decorator."""
 
     def decorated(thing: Thing) -> Thing:
+        if thing.__doc__ is None:  # Python was started with -OO
+            return thing
         parameters = dict(inspect.signature(thing).parameters)
         parameters.pop("self", None)
-        summary, prose, texts, examples = _read(thing.__doc__ or "", {*parameters, "returns", "raises", "notes"})
+        summary, prose, texts, examples = _read(thing.__doc__, {*parameters, "returns", "raises", "notes"})
         sections = [summary, *prose]
         if parameters:
             each = [f"{name} : {_type(one)}\n    {_text(name, texts)}" for name, one in parameters.items()]
             sections.append(_section("Parameters", "\n".join(each)))
-        result = None if inspect.isclass(thing) else inspect.signature(thing).return_annotation
-        if result not in (None, "None"):
-            said = [texts["returns"]] if "returns" in texts else [_DRAWN[result]] if result in _DRAWN else []
+        result = "None" if inspect.isclass(thing) else inspect.signature(thing).return_annotation
+        if result != "None":
+            said = [text] if (text := texts.get("returns", _DRAWN.get(result, ""))) else []
             said += [_SHAPE] if computed and result == "FloatOrArray" or not said else []
             sections.append(_section("Returns", f"{_type_name(result)}\n    {' '.join(said)}"))
-        if refused := [*([_REFUSED] if computed else []), *([texts["raises"]] if "raises" in texts else [])]:
+        refused = [texts["raises"]] if "raises" in texts else []
+        if computed:
+            broadcast = any(one.annotation == "ArrayLike" for one in parameters.values())
+            refused.insert(0, f"If a number is out of its range or not finite{_BROADCAST if broadcast else ''}.")
+        if refused:
             sections.append(_section("Raises", "ValueError\n    " + "\n    ".join(refused)))
         facts = {"Accuracy": accuracy, "Cost": cost, "Source": source and f"Greenhill (1908), {source}"}
-        notes = [texts["notes"]] if "notes" in texts else []
-        if notes := [*notes, *(f"{name}: {fact}." for name, fact in facts.items() if fact)]:
-            sections.append(_section("Notes", fill(" ".join(notes), 100, break_on_hyphens=False)))
+        notes = [texts.get("notes", ""), *(f"{name}: {fact}." for name, fact in facts.items() if fact)]
+        if any(notes):
+            sections.append(_section("Notes", fill(" ".join(" ".join(notes).split()), 100, break_on_hyphens=False)))
         sections.append(_section("Examples", examples.replace(">>> ", ">>> import revchain as rc\n>>> ", 1)))
         thing.__doc__ = "\n\n".join(sections) + "\n"
         return thing
@@ -236,7 +233,7 @@ def _section(title: str, text: str) -> str:
 
 
 def _text(name: str, texts: dict[str, str]) -> str:
-    """What an argument is: the text of the row, or that of the vocabulary; then its range, unless the text is complete."""
+    """What an argument is, by the row or else by the vocabulary; then its range, unless the text is complete."""
     ending, vocabulary = next((each for each in _RANGES.items() if name in each[1]), (".", {}))
     text = texts.get(name) or vocabulary[name]
     return text if text.endswith(".") else text + ending

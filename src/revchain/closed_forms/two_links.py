@@ -2,12 +2,12 @@
 # mypy: disable-error-code="empty-body"
 """Closed forms for two links (the double pendulum), or for one link on a support that yields.
 
-For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. At any inclination
-all steady shapes (relative equilibria) are found. Lengths and heights are in one unit; only the ratio of weights matters.
-A plummet is a point mass on a massless thread. A *link* is a rigid body with a `centroid`, the distance of its centre of
-gravity below its upper pin (positive), and a `radius_of_gyration` about the centre of gravity (not negative; 0 is a
-plummet). `height` is the conical height ``gravity / angular_speed**2`` of a speed. Source: Greenhill (1908), sections 2, 6
-and 8.
+For small inclinations the conical heights are the roots of a quadratic, computed without cancellation. At any
+inclination all steady shapes (relative equilibria) are found. Lengths and heights are in one unit; only the ratio of
+weights matters. A plummet is a point mass on a massless thread. A *link* is a rigid body with a `centroid`, the
+distance of its centre of gravity below its upper pin (positive), and a `radius_of_gyration` about the centre of
+gravity (not negative; 0 is a plummet). `height` is the conical height ``gravity / angular_speed**2`` of a speed.
+Source: Greenhill (1908), sections 2, 6 and 8.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class PairShape(Result):
     __slots__ = ()
     inclination: Field[Floats] = Field("Inclination of each link to the vertical, rad, shape (2,).", part=True)
     offset: Field[Floats] = Field(
-        "Distance from the axis of the lower plummet (for a link, its centre of oscillation) and of the joint, shape (2,).",
+        "Distance from the axis of the lower plummet (for a link, its centre of oscillation) and the joint, shape (2,).",
         part=True,
     )
     tension: Field[Floats] = Field("Tension above each link, divided by the whole weight, shape (2,).", part=True)
@@ -70,8 +70,8 @@ class SwungLink(NamedTuple):
     """A link that circles below a pin on the axis; angles in rad.
 
     `inclination`: inclination of the link to the vertical. `reaction`: force at the pin divided by the weight.
-    `reaction_inclination`: inclination of that force. `condition`: relative change of `inclination` divided by the largest
-    relative change of the data, 0 for a vertical link.
+    `reaction_inclination`: inclination of that force. `condition`: relative change of `inclination` divided by the
+    largest relative change of the data, 0 for a vertical link.
 
     Examples
     --------
@@ -116,8 +116,8 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
     """Return both conical heights of two plummets, given the position of the upper one on the thread.
 
     x: Distance of the upper plummet from the middle, on either side, less than `half_length`
-    weight_ratio: Lower weight divided by upper weight, greater than -1. If negative, the lower body floats in a fluid that
-        turns with it (Stokes's float).
+    weight_ratio: Lower weight divided by upper weight, greater than -1. If negative, the lower body floats in a fluid
+        that turns with it (Stokes's float).
     returns: The larger (slower) first.
     raises: If ``abs(x) < half_length * sqrt(-weight_ratio)``: the heights of a float are then complex, and it has no
         steady motion.
@@ -131,8 +131,8 @@ def two_plummets_from_the_middle(half_length: ArrayLike, x: ArrayLike, weight_ra
 def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
     """Return the length of the simple pendulum with the period of a link.
 
-    returns: ``centroid + radius_of_gyration**2 / centroid``. This is the distance of the centre of oscillation; a pin there
-        gives the same period.
+    returns: ``centroid + radius_of_gyration**2 / centroid``. This is the distance of the centre of oscillation; a pin
+        there gives the same period.
 
     >>> float(rc.two_links.pendulum_length(2.0, 1.0))
     2.5
@@ -141,16 +141,18 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Float
 
 @closed_form(_core.share_at_centre_of_oscillation, "2 ulp", "section 6")
 def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> FloatOrArray:
-    """Return the part of the weight of a link at its centre of oscillation; the rest is at its pin (Maxwell's particles).
+    """Return the part of the weight of a link at its centre of oscillation, ``centroid / pendulum_length``.
 
-    returns: ``centroid / pendulum_length``.
+    The rest of the weight is at the pin (Maxwell's particles).
 
     >>> float(rc.two_links.share_at_centre_of_oscillation(2.0, 1.0))
     0.8
     """
 
 
-@closed_form(_core.swung_link, "4 ulp for the data as given, also where `height` is close to ``l``", "section 6 (1), (2)")
+@closed_form(
+    _core.swung_link, "4 ulp for the data as given, also where `height` is close to ``l``", "section 6 (1), (2)"
+)
 def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: ArrayLike) -> SwungLink:
     """Return the steady motion of a link below a pin on the axis (the compound conical pendulum).
 
@@ -168,8 +170,8 @@ def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: Array
 def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Floats:
     """Return both conical heights of a link on a thread (a boat on its davits) or on a support that yields.
 
-    thread: Length of the thread, positive. For a support that yields sideways it is the deflection under the weight, see
-        `spring_deflection`.
+    thread: Length of the thread, positive. For a support that yields sideways it is the deflection under the weight,
+        see `spring_deflection`.
     returns: The larger (slower) first; the second is 0 for a plummet: ``(x - l)(x - thread) = thread * centroid``.
     notes: Section 2 adds the deflection of the support to the pendulum length; that is exact only for a plummet.
 
@@ -184,8 +186,8 @@ def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: Ar
 
     thread: Length of the thread, positive. A hand must move as the end of such a thread does.
     centroid: Distance of the centre of gravity of the link above its lowest point
-    returns: ``x`` in ``(l + x)(thread - x) = thread * centroid``. It is 0, and there is no such motion, for a link without
-        radius of gyration whose centroid is at the thread's length or above.
+    returns: ``x`` in ``(l + x)(thread - x) = thread * centroid``. It is 0, and there is no such motion, for a link
+        without radius of gyration whose centroid is at the thread's length or above.
 
     A broomstick of 1.2 m on a hand that moves like the end of a thread of 1 m:
 
@@ -211,7 +213,7 @@ def standing_plummet(
 ) -> FloatOrArray:
     """Return the conical height of an inverted plummet that stands above a hanging one on a rigid massless rod.
 
-    returns: The height always exists.
+    The height always exists.
 
     >>> round(float(rc.two_links.standing_plummet(standing_weight=1, rod=1, hung_weight=3, thread=2)), 6)
     1.822876
@@ -220,9 +222,7 @@ def standing_plummet(
 
 @closed_form(_core.spring_deflection, "0.5 ulp", "section 2 (7)")
 def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> FloatOrArray:
-    """Return the deflection of a spring under a weight, the length of the thread that moves as the support does.
-
-    returns: ``weight / stiffness``.
+    """Return the deflection of a spring under a weight, ``weight / stiffness``: the thread that moves alike.
 
     >>> float(rc.two_links.spring_deflection(10.0, 400.0))
     0.025
@@ -258,13 +258,13 @@ def two_plummets_shapes(
 ) -> list[PairShape]:
     """Return all hanging steady shapes of two plummets at a speed, at any inclination.
 
-    returns: All shapes, ordered by half waves, then by the inclination of the lower thread; of two mirror images the one
-        with the lower plummet at a positive offset. The list is proved complete. One shape has both plummets on one side,
-        if `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is below the
-        second.
+    returns: All shapes, ordered by half waves, then by the inclination of the lower thread; of two mirror images the
+        one with the lower plummet at a positive offset. The list is proved complete. One shape has both plummets on
+        one side, if `height` is below the first of `two_plummets`; one or three have them on opposite sides, if it is
+        below the second.
     raises: If a length divided by `height` exceeds 1e101.
-    notes: A relative error of the data changes the tangents by up to ``x / (x - height)`` times as much, where `x` is the
-        conical height at which the shape leaves the vertical; where two shapes meet, by its square root.
+    notes: A relative error of the data changes the tangents by up to ``x / (x - height)`` times as much, where `x` is
+        the conical height at which the shape leaves the vertical; where two shapes meet, by its square root.
 
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     >>> for shape in rc.two_links.two_plummets_shapes(**pair, height=1 / 64):
@@ -299,8 +299,8 @@ def standing_plummet_shape(
 ) -> PairShape | None:
     """Return the steady shape in which a plummet stands above a hanging one, at any inclination.
 
-    returns: The only shape; None unless `height` is less than `standing_plummet`. The first inclination is that of the rod
-        to the upward vertical; the first tension is negative, the thrust in the rod.
+    returns: The only shape; None unless `height` is less than `standing_plummet`. The first inclination is that of
+        the rod to the upward vertical; the first tension is negative, the thrust in the rod.
 
     >>> pair = dict(standing_weight=1, rod=1, hung_weight=3, thread=2)
     >>> rc.two_links.standing_plummet_shape(**pair, height=0.9).inclination.round(4)
@@ -319,8 +319,8 @@ def standing_link_shape(thread: float, centroid: float, radius_of_gyration: floa
 
     thread: Length of the thread, positive. A hand must move as the end of such a thread does.
     centroid: Distance of the centre of gravity of the link above its lowest point
-    returns: The only shape; None unless `height` is less than `standing_link`. The first inclination is that of the link to
-        the upward vertical; both tensions are that of the thread or hand.
+    returns: The only shape; None unless `height` is less than `standing_link`. The first inclination is that of the
+        link to the upward vertical; both tensions are that of the thread or hand.
 
     >>> rc.two_links.standing_link_shape(1.0, centroid=0.6, radius_of_gyration=0.35, height=0.5).half_waves
     1
@@ -334,8 +334,8 @@ def jointed_links(
 ) -> Floats:
     """Return both conical heights of two jointed links, such as a bell and its clapper.
 
-    upper_centroid: Distance of the centre of gravity of the upper link below the support. It may be negative if the links
-        still hang.
+    upper_centroid: Distance of the centre of gravity of the upper link below the support. It may be negative if the
+        links still hang.
     returns: The larger (slower) first: ``a2 h1 / (x - l1) = (m + 1)(x - l2) + l2 - a2``, ``m = W2 h2 / (W1 a2)``.
     raises: If the upper link would stand.
 
@@ -356,8 +356,8 @@ def jointed_links_shapes(
 ) -> list[PairShape]:
     """Return all hanging steady shapes of two jointed links at a speed, at any inclination.
 
-    returns: All shapes, at most four, ordered by half waves, then by the inclination of the lower link; pendulum lengths
-        may have any value. Tensions are the sizes of the reactions at the upper pins.
+    returns: All shapes, at most four, ordered by half waves, then by the inclination of the lower link; pendulum
+        lengths may have any value. Tensions are the sizes of the reactions at the upper pins.
 
     >>> clapper = dict(lower_weight=1.0, lower_centroid=0.75, lower_radius_of_gyration=0.1875**0.5)
     >>> bell = dict(upper_weight=1.0, upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.203125**0.5)
@@ -373,13 +373,13 @@ def pin_of_silent_clapper(
 ) -> FloatOrArray:
     """Return the distance of the pin of the clapper below the support of the bell at which the bell is silent.
 
-    returns: The distance ``a2`` at which both swing, or whirl at any inclination, in one line as if clamped:
-        ``h1 = (m + 1) l1 + m (a2 - l2)``. The conical height of that motion is the distance plus the `pendulum_length` of
+    returns: The distance ``a2`` at which both swing, or whirl at any inclination, in one line as if clamped: ``h1 =
+        (m + 1) l1 + m (a2 - l2)``. The conical height of that motion is the distance plus the `pendulum_length` of
         the clapper.
-    raises: If the pendulum length of the clapper is not less than that of the bell: the bell then rings wherever the pin
-        is.
-    notes: A relative error of the data changes the result by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times as much, with l1
-        and l2 the pendulum lengths of clapper and bell.
+    raises: If the pendulum length of the clapper is not less than that of the bell: the bell then rings wherever the
+        pin is.
+    notes: A relative error of the data changes the result by up to ``3 (l1 + l2) / (l2 - l1) + 6`` times as much,
+        with l1 and l2 the pendulum lengths of clapper and bell.
 
     >>> bell = dict(bell_weight=1.0, bell_centroid=0.125, bell_radius_of_gyration=0.203125**0.5)
     >>> clapper = dict(clapper_weight=1.0, clapper_centroid=0.75, clapper_radius_of_gyration=0.1875**0.5)
@@ -392,8 +392,8 @@ def pin_of_silent_clapper(
 def joint_without_bending(length: ArrayLike, pin: ArrayLike) -> FloatOrArray:
     """Return the distance of a joint below the pin of a hanging uniform rod at which the rod still swings straight.
 
-    With a joint there, the rod does not bend when it swings, or whirls at any inclination: CG.CD = CA^2, with C the pin, G
-    the middle, D the joint, A the upper end.
+    With a joint there, the rod does not bend when it swings, or whirls at any inclination: CG.CD = CA^2, with C the
+    pin, G the middle, D the joint, A the upper end.
 
     length: Length of the rod
     pin: Distance of the pin from the middle of the rod: more than a sixth of the length, less than half.
