@@ -383,16 +383,6 @@ class BufferImpact:
 def elliptic_jacobi(
     u: _Floats, modulus: float, complementary_modulus: float
 ) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
-def elliptic_complete(
-    modulus: _Floats, complementary_modulus: _Floats
-) -> tuple[_Floats, _Floats, _Floats, _Floats]: ...
-def elliptic_incomplete(
-    amplitude: _Floats, modulus: _Floats, complementary_modulus: _Floats
-) -> tuple[_Floats, _Floats, _Floats]: ...
-def elliptic_complete_pi(characteristic: _Floats, modulus: _Floats, complementary_modulus: _Floats) -> _Floats: ...
-def elliptic_incomplete_pi(
-    characteristic: _Floats, amplitude: _Floats, modulus: _Floats, complementary_modulus: _Floats
-) -> _Floats: ...
 
 class GovernorMotion:
     def __init__(

@@ -46,7 +46,6 @@ CALLS = {
     "tapered": "rc.Chain.tapered(5_000_000, length=1.0, exponent=1.5)",
     "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).state(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
-    "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
 }
 SCRIPT = """
 import numpy as np

@@ -194,7 +194,7 @@ def baseline(name, function):
     needed = [one.name for one in parameters if one.default is one.empty and one.name in named]
     extra = ONE_OF.get(name, {})
     known = {**{one: GIVEN.get(one, 1.0) for one in needed}, **WRITTEN.get(name.rpartition(".")[2], {}), **extra}
-    if name in ("elliptic.complete", "elliptic.complete_pi", "elliptic.incomplete", "elliptic.incomplete_pi", "elliptic.jacobi"):
+    if name == "elliptic.jacobi":
         known["modulus"] = 0.5
     return known, named
 

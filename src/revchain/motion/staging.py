@@ -299,8 +299,8 @@ def _between(at: Floats, way: Floats, rows: Any) -> Any:
 @staged.register
 def _(found: Swing, asked: Asked) -> Film:
     def at(time: Floats) -> Complex:
-        whole: Complex = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
-        return whole if found.offset.dtype.kind == "c" else whole.real + 0j
+        whole = (np.exp(1j * np.outer(time, found.angular_frequency)) * found.amplitude) @ found.shape
+        return np.asarray(whole if found.offset.dtype.kind == "c" else whole.real, np.complex128)
 
     cord = found.arc_length is not None
     height = found.arc_length - found.system.length if cord else Straight(found.system).height
