@@ -87,12 +87,12 @@ def plot_swing(found: Swing, ax: Axes | None, kind: str | None, pins: Iterable[i
     """See `Swing.plot`."""
     place, system, cord = "Swing.plot", found.system, found.arc_length is not None
     if found.offset.dtype.kind == "c":
-        word(place, "kind", kind or "path", ("path", "time"))
-        return _plot_turning(found, ax, kind or "path", _pins_of(place, "pins", pins, found.offset.shape[1]))
-    word(place, "kind", kind or "shapes", ("shapes", "time"))
+        word(place, "kind", "path" if kind is None else kind, ("path", "time"))
+        return _plot_turning(found, ax, "path" if kind is None else kind, _pins_of(place, "pins", pins, found.offset.shape[1]))
+    word(place, "kind", "shapes" if kind is None else kind, ("shapes", "time"))
     depth = system.length - found.arc_length if cord else Straight(system).level
     chosen = _pins_of(place, "pins", pins, depth.size)
-    return _plot_plane(found, ax, kind or "shapes", chosen, depth)
+    return _plot_plane(found, ax, "shapes" if kind is None else kind, chosen, depth)
 
 
 def _plot_turning(found: Swing, ax: Axes | None, kind: str, chosen: list[int]) -> Axes:
