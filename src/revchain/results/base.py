@@ -49,6 +49,8 @@ class Field(Generic[Value]):
         Whether the field is a result with the same rows, whose columns are added to those of this one.
     column : str, optional
         Name of the column, if it is not that of the field.
+    left : bool
+        Whether printed tables align the column on the left.
     """
 
     def __init__(
@@ -66,11 +68,12 @@ class Field(Generic[Value]):
         fact: bool = False,
         joined: bool = False,
         column: str | None = None,
+        left: bool = False,
     ) -> None:
         self.__doc__ = doc
         self.compute, self.otherwise = compute, otherwise
         self.part = compute is None if part is None else part
-        self.key, self.joined = column, joined
+        self.key, self.joined, self.left = column, joined, left
         self.heading, self.unit, self.digits, self.shown, self.fact = heading, unit, digits, shown, fact
         self.axes = () if axes is None and heading is not None else axes
 
@@ -110,7 +113,7 @@ class Field(Generic[Value]):
             heading, shown = f"{heading} (°)", np.degrees(values) if shown is None else shown
         elif heading and unit and heading[-1] != ")":
             heading = f"{heading} ({unit})"
-        data = (self.key or self.name, values, heading, self.digits, self.axes or (), shown, False, unit)
+        data = (self.key or self.name, values, heading, self.digits, self.axes or (), shown, self.left, unit)
         return tuple.__new__(Column, data)  # Column(...) would take a call more
 
 
@@ -194,11 +197,11 @@ class Result(Unchangeable):
             if field.axes is not None and (field.heading or not brief):
                 if name not in left_out and getattr(self, name, None) is not None:
                     columns.append(field.column(self))
-            elif brief or not (field.fact or field.joined) or (value := getattr(self, name, None)) is None:
+            elif brief or not (field.fact or field.joined) or not hasattr(self, name):
                 continue
-            elif field.joined:
+            elif (value := getattr(self, name)) is not None and field.joined:
                 columns += [each._replace(name=f"{name}_{each.name}", heading="") for each in value._sheet().columns[1:]]
-            else:
+            elif field.fact:
                 facts[field.key or name] = as_rows(value._sheet()) if isinstance(value, Result) else value
         words = _Words(self)
         notes = [line for note in self._notes for line in note.format_map(words).splitlines()]
