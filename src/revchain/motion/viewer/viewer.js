@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays the solid of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
+// Plays the .glb file of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
 import {
   AnimationMixer, Box3, DirectionalLight, HemisphereLight, InstancedMesh, Matrix4, MeshBasicMaterial, PerspectiveCamera,
   PolarGridHelper, Scene, Spherical, Vector3, WebGLRenderer,
@@ -66,11 +66,61 @@ function measure(figure) {  // how far it reaches at this instant, about its own
   });
 }
 
+function ticks(low, high) {  // round numbers
+  const rough = (high - low) / 4, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((digit) => digit * power).find((each) => each >= rough * (1 - 1e-9));
+  const first = Math.ceil(low / step - 1e-9), count = Math.floor(high / step + 1e-9) - first + 1;
+  return Array.from({ length: count }, (_, k) => Number(((first + k) * step).toPrecision(6)));
+}
+
+function chartOf({ x_label, y_label, logarithmic, lines, x, y }, colours) {  // returns what moves its dots
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"), [left, right, top, bottom] = [48, 310, 28, 214];
+  function add(name, attributes, words = "") {
+    const made = document.createElementNS(svg.namespaceURI, name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.textContent = words;
+    svg.append(made);
+    return made;
+  }
+  function axis(values, from, to, rounded) {  // of numbers: their position, and the ticks
+    let [low, high] = [Math.min(...values), Math.max(...values)];
+    if (rounded) [low, high] = [Math.floor(low), Math.ceil(high)];
+    if (!(high > low)) [low, high] = [low - (Math.abs(low) || 1) / 10, high + (Math.abs(high) || 1) / 10];
+    return { at: (value) => from + (to - from) * (value - low) / (high - low), marks: ticks(low, high) };
+  }
+  const measure = (value) => logarithmic ? Math.log10(value) : value;
+  const across = axis(lines.flatMap(([a]) => a), left, right), up = axis(lines.flatMap(([, b]) => b.map(measure)), bottom, top, logarithmic);
+  svg.setAttribute("viewBox", "0 0 320 250");
+  add("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none" });
+  for (const mark of across.marks) add("text", { x: across.at(mark), y: bottom + 15, "text-anchor": "middle" }, mark);
+  for (const mark of up.marks) {
+    if (logarithmic && mark % 1) continue;
+    const words = logarithmic ? Number((10 ** mark).toPrecision(3)) : mark;
+    add("text", { x: left - 5, y: up.at(mark) + 4, "text-anchor": "end" }, words);
+  }
+  add("text", { x: (left + right) / 2, y: bottom + 31, "text-anchor": "middle" }, x_label);
+  add("text", { x: 4, y: 12 }, y_label);
+  const dots = lines.map(([a, b], n) => {
+    const points = a.map((value, k) => `${across.at(value).toFixed(1)},${up.at(measure(b[k])).toFixed(1)}`).join(" ");
+    add("polyline", { points, fill: "none", style: `stroke: ${colours[n]}`, "stroke-width": 1.5 });
+    return add("circle", { r: 5, fill: colours[n] });
+  });
+  $("chart").append(svg);
+  $("chart").hidden = false;
+  return (part) => dots.forEach((dot, n) => {
+    const at = part * (x[n].length - 1), k = Math.min(Math.floor(at), x[n].length - 2);
+    const between = (list) => list[k] + (at - k) * (list[k + 1] - list[k]);
+    dot.setAttribute("cx", across.at(between(x[n])));
+    dot.setAttribute("cy", up.at(measure(between(y[n]))));
+  });
+}
+
 function view(gltf, renderer) {
   const { scene: solid, animations: [clip] } = gltf, scene = new Scene(), canvas = renderer.domElement;
-  const figures = solid.children.map(figureOf), { clock = [""], note = "" } = solid.userData;
+  const figures = solid.children.map(figureOf), { progress = [], note = "", chart } = solid.userData;
   const { gravity, time_scale: scale } = figures[0].root.userData, still = figures.every((each) => each.speed !== undefined);
   const mixer = new AnimationMixer(solid), seconds = clip ? clip.duration : 1;
+  const mark = chart && chartOf(chart, figures.map(({ label }) => label.style.getPropertyValue("--of")));
   let time = 0, away = 0, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, before = null, stale = true;
   if (clip) mixer.clipAction(clip).play();
 
@@ -181,11 +231,18 @@ function view(gltf, renderer) {
   }
 
   // ---- words
+  const decimals = Math.min(Math.max(2 - Math.floor(Math.log10(seconds * scale)), 0), 9);
+  $("progress").style.minWidth = `${1 + Math.max(...[...progress, "Time: 0.000 s"].map((words) => words.length))}ch`;
+  $("playback").style.minWidth = "5ch";
   function row(list) { return list.length === 1 ? list[0] : list[Math.round(time % seconds / seconds * (list.length - 1))]; }
   function caption() {
     const pull = gravity ? `gravity ${Number(gravity.toPrecision(6))} m/s²` : "without gravity";
-    $("words").textContent = [pull, pace(scale * 10 ** $("pace").value), note, row(clock)].filter(Boolean).join("; ");
-    if (!still) $("at").value = time % seconds / seconds;
+    const part = time % seconds / seconds, faster = 10 ** $("pace").value;
+    $("words").textContent = [pull, pace(scale * faster), note].filter(Boolean).join("; ");
+    $("playback").textContent = `×${Number(faster.toPrecision(2))}`;
+    $("progress").textContent = progress.length ? row(progress) : `Time: ${(part * seconds * scale).toFixed(decimals)} s`;
+    $("at").value = part;
+    mark?.(part);
     const taken = [], place = new Vector3();
     const placed = figures.map((figure) => {
       place.set(figure.root.position.x, figure.root.position.y + low - gap, 0);
@@ -231,7 +288,6 @@ function view(gltf, renderer) {
   $("reset").onclick = () => arrange(true);
   $("pace").oninput = () => { stale = true; };
   $("at").oninput = () => { play(false); time = Math.min($("at").value, 0.999999) * seconds; stale = true; };
-  $("place").hidden = still;
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", document.title);
