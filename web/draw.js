@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// Pictures on canvases: the chain in space, a shape from the side, the diagram of branches. Nothing is computed here.
+// Pictures: the chain in space (three.js), a shape from the side and the diagram of branches on canvases.
 
 const COLOURS = ['paper', 'card', 'ink', 'soft', 'line', 'accent', 'w1', 'w2', 'w3', 'w4', 'w5', 'w6'];
 let colour = {};
@@ -72,53 +72,37 @@ function massesOf(links, {offset, height}) {
     });
 }
 
-const eye = {yaw: 0.5, pitch: 0.22, scale: null, middle: 0};
+/** The stage in an element, shared with the pages of the package; null where the browser has no WebGL. */
+function stageIn(element) {
+    try {
+        const stage = new viewer.Stage(element);
+        Object.assign(stage.controls, {enableZoom: false, enablePan: false}); // wheel and fingers scroll the page
+        stage.canvas.style.touchAction = 'pan-y';
+        stage.canvas.ariaLabel = element.getAttribute('aria-label');
+        stage.canvas.onkeydown = (event) => {
+            if (stage.key(event.key)) event.preventDefault();
+        };
+        return stage;
+    } catch {
+        element.textContent = 'This picture needs WebGL, which this browser does not have or has switched off.';
+        return null;
+    }
+}
 
-/** The chain `figure` {links, offset, height, halfWaves} turned by `angle`, with its support, its circle and its shadow. */
-function drawSpace(canvas, radius, figure, angle, settle) {
-    const {links} = figure;
-    const {pen, width, height} = paper(canvas);
-    const reach = Math.max(radius, ...figure.offset.map(Math.abs), 1e-3 * links.length * links[0][PART.length]);
-    const top = Math.max(0, ...figure.height),
-        bottom = Math.min(0, ...figure.height),
-        span = top - bottom;
-    const sine = Math.sin(eye.pitch),
-        cosine = Math.cos(eye.pitch);
-    const high = span * cosine * 1.14 + 2 * reach * Math.abs(sine);
-    const scale = Math.min((width - 40) / (2.1 * reach), (height - 36) / high);
-    eye.scale = eye.scale === null || settle ? scale : eye.scale + 0.15 * (scale - eye.scale);
-    const middle = (top + bottom) / 2 - 0.04 * span;
-    eye.middle = settle || eye.middle === null ? middle : eye.middle + 0.15 * (middle - eye.middle);
-    const floor = bottom - Math.max(0.08 * span, 0.12 * reach);
-    const seen = (r, z, a) => {
-        const x = r * Math.cos(a - eye.yaw),
-            depth = r * Math.sin(a - eye.yaw);
-        return [width / 2 + eye.scale * x, height / 2 - eye.scale * ((z - eye.middle) * cosine - depth * sine), depth];
-    };
-    const circle = (r, z) => Array.from({length: 73}, (_, i) => seen(r, z, (i * Math.PI) / 36));
-
-    pen.lineJoin = pen.lineCap = 'round';
-    line(pen, circle(1.03 * reach, floor), colour.line);
-    line(pen, [seen(0, Math.max(top, 0) + 0.04 * span, 0), seen(0, floor, 0)], colour.soft, 1, [4, 4]);
-    const pins = Array.from(figure.offset, (r, i) => seen(r, figure.height[i], angle));
-    line(
-        pen,
-        Array.from(figure.offset, (r) => seen(r, floor, angle)),
-        colour.line,
-        4,
-    );
-    line(pen, circle(Math.abs(figure.offset[0]), figure.height[0]), colour.line, 1.2);
-    const support = pins.at(-1);
-    if (radius) line(pen, [seen(0, 0, 0), seen(radius, 0, angle)], colour.soft, 5);
-    line(pen, [seen(radius, 0, angle), support], colour.soft, 2, [3, 3]);
-    const style = waveColour(figure.halfWaves);
-    line(pen, pins, style, links.length > 60 ? 2.2 : 3.4);
-    if (links.length <= 60) for (const pin of pins) dot(pen, pin, 2.2, style);
-    const masses = massesOf(links, figure).map(([r, z, size]) => [seen(r, z, angle), size]);
-    const largest = Math.max(3, Math.min(11, width / 55, 90 / Math.sqrt(links.length)));
-    for (const [place, size] of masses.sort((a, b) => b[0][2] - a[0][2]))
-        dot(pen, place, Math.max(2.5, largest * size), style);
-    dot(pen, support, 4, colour.ink);
+/** The chain `figure` {links, offset, height, halfWaves} on the stage, with its support and its arm. */
+function putOnStage(stage, arm, figure, afresh) {
+    const pins = Array.from(figure.offset, (r, i) => [r, figure.height[i]]);
+    const [floor, top] = [Math.min(0, ...figure.height), Math.max(0, ...figure.height)];
+    const shown = viewer.chainFigure({
+        pins,
+        bodies: massesOf(figure.links, figure),
+        arm,
+        top,
+        floor,
+        colour: waveColour(figure.halfWaves),
+    });
+    stage.show([shown], viewer.extentOf([shown]));
+    stage.arrange(afresh);
 }
 
 const CARD = [124, 92]; // CSS pixels, as in page.css
