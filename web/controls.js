@@ -11,6 +11,12 @@ function element(name, properties = {}, ...children) {
     return made;
 }
 
+function svgElement(viewBox) {
+    const made = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    made.setAttribute('viewBox', viewBox);
+    return made;
+}
+
 /** A slider with a field for any number. `scale` takes the slider's 0 ... 1000 to the number and back. */
 function slider({label, unit = '', scale, get, set, least = -Infinity, main = false, id = ''}) {
     const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id});

@@ -157,7 +157,7 @@ function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
         const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
-        const card = element('button', {type: 'button', className: 'card'}, element('canvas'), ...lines);
+        const card = element('button', {type: 'button', className: 'card'}, svgElement(`0 0 ${CARD.join(' ')}`), ...lines);
         const index = list.children.length + 1;
         card.onclick = () => select(`${key}${index}`);
         list.append(card);
@@ -166,7 +166,7 @@ function showCards(list, figures, describe, isChosen, key) {
         const card = list.children[i];
         card.ariaPressed = String(isChosen(figure, i));
         describe(figure, i).forEach((text, line) => write(card.children[line + 1], text));
-        drawSide(card.firstChild, figure, waveColour(figure.halfWaves));
+        drawSide(card.firstChild, figure);
     });
 }
 
@@ -413,9 +413,9 @@ function listen() {
     dragged($('diagram'), (event, first) => {
         const box = $('diagram').getBoundingClientRect(),
             reach = reachOfTip(),
-            scale = diagramScale(box, top, reach);
-        const x = event.clientX - box.left,
-            y = event.clientY - box.top;
+            scale = diagramScale(top, reach);
+        const x = ((event.clientX - box.left) * DIAGRAM.width) / box.width,
+            y = ((event.clientY - box.top) * DIAGRAM.height) / box.height;
         const near = (shapes?.shapes ?? []).findIndex(
             (shape) => Math.hypot(x - scale.x(state.speed), y - scale.y(Math.abs(shape.offset[0]))) < 14,
         );
@@ -427,21 +427,12 @@ function listen() {
         if (step) setSpeed(Math.max(0, state.speed + (step * top) / 200));
     };
     window.onhashchange = openLink;
-    window.onresize = () => {
-        sizes.clear();
-        dirty = true;
-        modesShown = false;
-    };
     matchMedia('(prefers-color-scheme: dark)').onchange = () => {
-        readColours();
-        staged = null;
-        dirty = true;
-        modesShown = false;
+        staged = null; // its colours are those of the page
     };
 }
 
 async function start() {
-    readColours();
     stage = stageIn($('view'));
     listen();
     openLink();

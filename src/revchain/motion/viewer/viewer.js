@@ -201,4 +201,4 @@ function start() {
 }
 
 if ($("solid")) start();
-export { Stage, chainFigure, extentOf };
+export { Stage, chainFigure, extentOf, ticks };
