@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..plots.style import PALETTE
-from ..systems.numbers import Floats
+from ..systems.numbers import Floats, Whole
 from .film import Complex, Figure, Film, pace, side_by_side
 
 MOST_LINKS = 400  # of a longer chain only some of the pins are drawn
@@ -33,6 +33,7 @@ GREYS = {
 COMPONENTS = {"f": 5126, "u": 5123}  # numbers of glTF for 32-bit floats and unsigned 16-bit integers
 VERTICES, ELEMENTS = 34962, 34963  # what glTF uses an array for
 Floats32 = NDArray[np.float32]
+Surface = tuple[Floats32, Floats32, NDArray[np.uint16]]  # points, normals, faces
 
 
 def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> None:
@@ -267,37 +268,31 @@ def _turned_to(way: Floats) -> Floats:
     return np.asarray(found * flips[:, None])  # the shorter way from frame to frame
 
 
-def _cylinder() -> tuple[Floats32, Floats32, NDArray[np.uint16]]:
-    """Points, normals and faces of a closed cylinder of radius 1 and height 1 about the y axis."""
-    angle = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
-    ring = np.column_stack([np.cos(angle), np.zeros(SIDES), np.sin(angle)])
-    up = np.array([0.0, 0.5, 0.0])
-    flat = np.broadcast_to([0.0, 1.0, 0.0], ring.shape)
-    points = np.concatenate([ring - up, ring + up, ring - up, ring + up])
-    normals = np.concatenate([ring, ring, -flat, flat])
-    k, after, n = np.arange(SIDES), (np.arange(SIDES) + 1) % SIDES, SIDES
-    side = [np.column_stack([k, k + n, after]), np.column_stack([after, k + n, after + n])]
-    fan = np.arange(1, n - 1)
-    ends = [
-        np.column_stack([0 * fan + 2 * n, fan + 2 * n, fan + 1 + 2 * n]),
-        np.column_stack([0 * fan + 3 * n, fan + 1 + 3 * n, fan + 3 * n]),
-    ]
-    return (
-        points.astype(np.float32),
-        normals.astype(np.float32),
-        np.concatenate([*side, *ends]).astype(np.uint16).ravel(),
-    )
+def _cylinder() -> Surface:
+    """A closed cylinder of radius 1 and height 1."""
+    rim = [[0, 0.5, 0, 1], [1, 0.5, 0, 1], [1, 0.5, 1, 0], [1, -0.5, 1, 0], [1, -0.5, 0, -1], [0, -0.5, 0, -1]]
+    return _revolved(np.array(rim, float), np.array([0, 2, 4]))
 
 
-def _ball() -> tuple[Floats32, Floats32, NDArray[np.uint16]]:
-    """Points, normals and faces of a ball of radius 1."""
-    rows, n = ROWS, SIDES
-    down, about = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, n + 1), indexing="ij")
-    points = np.stack([np.sin(down) * np.cos(about), np.cos(down), np.sin(down) * np.sin(about)], -1).reshape(-1, 3)
-    at = (np.arange(rows)[:, None] * (n + 1) + np.arange(n)).ravel()
-    faces = np.concatenate(
-        [np.column_stack([at, at + 1, at + n + 1]), np.column_stack([at + 1, at + n + 2, at + n + 1])]
+def _ball() -> Surface:
+    """A ball of radius 1."""
+    down = np.linspace(0, np.pi, ROWS + 1)
+    return _revolved(np.column_stack([np.sin(down), np.cos(down)] * 2), np.arange(ROWS))
+
+
+def _revolved(profile: Floats, bands: Whole) -> Surface:
+    """The surface of revolution of a profile about the y axis.
+
+    Rows of the profile are radius, height and the two components of the normal, the highest first. Faces lie between
+    the rows whose indices are given and the rows after them.
+    """
+    angle, n = np.linspace(0, 2 * np.pi, SIDES + 1), SIDES + 1
+    around = np.stack([np.cos(angle), np.ones(n), np.sin(angle)], -1)
+    points, normals = (
+        (part[:, [0, 1, 0]][:, None] * around).reshape(-1, 3).astype(np.float32) for part in (profile[:, :2], profile[:, 2:])
     )
-    inside = np.concatenate([np.repeat(np.arange(rows) > 0, n), np.repeat(np.arange(rows) < rows - 1, n)])
-    points = points.astype(np.float32)
-    return points, points, faces[inside].astype(np.uint16).ravel()
+    at = (bands[:, None] * n + np.arange(SIDES)).ravel()
+    upper, lower = np.column_stack([at, at + 1, at + n]), np.column_stack([at + 1, at + n + 1, at + n])
+    radius = profile[:, 0].repeat(n)
+    faces = np.concatenate([upper[radius[at] > 1e-6], lower[radius[at + n] > 1e-6]])  # on the axis they have no area
+    return points, normals, faces.astype(np.uint16).ravel()

@@ -59,7 +59,7 @@ class Moving:
         Notes
         -----
         Between two points of a branch, and two speeds of a response, offsets and heights are interpolated. A response is
-        drawn smaller where it exceeds the picture; the caption says by how much. A page has 605 KB for its viewer,
+        drawn smaller where it exceeds the picture; the caption says by how much. A page has 600 KB for its viewer,
         three.js, and four thirds of the size of the ``.glb`` file. On it, figures that only turn do so without end.
 
         Examples
