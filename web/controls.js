@@ -17,7 +17,7 @@ function svgElement(viewBox) {
     return made;
 }
 
-/** A slider with a field for any number, of `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back. */
+/** A slider and a field for `owner[key]`. `scale` takes the slider's 0 ... 1000 to the number and back. */
 function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = false, id = '', set}) {
     const range = element('input', {type: 'range', min: 0, max: 1000, step: 'any', id, ariaLabel: label});
     const ariaLabel = `${label}, as a number`;
@@ -44,7 +44,8 @@ function slider(owner, key, {label, unit = '', scale, least = -Infinity, main = 
         show();
     };
     const name = element('label', {textContent: label, htmlFor: id});
-    const box = element('div', {className: `slider${main ? ' main' : ''}`}, name, element('span', {}, field, ` ${unit}`), range);
+    const className = `slider${main ? ' main' : ''}`;
+    const box = element('div', {className}, name, element('span', {}, field, ` ${unit}`), range);
     show();
     return {box, show};
 }

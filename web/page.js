@@ -157,7 +157,8 @@ function showCards(list, figures, describe, isChosen, key) {
     while (list.children.length > figures.length) list.lastChild.remove();
     while (list.children.length < figures.length) {
         const lines = [element('b'), ...Array.from({length: 3}, () => element('small'))];
-        const card = element('button', {type: 'button', className: 'card'}, svgElement(`0 0 ${CARD.join(' ')}`), ...lines);
+        const picture = svgElement(`0 0 ${CARD.join(' ')}`);
+        const card = element('button', {type: 'button', className: 'card'}, picture, ...lines);
         const index = list.children.length + 1;
         card.onclick = () => select(`${key}${index}`);
         list.append(card);

@@ -42,7 +42,7 @@ def write_glb(film: Film, path: Path, progress: Callable[[int, int], None]) -> N
 
 
 def glb_of(film: Film, progress: Callable[[int, int], None]) -> bytes:
-    """Return a file with a node for each figure; within it a node that turns, and in that one for each link and body."""
+    """Return a file with a node for each figure; in it is a node that turns, which holds the links and bodies."""
     links = min(film.figures[0].offset.shape[1] - 1, MOST_LINKS)
     keys = max(FEWEST_KEYS, MOST_PLACES // (links * len(film.figures)))
     solid = _Solid(film.thinned(film.frames if film.is_rigid else keys, links + 1))
@@ -227,7 +227,8 @@ class _Solid:
             file["animations"] = [{"name": pace(self.film.time_scale), **self.animation}]
         file["buffers"] = [{"byteLength": len(self.blob)}]
         text = json.dumps(file, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
-        chunks = [(b"JSON", text + b" " * (-len(text) % 4)), (b"BIN\0", bytes(self.blob) + b"\0" * (-len(self.blob) % 4))]
+        text, data = text + b" " * (-len(text) % 4), bytes(self.blob) + b"\0" * (-len(self.blob) % 4)
+        chunks = [(b"JSON", text), (b"BIN\0", data)]
         body = b"".join(struct.pack("<I4s", len(data), kind) + data for kind, data in chunks)
         return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
@@ -289,7 +290,8 @@ def _revolved(profile: Floats, bands: Whole) -> Surface:
     angle, n = np.linspace(0, 2 * np.pi, SIDES + 1), SIDES + 1
     around = np.stack([np.cos(angle), np.ones(n), np.sin(angle)], -1)
     points, normals = (
-        (part[:, [0, 1, 0]][:, None] * around).reshape(-1, 3).astype(np.float32) for part in (profile[:, :2], profile[:, 2:])
+        (part[:, [0, 1, 0]][:, None] * around).reshape(-1, 3).astype(np.float32)
+        for part in (profile[:, :2], profile[:, 2:])
     )
     at = (bands[:, None] * n + np.arange(SIDES)).ravel()
     upper, lower = np.column_stack([at, at + 1, at + n]), np.column_stack([at + 1, at + n + 1, at + n])

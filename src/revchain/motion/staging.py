@@ -278,8 +278,9 @@ def _swept(
         lines.append((way * each.speed[kept], curve[kept]))
         x.append(way * speed)
         y.append(np.interp(at, each.way, curve))
-    at = x[0] if len(figures) == 1 else np.linspace(0.0, 100.0, frames)
-    said = [f"{progress}: {digits(now, 3)} rad/s" if len(figures) == 1 else f"{progress}es: {now:.0f} %" for now in at.tolist()]
+    said = [f"{progress}es: {percent:.0f} %" for percent in np.linspace(0.0, 100.0, frames)]
+    if len(figures) == 1:
+        said = [f"{progress}: {digits(now, 3)} rad/s" for now in x[0].tolist()]
     chart = Chart("speed (rad/s)", quantity, tuple(lines), tuple(x), tuple(y))
     return _film(result, figures, asked, time_scale, chart, said)
 

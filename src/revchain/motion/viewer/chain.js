@@ -13,12 +13,13 @@ function materialOf(colour) {
   return materials.get(colour);
 }
 
-/** {root, turning} of a chain: pins and bodies as [offset, height] and [offset, height, size 0 to 1], lowest pin first. */
+/** {root, turning} of a chain. Pins are [offset, height], lowest first; bodies are [offset, height, size 0 to 1]. */
 export function chainFigure({ pins, bodies, arm, top, floor, colour }) {
   const root = new Group(), turning = new Group(), points = pins.map(([x, y]) => new Vector3(x, y, 0));
   const tall = Math.max(top - floor, ...pins.map(([x]) => 2 * Math.abs(x))), support = points.at(-1);
   function bar(parent, from, to, radius, of) {
-    const mesh = new Mesh(forms.bar, materialOf(of)), way = to.clone().sub(from), length = Math.max(way.length(), 1e-9 * tall);
+    const mesh = new Mesh(forms.bar, materialOf(of)), way = to.clone().sub(from);
+    const length = Math.max(way.length(), 1e-9 * tall);
     mesh.position.copy(from).add(to).multiplyScalar(0.5);
     mesh.quaternion.setFromUnitVectors(UP, way.divideScalar(length));
     mesh.scale.set(radius * tall, length, radius * tall);

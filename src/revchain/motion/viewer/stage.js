@@ -7,7 +7,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const night = matchMedia("(prefers-color-scheme: dark)");
-const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys that a dark page would hide
+const AT_NIGHT = { "#1a1a1a": "#d5dbe1", "#595959": "#9aa5b0", "#b3b3b3": "#5a6672" };  // greys hidden on a dark page
 const DOWN = new Matrix4().makeScale(1, 0, 1);  // to the plan
 const TILT = 0.24, FIELD = 11, ROOM = 1.15;  // of the first view: radians, degrees, over the width of a figure
 const KEYS = {
@@ -111,7 +111,8 @@ export class Stage {
 
   /** Place figures in as many columns as show them largest. A view that was turned stays turned, unless `afresh`. */
   arrange(afresh) {
-    const { figures, tall, gap, span, camera, controls } = this, { clientWidth: wide, clientHeight: high } = this.element;
+    const { figures, tall, gap, span, camera, controls } = this;
+    const { clientWidth: wide, clientHeight: high } = this.element;
     if (!wide || !high || !figures.length) return;  // in a frame that is folded up
     const [least, words] = this.words();  // width and height of a caption, pixels
     const across = 2 * ROOM * span, up = (tall + gap) * Math.cos(TILT) + 2.6 * span * Math.sin(TILT);
@@ -122,7 +123,8 @@ export class Stage {
       const scale = 0.94 * Math.min(wide / (columns * across), Math.max(high / rows - words, 20) / up);
       if (scale > best.scale * 1.05) best = { scale, columns, rows };
     }
-    const { scale, columns, rows } = best, step = Math.min(Math.max(1.3 * across, least / scale), 0.98 * wide / columns / scale);
+    const { scale, columns, rows } = best;
+    const step = Math.min(Math.max(1.3 * across, least / scale), 0.98 * wide / columns / scale);
     const fall = Math.min(up + words / scale, high / rows / scale) / Math.cos(TILT);
     figures.forEach(({ root }, n) => {
       const row = Math.floor(n / columns), inside = Math.min(columns, figures.length - row * columns);

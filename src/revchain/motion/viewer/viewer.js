@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays the .glb file of its page: figures side by side, or in rows where the window is narrow, each above its own floor.
+// Plays the .glb file of its page: figures side by side, or in rows in a narrow window, each above its own floor.
 // On a page without such a file, the live page, it only provides `viewer`: a stage, and figures of chains.
 import { AnimationMixer, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -48,7 +48,8 @@ function ticks(low, high) {  // round numbers
 }
 
 function chartOf({ x_label, y_label, logarithmic, lines, x, y }, colours) {  // returns what moves its dots
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg"), [left, right, top, bottom] = [48, 310, 28, 214];
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const [left, right, top, bottom] = [48, 310, 28, 214];
   function add(name, attributes, words = "") {
     const made = document.createElementNS(svg.namespaceURI, name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -63,7 +64,8 @@ function chartOf({ x_label, y_label, logarithmic, lines, x, y }, colours) {  // 
     return { at: (value) => from + (to - from) * (value - low) / (high - low), marks: ticks(low, high) };
   }
   const measure = (value) => logarithmic ? Math.log10(value) : value;
-  const across = axis(lines.flatMap(([a]) => a), left, right), up = axis(lines.flatMap(([, b]) => b.map(measure)), bottom, top, logarithmic);
+  const across = axis(lines.flatMap(([a]) => a), left, right);
+  const up = axis(lines.flatMap(([, b]) => b.map(measure)), bottom, top, logarithmic);
   svg.setAttribute("viewBox", "0 0 320 250");
   add("path", { d: `M${left} ${top}V${bottom}H${right}`, fill: "none" });
   for (const mark of across.marks) add("text", { x: across.at(mark), y: bottom + 15, "text-anchor": "middle" }, mark);
@@ -92,7 +94,8 @@ function chartOf({ x_label, y_label, logarithmic, lines, x, y }, colours) {  // 
 function view(gltf, stage) {
   const { scene: solid, animations: [clip] } = gltf, { progress = [], note = "", chart } = solid.userData;
   const figures = solid.children.map(figureOf), all = [];
-  const { gravity, time_scale: scale } = figures[0].root.userData, still = figures.every((each) => each.speed !== undefined);
+  const { gravity, time_scale: scale } = figures[0].root.userData;
+  const still = figures.every((each) => each.speed !== undefined);
   const mixer = new AnimationMixer(solid), seconds = clip ? clip.duration : 1;
   const mark = chart && chartOf(chart, figures.map(({ label }) => label.style.getPropertyValue("--of")));
   const decimals = Math.min(Math.max(2 - Math.floor(Math.log10(seconds * scale)), 0), 9);
@@ -108,7 +111,7 @@ function view(gltf, stage) {
   }
   stage.show(figures, extent);
 
-  function row(list) { return list.length === 1 ? list[0] : list[Math.round(time % seconds / seconds * (list.length - 1))]; }
+  const row = (list) => list[Math.round(time % seconds / seconds * (list.length - 1))];
   stage.words = () => {
     for (const { label, captions } of figures) say(label, row(captions));
     const most = (what) => Math.max(...figures.map(({ label }) => label[what]));
@@ -119,14 +122,16 @@ function view(gltf, stage) {
     const part = time % seconds / seconds, faster = 10 ** $("pace").value;
     $("words").textContent = [pull, pace(scale * faster), note].filter(Boolean).join("; ");
     $("playback").textContent = `×${Number(faster.toPrecision(2))}`;
-    $("progress").textContent = progress.length ? row(progress) : `Time: ${(part * seconds * scale).toFixed(decimals)} s`;
+    const clock = `Time: ${(part * seconds * scale).toFixed(decimals)} s`;
+    $("progress").textContent = progress.length ? row(progress) : clock;
     $("at").value = part;
     mark?.(part);
     const { camera, low, gap, span, element: { clientWidth: wide, clientHeight: high } } = stage;
     const taken = [], place = new Vector3();
     const placed = figures.map((figure) => {
       place.set(figure.root.position.x, figure.root.position.y + low - gap, 0);
-      const depth = place.distanceTo(camera.position), front = camera.position.clone().sub(place).setY(0).setLength(1.12 * span);
+      const depth = place.distanceTo(camera.position);
+      const front = camera.position.clone().sub(place).setY(0).setLength(1.12 * span);
       const rim = place.clone().add(front).project(camera);
       place.project(camera);
       const [x, y] = [(1 + place.x) / 2 * wide, (1 - Math.min(rim.y, place.y)) / 2 * high + 5];
