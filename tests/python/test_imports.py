@@ -10,7 +10,7 @@ import pytest
 import revchain as rc
 
 OPTIONAL = ["matplotlib", "msgspec", "tomlkit", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
-OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "pygltflib", "meshio", "mujoco"]
+OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "mujoco"]
 
 
 def test_import_needs_numpy_only(python):

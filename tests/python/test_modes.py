@@ -98,7 +98,7 @@ def test_fields():
     result = rc.modes(chain, count=3)
     assert {name for name in dir(result) if name[0] != "_"} == {name for name in rc.Modes._fields if name[0] != "_"} | (
         {"along", "slope", "with_gravity", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
-        | {"animate", "show", "to_glb", "to_html", "to_vtk"}
+        | {"animate", "show", "to_glb"}
     )
     assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
     assert result.conical_height.shape == result.error_bound.shape == (3,)

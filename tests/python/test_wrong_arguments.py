@@ -121,8 +121,6 @@ ONE_OF = {
 WRITTEN = {  # by method: a film of a few frames
     "animate": {"path": "film.html", "duration": 0.2},
     "to_glb": {"path": "solid.glb", "duration": 0.2},
-    "to_html": {"path": "solid.html", "duration": 0.2},
-    "to_vtk": {"path": "grid.xdmf", "duration": 0.2},
 }
 # Some are loaded when first asked for: all of them here, so that the list does not depend on which tests came before.
 FILES = [

@@ -38,7 +38,7 @@ Turning = tuple[str, Any, Floats, float, float]  # label, offsets, heights, spee
 
 @dataclass(frozen=True)
 class Asked:
-    """What the caller said of a film."""
+    """The caller's choices for a film."""
 
     place: str
     figures: Iterable[int] | None
@@ -47,12 +47,12 @@ class Asked:
     frames_per_second: float
 
     def only_one(self) -> None:
-        """Refuse a choice where there is none."""
+        """Refuse a choice of figures where the result is a single one."""
         if self.figures is not None:
             raise ValueError(f"{self.place}: figures is for several modes, shapes or branches; leave it out here")
 
     def among(self, count: int, what: str) -> list[int]:
-        """Places of those chosen in a list."""
+        """Indices of the chosen items of a list."""
         if not count:
             raise ValueError(f"{self.place}: there is no {what} to draw")
         if self.figures is None:
@@ -63,7 +63,7 @@ class Asked:
         return chosen
 
     def frames(self, seconds: float) -> int:
-        """How many there are."""
+        """The number of frames in a film of this length."""
         if seconds * self.frames_per_second > MOST_FRAMES:
             raise ValueError(
                 f"{self.place}: duration times frames_per_second must be at most {MOST_FRAMES}, "
@@ -111,14 +111,12 @@ def _(shapes: SteadyShapes, asked: Asked) -> Film:
 
 def _of_shapes(shapes: Sequence[Any], of: Any, labels: list[str], asked: Asked) -> Film:
     named: list[Turning] = []
-    tensions = []
     for shape, label in zip(shapes, labels, strict=True):
         waves = f"{shape.half_waves} half wave{'s' * (shape.half_waves != 1)}"
         offset, height = _bent(shape)
         speed = shape.angular_speed * getattr(shape, "direction", 1)
         named.append((f"{label}\n{waves}".strip(), offset, height, speed, 1.0))
-        tensions.append(None if hasattr(shape, "arc_length") else shape.tension)
-    return _turning(of, named, asked, tensions)
+    return _turning(of, named, asked)
 
 
 def _bent(shape: Any) -> tuple[Floats, Floats]:
@@ -129,13 +127,8 @@ def _bent(shape: Any) -> tuple[Floats, Floats]:
     return places.offset, places.height
 
 
-def _turning(
-    result: Any,
-    named: list[Turning],
-    asked: Asked,
-    tensions: Sequence[Floats | None] | None = None,
-) -> Film:
-    """Figures that only turn."""
+def _turning(result: Any, named: list[Turning], asked: Asked) -> Film:
+    """The film of figures that only turn."""
     period = np.array([TURN / abs(speed) for *_, speed, _ in named if speed])
     slow, fast = (float(period.max()), float(period.min())) if period.size else (SLOWEST_TURN, SLOWEST_TURN)
     scale = asked.time_scale or min(slow / SLOWEST_TURN, fast / FASTEST_TURN)
@@ -154,15 +147,14 @@ def _turning(
             np.asarray(speed * time),
             np.array([speed]),
             (f"{label}\n{speed_words(speed)}",),
-            None if tensions is None else tensions[nth],
         )
-        for nth, (label, offset, height, speed, larger) in enumerate(named)
+        for label, offset, height, speed, larger in named
     ]
     return _film(result, figures, asked, scale)
 
 
 def speed_words(speed: float) -> str:
-    """In both units."""
+    """A speed in rad/s and in rpm."""
     return f"{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rpm"
 
 
@@ -204,17 +196,17 @@ def _of_branches(branches: Sequence[Any], of: Any, labels: list[str], asked: Ask
     words = QUANTITIES | HELD_QUANTITIES
     if not branches[0].system.by_mass:
         words = words | BY_WEIGHT
-    return _swept(of, labels, stages, asked, ("speed (rad/s)", words[quantity]), curves)
+    return _swept(of, labels, stages, asked, words[quantity], curves, "Along branch")
 
 
 def _stages(count: int, folds: Any) -> Any:
-    """Points of a branch that are asked for: its ends, its folds, and others evenly."""
+    """Indices of the points of a branch that are drawn: its ends, its folds, and others evenly spaced."""
     even = np.linspace(0, count - 1, min(count, MOST_STAGES)).round().astype(int)
     return np.unique(np.concatenate([even, np.asarray(folds, int)]))
 
 
 def _shape_or_none(branch: Any, point: int) -> Any:
-    """The shape at a point of a branch; None where it is straight."""
+    """The shape at a point of a branch, or None where the chain is straight."""
     try:
         return branch.shape(point)
     except ValueError:
@@ -240,13 +232,12 @@ def _(found: Response, asked: Asked) -> Film:
         return _turning(found, [(label, offset[0], height, float(speed[0]), float(scale[0]))], asked)
     rows = np.broadcast_to(height, offset.shape)
     stages = _Stages(np.arange(speed.size, dtype=float), offset * scale[:, None] + 0j, rows, speed, scale)
-    axes = ("speed (rad/s)", "largest distance from axis (m)")
-    return _swept(found, ["carried round"], [stages], asked, axes, [most])
+    return _swept(found, ["carried round"], [stages], asked, "largest distance from axis (m)", [most], "Speed")
 
 
 @dataclass(frozen=True)
 class _Stages:
-    """Shapes through which a figure goes, as drawn, by how far along the way they are."""
+    """Shapes through which a figure goes, as drawn, each with its distance along the way."""
 
     way: Floats
     offset: Complex
@@ -256,7 +247,13 @@ class _Stages:
 
 
 def _swept(
-    result: Any, labels: list[str], stages: list[_Stages], asked: Asked, axes: tuple[str, str], curves: list[Floats]
+    result: Any,
+    labels: list[str],
+    stages: list[_Stages],
+    asked: Asked,
+    quantity: str,
+    curves: list[Floats],
+    progress: str,
 ) -> Film:
     """Figures that go through stages, all from their first to their last, turning as fast as each stage does."""
     frames = asked.frames(FOR_A_SWEEP if asked.duration is None else asked.duration)
@@ -280,11 +277,15 @@ def _swept(
         lines.append((way * each.speed[kept], curve[kept]))
         x.append(way * speed)
         y.append(np.interp(at, each.way, curve))
-    return _film(result, figures, asked, time_scale, Chart(*axes, tuple(lines), tuple(x), tuple(y)))
+    said = [f"{progress}es: {percent:.0f} %" for percent in np.linspace(0.0, 100.0, frames)]
+    if len(figures) == 1:
+        said = [f"{progress}: {digits(now, 3)} rad/s" for now in x[0].tolist()]
+    chart = Chart("speed (rad/s)", quantity, tuple(lines), tuple(x), tuple(y))
+    return _film(result, figures, asked, time_scale, chart, said)
 
 
 def _between(at: Floats, way: Floats, rows: Any) -> Any:
-    """Rows between rows."""
+    """Rows interpolated between those of the stages."""
     after = np.clip(np.searchsorted(way, at, side="right"), 1, max(way.size - 1, 1))
     if way.size == 1:
         return np.repeat(rows, at.size, axis=0)
@@ -308,7 +309,7 @@ def _(found: Swing, asked: Asked) -> Film:
 
 
 def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Floats) -> Film:
-    """From the first to the last of the times asked, as the sum of the modes."""
+    """The film from the first to the last time of a swing, as the sum of its modes."""
     asked.only_one()
     first, last = float(found.time.min(initial=np.inf)), float(found.time.max(initial=-np.inf))
     if not first < last:
@@ -325,14 +326,14 @@ def _swung(found: Any, asked: Asked, at: Callable[[Floats], Complex], height: Fl
     captions = ("true to scale" if scale == 1 else f"offsets {scale:.3g}:1",)
     still = np.zeros(frames)
     figure = Figure("swing", scale * offset, height[None], np.full(frames, scale), still, np.zeros(1), captions)
-    return _film(found, [figure], asked, time_scale, clock=tuple(f"t = {now:.3f} s" for now in time.tolist()))
+    return _film(found, [figure], asked, time_scale, progress=[f"Time: {now:.3f} s" for now in time.tolist()])
 
 
 # ---- what all films have
 
 
 def _reach_of_small(height: Floats, count: int) -> float:
-    """How far offsets of small amplitude are drawn, beside so many others."""
+    """The distance from the axis at which offsets of small amplitude are drawn, for so many figures side by side."""
     return float(np.ptp(height)) * min(0.25, 0.9 / (count + 1))
 
 
@@ -342,7 +343,7 @@ def _film(
     asked: Asked,
     time_scale: float,
     chart: Chart | None = None,
-    clock: tuple[str, ...] = ("",),
+    progress: Sequence[str] = (),
 ) -> Film:
     system = result.system
     base = Straight(system).base
@@ -366,7 +367,7 @@ def _film(
         shows_pins=few,
         is_held=isinstance(system, Held),
         chart=chart,
-        clock=clock,
+        progress=tuple(progress),
     )
 
 
