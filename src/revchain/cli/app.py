@@ -14,10 +14,8 @@ from typing import Annotated
 import typer
 
 from ..results.files import written_aside
-from ..scenes import parse
 from ..scenes.error import SceneError
 from ..scenes.scene import json_schema, load_scene
-from ..scenes.upgrade import upgraded_text
 from ..studies.study import study_schema
 from . import animate, ask, sweep  # noqa: F401  their commands come first
 from .exit_codes import ExitCode
@@ -43,14 +41,11 @@ def run(arguments: list[str] | None = None) -> int:
 @guarded
 def validate(
     scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")],
-    upgrade: Annotated[bool, typer.Option("--upgrade", help="Rewrite files of version 1, keeping comments.")] = False,
 ) -> None:
     """Check scene files without answering them."""
     bad = 0
     for path in scenes:
         try:
-            if upgrade:
-                _upgrade(path)
             read = load_scene(path)
             system, asks = read.system(), ", ".join(read.asks) or "nothing, so its modes"
             print(f"{path}: valid: {system.describe()}; asks {asks}")
@@ -61,21 +56,6 @@ def validate(
             print(f"revchain: {error}".replace("\n", "\nrevchain: "), file=sys.stderr)
     if bad:
         raise typer.Exit(ExitCode.SCENE_INVALID)
-
-
-def _upgrade(path: Path) -> None:
-    """Rewrite a scene file of version 1."""
-    try:
-        old = parse.text_of(path)
-        new = upgraded_text(old, parse.is_json(str(path)))
-    except SceneError:
-        raise
-    except ValueError as error:
-        raise SceneError(str(path), "", str(error)) from None
-    if new != old:
-        with written_aside(path) as [aside]:
-            aside.write_text(new, encoding="utf-8")
-        print(f"wrote {path}")
 
 
 @app.command(epilog=epilog("new"))

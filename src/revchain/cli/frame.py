@@ -51,7 +51,7 @@ USE: dict[str, tuple[str, str]] = {
         "the results (--out, or STUDY.csv in the current folder) and the picture given by --plot; RESULTS.partial "
         "while it computes, or if it is interrupted",
     ),
-    "validate": ("revchain validate examples/scenes/watch_chain.toml", "none; with --upgrade the scenes themselves"),
+    "validate": ("revchain validate examples/scenes/watch_chain.toml", "none"),
     "new": ("revchain new crane.toml", "FILE, or scene.toml (study.toml with --study); existing files only with --force"),
     "schema": ("revchain schema", "none"),
 }

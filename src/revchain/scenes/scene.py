@@ -39,7 +39,6 @@ from .tables import (
     fields_of,
     says,
 )
-from .upgrade import old_keys
 
 __all__ = ["Scene", "load_scene"]
 
@@ -154,13 +153,10 @@ class Scene(Table, frozen=True):
         return cls._read(data, text("revchain.Scene.from_dict", "source", source), [])
 
     @classmethod
-    def _read(cls, data: Any, source: str, problems: list[Problem], in_doubt: bool = False) -> Self:
+    def _read(cls, data: Any, source: str, problems: list[Problem]) -> Self:
         """The scene; one error for all problems, with those of its syntax."""
-        if isinstance(data, dict):
-            if "vary" in data:
-                raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
-            if old := old_keys(data, in_doubt):
-                raise SceneError(source, problems=[*problems, *(Problem(0, 0, *each) for each in old)])
+        if isinstance(data, dict) and "vary" in data:
+            raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
         scene = parse.convert(data, cls, source, problems)
         if found := scene._problems(source, problems):
             raise SceneError(source, problems=[_named(each, scene) for each in found])
@@ -182,7 +178,7 @@ class Scene(Table, frozen=True):
         True
         """
         data: dict[str, Any] = to_builtins(self)
-        return {"schema_version": 2, **data} if old_keys(data) else data
+        return data
 
     def gravity_value(self) -> float:
         """Return the acceleration of gravity in m/s^2.
@@ -442,7 +438,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     120
     """
     with parse.opened(path) as (raw, problems):
-        return Scene._read(raw, os.fspath(path), problems, in_doubt=True)
+        return Scene._read(raw, os.fspath(path), problems)
 
 
 def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:
