@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scene files: a system and questions about it. They are read and validated by msgspec."""
 
-from __future__ import annotations
-
-import math
 import os
 import re
 from collections.abc import Callable
+from functools import cached_property
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -18,27 +16,13 @@ from ..systems.cord import Cord as CordSystem
 from ..systems.held import Held as HeldSystem
 from ..systems.numbers import STANDARD_GRAVITY, text
 from ..systems.rig import Rig
-from ..systems.rig import Support as EndSupport
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
-from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
+from .chain import Links, Numbers, chain_of_links, of_file, whole
 from .error import Problem, SceneError
-from .rig import is_rigged, rig_of, support_numbers
-from .tables import (
-    BESIDE,
-    SYSTEMS,
-    Cord,
-    Held,
-    Link,
-    Positive,
-    Support,
-    Table,
-    TaperedChain,
-    UniformChain,
-    fields_of,
-    says,
-)
+from .rig import held_of, is_rigged, rig_of
+from .tables import BESIDE, SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, says
 
 __all__ = ["Scene", "load_scene"]
 
@@ -49,7 +33,7 @@ EXCLUSIVE = (*SPEEDS, "count", "first")
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
     """The method of `Scene` that answers one question."""
 
-    def ask(self: Scene, **changed: Any) -> Any:
+    def ask(self: Any, **changed: Any) -> Any:
         return self._answer(question, changed)
 
     indented = example.replace("\n", "\n        ")
@@ -80,7 +64,7 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
     return ask
 
 
-class Scene(Table, frozen=True):
+class Scene(Table, frozen=True, dict=True):
     """A scene file: a system, its gravity and questions about it.
 
     Notes
@@ -123,7 +107,7 @@ class Scene(Table, frozen=True):
     ask: Annotated[Ask, says("Questions to answer.")] = Ask()
 
     @classmethod
-    def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Scene:
+    def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Self:
         """Return a scene from plain data, as in a TOML or JSON file.
 
         Parameters
@@ -272,12 +256,13 @@ class Scene(Table, frozen=True):
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
         """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
-        numbers = Numbers("scene")
-        table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
-        given = arguments(question, table, system, numbers.of("ask"))
-        numbers.done()
+        system, given = self.system(), None if changed else self._made.get(question)
+        if given is None:
+            numbers = Numbers("scene")
+            given = arguments(question, self._table(question, changed), system, numbers.of("ask"))
+            numbers.done()
         try:
-            return answered(question, system, given, gravity, progress)
+            return answered(question, system, dict(given), self.gravity_value(), progress)
         except ValueError as error:
             raise of_file(error, "scene", "", self._bodies()) from None
 
@@ -299,8 +284,13 @@ class Scene(Table, frozen=True):
             raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
         return table
 
+    @cached_property
+    def _made(self) -> dict[str, Any]:
+        """What has been made of the scene: its `system`, and the arguments of each question."""
+        return {}
+
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All problems of the scene, with those already known."""
+        """All problems of the scene, with those already known; what is right is made on the way."""
         numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
@@ -309,18 +299,25 @@ class Scene(Table, frozen=True):
             except SceneError as error:
                 numbers.problems[:] = error.problems
         for question in self.asks:
-            arguments(question, getattr(self.ask, question), system, numbers.of("ask"))
+            self._made[question] = arguments(question, getattr(self.ask, question), system, numbers.of("ask"))
+        if known or numbers.problems:
+            self._made.clear()
         return parse.without_consequences([*known, *numbers.problems])
 
     def _system(self, source: str) -> System | None:
-        """The system. All its problems are raised as one error; None if all problems are known already."""
-        numbers = Numbers(source)
+        """The system, built once. All its problems are raised as one error; None if all problems are known already."""
+        if "system" not in self._made:
+            self._made["system"] = self._build(source)
+        system: System | None = self._made["system"]
+        return system
+
+    def _build(self, source: str) -> System | None:
+        numbers = Numbers(source, by_mass=is_by_mass(self))
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if len(given) != 1:
             tables = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
             raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
         numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
-        numbers.by_mass = is_by_mass(self)
         if self.links == []:
             raise SceneError(source, "links", "is an empty list: give at least one link")
         made: Chain | CordSystem | None = None
@@ -331,13 +328,15 @@ class Scene(Table, frozen=True):
                 made = whole(getattr(self, given[0]), numbers.of(given[0]))
         except SceneError as error:
             numbers.problems[:] = error.problems
+        held = None
         if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
             name = "cord" if self.held is UNSET else "held"
             numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
         elif self.is_rigged:
             assert not isinstance(made, CordSystem)
             return rig_of(made, self._bodies(), self.support, self.fluid, numbers)
-        held = None if isinstance(self.held, UnsetType) else _held(self.held, made, numbers.of("held"))
+        elif not isinstance(self.held, UnsetType):
+            held = held_of(self.held, made, numbers.of("held"))
         numbers.done()
         return held or made
 
@@ -363,42 +362,9 @@ class Scene(Table, frozen=True):
 
 def is_by_mass(scene: Scene) -> bool:
     """Whether masses stay masses: the scene has no weight, or no gravity."""
-    return _is_by_mass(scene) or (isinstance(scene.held, Held) and scene.held.weightless)
-
-
-def _is_by_mass(table: Any) -> bool:
-    """Whether a table and the tables inside it have no weight."""
-    if isinstance(table, list):
-        return all(map(_is_by_mass, table))
-    if not isinstance(table, Table):
+    if isinstance(scene.held, Held) and scene.held.weightless:
         return True
-    values = {field.name: getattr(table, field.name) for field in fields_of(type(table)) if field.name != "ask"}
-    weights = [name for name, value in values.items() if name.endswith("weight") and value is not UNSET]
-    return not weights and all(map(_is_by_mass, values.values()))
-
-
-def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> HeldSystem | None:
-    """The chain or cord held at both ends."""
-    if (table.span is UNSET) == (table.tension is UNSET):
-        numbers.refuse("", "give either span or tension")
-        return None
-    name = "span" if table.tension is UNSET else "tension"
-    value = numbers.value(name, getattr(table, name), name, "positive")
-    given: dict[str, Any] = {name: value, "weightless": table.weightless}
-    for end in ("lower", "upper"):
-        held_by = getattr(table, end)
-        if held_by is not UNSET:
-            given[end] = EndSupport(**support_numbers(held_by, numbers.of(end), "any"))
-    numbers.done()
-    if system is None or math.isnan(value):
-        return None
-    try:
-        return HeldSystem(system, **given)
-    except ValueError as error:
-        reason = without_place(error)
-        ends = [end for end in ("lower", "upper") if reason.startswith(end)]
-        key = ends[0] if ends else name
-        raise SceneError(numbers.source, f"held.{key}", reason.removeprefix(f"{key} ")) from None
+    return re.search(rb'weight":', json.encode(scene)) is None  # a key: quotes inside text have a backslash
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
