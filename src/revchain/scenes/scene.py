@@ -5,28 +5,25 @@ import os
 import re
 from collections.abc import Callable
 from functools import cached_property
-from typing import Annotated, Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 from msgspec import UNSET, UnsetType, json, to_builtins
 
 from .. import _core
-from ..systems.chain import Chain
-from ..systems.cord import Cord as CordSystem
-from ..systems.held import Held as HeldSystem
-from ..systems.numbers import STANDARD_GRAVITY, text
-from ..systems.rig import Rig
+from ..systems.numbers import text
 from . import parse
 from .answer import SPEEDS, answered, arguments
-from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
-from .chain import Links, Numbers, chain_of_links, of_file, whole
+from .ask import QUESTIONS, TABLES, AskExplain, AskModes
+from .chain import Numbers, of_file
 from .error import Problem, SceneError
-from .rig import held_of, is_rigged, rig_of
-from .tables import BESIDE, SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, says
+from .system import System as System
+from .system import Tables, system_of
+from .system import is_by_mass as is_by_mass
+from .tables import BESIDE, SYSTEMS, Table
 
 __all__ = ["Scene", "load_scene"]
 
-System = Chain | Rig | CordSystem | HeldSystem
 EXCLUSIVE = (*SPEEDS, "count", "first")
 
 
@@ -64,7 +61,7 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
     return ask
 
 
-class Scene(Table, frozen=True, dict=True):
+class Scene(Tables, frozen=True, dict=True):
     """A scene file: a system, its gravity and questions about it.
 
     Notes
@@ -89,22 +86,6 @@ class Scene(Table, frozen=True, dict=True):
     >>> len(shapes), shapes.complete
     (2, True)
     """
-
-    schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
-    title: Annotated[str, says("Title in one line.")] = ""
-    description: Annotated[str, says("Description of any length.")] = ""
-    gravity: Annotated[Positive, says("Acceleration of gravity (m/s^2).")] = STANDARD_GRAVITY
-    order: Annotated[Literal["free end first", "support first"], says("Order of the links.")] = "free end first"
-    links: Annotated[list[Link] | UnsetType, says("The links, in the given order.")] = UNSET
-    uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
-    tapered_chain: Annotated[
-        TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
-    ] = UNSET
-    cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
-    support: Annotated[Support | UnsetType, says("Support of the chain; a firm point on the axis if left out.")] = UNSET
-    fluid: Annotated[Literal["still", "turning"], says("Motion of the fluid: at rest, or turning with the chain.")] = "still"
-    held: Annotated[Held | UnsetType, says("Data of a chain or cord that is held at both ends.")] = UNSET
-    ask: Annotated[Ask, says("Questions to answer.")] = Ask()
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Self:
@@ -210,9 +191,7 @@ class Scene(Table, frozen=True, dict=True):
         >>> rc.Scene.from_dict({"links": [{"mass": 2.0, "length": 0.4, "flywheel": wheel}]}).system()
         Rig of a chain of 1 link: 1 link with momentum
         """
-        system = self._system("scene")
-        assert system is not None  # else an error was raised
-        return system
+        return self._built()[0]
 
     @property
     def asks(self) -> tuple[str, ...]:
@@ -256,13 +235,13 @@ class Scene(Table, frozen=True, dict=True):
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
         """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
-        system, given = self.system(), None if changed else self._made.get(question)
+        (system, gravity), given = self._built(), None if changed else self._made.get(question)
         if given is None:
             numbers = Numbers("scene")
             given = arguments(question, self._table(question, changed), system, numbers.of("ask"))
             numbers.done()
         try:
-            return answered(question, system, dict(given), self.gravity_value(), progress)
+            return answered(question, system, dict(given), gravity, progress)
         except ValueError as error:
             raise of_file(error, "scene", "", self._bodies()) from None
 
@@ -286,85 +265,30 @@ class Scene(Table, frozen=True, dict=True):
 
     @cached_property
     def _made(self) -> dict[str, Any]:
-        """What has been made of the scene: its `system`, and the arguments of each question."""
+        """What has been made of the scene: its system with the gravity, and the arguments of each question."""
         return {}
 
+    def _built(self) -> tuple[System, float]:
+        """The system and the gravity, made once. All problems are raised as one error."""
+        if "system" not in self._made:
+            self._made["system"] = system_of(self, "scene")
+        made: tuple[System, float] = self._made["system"]
+        return made
+
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
-        """All problems of the scene, with those already known; what is right is made on the way."""
-        numbers, system = Numbers(source), None
+        """All problems of the scene, with those already known; if there are none, what is made on the way is kept."""
+        numbers, made = Numbers(source), dict[str, Any](system=(None, 0.0))
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
         if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
-                system = self._system(source)
+                made["system"] = system_of(self, source)
             except SceneError as error:
                 numbers.problems[:] = error.problems
         for question in self.asks:
-            self._made[question] = arguments(question, getattr(self.ask, question), system, numbers.of("ask"))
-        if known or numbers.problems:
-            self._made.clear()
+            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers.of("ask"))
+        if not known and not numbers.problems:
+            self._made.update(made)
         return parse.without_consequences([*known, *numbers.problems])
-
-    def _system(self, source: str) -> System | None:
-        """The system, built once. All its problems are raised as one error; None if all problems are known already."""
-        if "system" not in self._made:
-            self._made["system"] = self._build(source)
-        system: System | None = self._made["system"]
-        return system
-
-    def _build(self, source: str) -> System | None:
-        numbers = Numbers(source, by_mass=is_by_mass(self))
-        given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
-        if len(given) != 1:
-            tables = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
-            raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
-        numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
-        if self.links == []:
-            raise SceneError(source, "links", "is an empty list: give at least one link")
-        made: Chain | CordSystem | None = None
-        try:
-            if links := self._links():
-                made = chain_of_links(links, numbers)
-            else:
-                made = whole(getattr(self, given[0]), numbers.of(given[0]))
-        except SceneError as error:
-            numbers.problems[:] = error.problems
-        held = None
-        if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
-            name = "cord" if self.held is UNSET else "held"
-            numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
-        elif self.is_rigged:
-            assert not isinstance(made, CordSystem)
-            return rig_of(made, self._bodies(), self.support, self.fluid, numbers)
-        elif not isinstance(self.held, UnsetType):
-            held = held_of(self.held, made, numbers.of("held"))
-        numbers.done()
-        return held or made
-
-    def _links(self) -> Links:
-        """The tables of the links, lowest first, with their numbers in the file."""
-        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
-        return links[::-1] if self.order == "support first" else links
-
-    def _bodies(self) -> Links:
-        """The tables that are links of the system; a clamped one is part of the link above."""
-        return [(index, link) for index, link in self._links() if not link.clamped]
-
-    @property
-    def is_rigged(self) -> bool:
-        """Whether the scene has more than a chain that hangs from a firm point on the axis."""
-        return is_rigged([] if isinstance(self.links, UnsetType) else self.links, self.support)
-
-    @property
-    def is_held(self) -> bool:
-        """Whether the lower end is also held."""
-        return self.held is not UNSET
-
-
-def is_by_mass(scene: Scene) -> bool:
-    """Whether masses stay masses: the scene has no weight, or no gravity."""
-    if isinstance(scene.held, Held) and scene.held.weightless:
-        return True
-    return re.search(rb'weight":', json.encode(scene)) is None  # a key: quotes inside text have a backslash
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
