@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import io
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from textwrap import fill
@@ -20,41 +20,28 @@ from rich.text import Text
 
 from ..results.explanation import Explanation
 from ..results.modes import Modes
-from ..results.motions import Response
+from ..results.motions import Response, Swing
 from ..results.sheet import Column, Sheet, as_csv, as_dict, cells
 from ..scenes.chain import in_file
 from ..scenes.scene import Scene
 from .exit_codes import ExitCode
-from .frame import Stop
+from .frame import PICTURES, Stop, save_picture
 
 NARROWEST = 80  # smallest width of a terminal in columns; numbers are never cut
 HEADING = 10  # width of a line of a heading in columns
+MANY_TIMES = 12
 
 
-@dataclass(frozen=True)
 class Report:
     """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
-    scene: Scene
-    stem: str
-    question: str
-    found: Any
-    units: str
-
-    @property
-    def title(self) -> str:
-        return self.scene.title or self.stem
-
-    @cached_property
-    def system(self) -> str:
-        """The system in words."""
-        return self.scene.system().describe()
-
-    @cached_property
-    def sheet(self) -> Sheet:
-        """The columns of the printed table."""
-        sheet: Sheet = self.found._sheet(brief=True)
-        return sheet
+    def __init__(self, scene: Scene, stem: str, found: Any, units: str) -> None:
+        self.scene = scene
+        self.title = scene.title or stem
+        self.system = scene.system().describe()
+        self.found = found
+        self.units = units
+        self.sheet: Sheet = found._sheet(brief=True)
 
     @cached_property
     def tables(self) -> list[tuple[Text | None, Table | None]]:
@@ -64,7 +51,7 @@ class Report:
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
         headings = [Text(each.heading, style="" if each.good else "bold yellow") if each.heading else None for each in sheets]
-        grids = [_grid(each, self.units) if len(each) else None for each in sheets]
+        grids = [_grid(each, self.units) for each in sheets]
         return list(zip(headings, grids, strict=True))
 
     def check(self, path: Path) -> None:
@@ -75,8 +62,7 @@ class Report:
         what = "not proved to be all there is"
         if isinstance(self.found, Explanation):
             best = self.found.chosen
-            kept = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else ""
-            what = kept or "no method applies"
+            what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
         if missing:
             what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
@@ -85,16 +71,28 @@ class Report:
                 what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
         raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
 
+    def write(self, outputs: list[tuple[Path, str]], asides: list[Path]) -> None:
+        """Write the outputs, each a place and its kind, to the temporary files beside them."""
+        for aside, (place, kind) in zip(asides, outputs, strict=True):
+            try:
+                if kind in PICTURES:
+                    axes = self.found.plot(**_drawn(self.found))
+                    save_picture(axes, self.title, aside)
+                else:
+                    aside.write_text(self.text(kind), encoding="utf-8")
+            except OSError as error:  # says the place that was asked for, or none
+                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+
     def text(self, kind: str) -> str:
         """The report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
         if kind == ".txt":
             file = io.StringIO()
             self.print(Console(file=file, width=NARROWEST))
             return re.sub(r" +$", "", file.getvalue(), flags=re.MULTILINE)
-        sheet: Sheet = self._all
         if kind == ".csv":
-            return as_csv(sheet)
-        return json_of({"title": self.title, "system": self.system, **as_dict(sheet)})
+            return as_csv(self._all)
+        data = {"title": self.title, "system": self.system, **as_dict(self._all)}
+        return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"  # with null for what is not finite
 
     @cached_property
     def _all(self) -> Sheet:
@@ -119,6 +117,14 @@ class Report:
             console.print(Text(note, style="dim"))
 
 
+def _drawn(found: Any) -> dict[str, Any]:
+    """How an answer is drawn: a swing at many times, whose shapes hide one another, as offsets against time."""
+    if not isinstance(found, Swing) or found.time.size <= MANY_TIMES:
+        return {}
+    size = found.system.size
+    return {"kind": "time", "pins": sorted({0, size // 3, 2 * size // 3})}
+
+
 def _pins(found: Response) -> Sheet:
     """The offset of each pin at one speed."""
     offset = np.atleast_1d(found.offset.reshape(-1))
@@ -127,13 +133,15 @@ def _pins(found: Response) -> Sheet:
     return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
 
 
-def _grid(sheet: Sheet, units: str) -> Table:
-    """The table of a sheet, with its angles in degrees or radians."""
+def _grid(sheet: Sheet, units: str) -> Table | None:
+    """The table of a sheet, with its angles in degrees or radians; None if it has no rows."""
     if units == "rad":
         turned = [column for column in sheet.columns if "(°)" in column.heading]
         in_rad = {id(each): replace(each, heading=each.heading.replace("(°)", "(rad)"), shown=None) for each in turned}
         sheet = replace(sheet, columns=[in_rad.get(id(column), column) for column in sheet.columns])
     headings, rows, notes = cells(sheet)
+    if not rows:
+        return None
     hidden = len(sheet) - len(rows)
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     for heading, column in zip(headings, [each for each in sheet.columns if each.heading], strict=True):
@@ -146,8 +154,3 @@ def _grid(sheet: Sheet, units: str) -> Table:
         grid.caption = f"{notes[0]}; --json and --csv write all of them"
         grid.caption_justify = "left"
     return grid
-
-
-def json_of(data: dict[str, Any]) -> str:
-    """The data as JSON, with null in place of infinity and NaN, which JSON does not have."""
-    return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"

@@ -107,8 +107,9 @@ class Numbers:
         found[f"{prefix}heavy"] = heavy
 
 
-def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
-    """The chain or cord; None if something is missing or of a wrong kind, which is noted already."""
+def whole(name: str, table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
+    """The chain or cord of the table of that name; None if something in it is wrong, which is noted already."""
+    numbers = numbers.of(name)
     found = numbers.read(table)
     numbers.done()
     if math.isnan(sum(found.values())):

@@ -87,10 +87,13 @@ def _check_levels(raw: Any) -> None:
     """A RecursionError where tables and lists lie too deep inside one another for the functions that read them."""
     level, levels = [raw], 0
     while level:
-        inside = [list(each.values()) if isinstance(each, dict) else each for each in level if isinstance(each, dict | list)]
-        level, levels = [item for items in inside for item in items], levels + 1
+        levels += 1
         if levels > MOST_LEVELS + 1:
             raise RecursionError
+        inside: list[Any] = []
+        for each in level:
+            inside += each.values() if isinstance(each, dict) else each if isinstance(each, list) else ()
+        level = inside
 
 
 def is_json(source: str) -> bool:

@@ -196,7 +196,7 @@ class Scene(Tables, frozen=True, dict=True):
     @property
     def asks(self) -> tuple[str, ...]:
         """Names of the questions for which the scene has a table, out of modes, shapes, response, swing, branches."""
-        return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
+        return tuple([name for name in QUESTIONS if getattr(self.ask, name) is not UNSET])
 
     modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
     steady_shapes = _asking(
@@ -238,7 +238,7 @@ class Scene(Tables, frozen=True, dict=True):
         (system, gravity), given = self._built(), None if changed else self._made.get(question)
         if given is None:
             numbers = Numbers("scene")
-            given = arguments(question, self._table(question, changed), system, numbers.of("ask"))
+            given = arguments(question, self._table(question, changed), system, numbers)
             numbers.done()
         try:
             return answered(question, system, dict(given), gravity, progress)
@@ -285,9 +285,10 @@ class Scene(Tables, frozen=True, dict=True):
             except SceneError as error:
                 numbers.problems[:] = error.problems
         for question in self.asks:
-            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers.of("ask"))
+            made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers)
         if not known and not numbers.problems:
             self._made.update(made)
+            return []
         return parse.without_consequences([*known, *numbers.problems])
 
 
@@ -327,8 +328,13 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     >>> rc.load_scene(path).system().size
     120
     """
+    return read(path, {})
+
+
+def read(path: str | os.PathLike[str], changed: dict[str, Any]) -> Scene:
+    """The scene of a file, with other values of some of its keys."""
     with parse.opened(path) as (raw, problems):
-        return Scene._read(raw, os.fspath(path), problems)
+        return Scene._read(raw | changed if isinstance(raw, dict) else raw, os.fspath(path), problems)
 
 
 def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:

@@ -98,7 +98,7 @@ def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
         if links := scene._links():
             made = chain_of_links(links, numbers)
         else:
-            made = whole(getattr(scene, given[0]), numbers.of(given[0]))
+            made = whole(given[0], getattr(scene, given[0]), numbers)
     except SceneError as error:
         numbers.problems[:] = error.problems
     ends: HeldSystem | None = None
