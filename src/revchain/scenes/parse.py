@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
 from itertools import chain
-from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
