@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The way of a command: the file is read once, the system is built once, and few calls are made in between."""
 
+import gc
+import pickle
 import sys
 import threading
 from collections import Counter
@@ -10,6 +12,7 @@ import pytest
 
 import revchain as rc
 from revchain.cli import app as _cli
+from revchain.scenes.scene import _MADE
 
 PACKAGE = str(Path(rc.__file__).parent)
 CHAIN = '[uniform_chain]\nkind = "rods"\ncount = 3\nlength = 1\nmass = 1\n'
@@ -56,6 +59,18 @@ def test_the_system_is_built_once_for_three_questions(tmp_path, monkeypatch, cap
     assert [calls[name] for name in READ] == [1, 1, 1]
     assert sum(calls[f"systems/chain.py Chain.{name}"] for name in ("__init__", "_wrap")) == 1 == calls[f"systems/chain.py Chain.{built}"]
     assert calls["systems/rig.py Rig.__init__"] == (text is RIG)
+
+
+def test_what_is_made_of_a_scene_ends_with_it():
+    gc.collect()
+    before = len(_MADE)
+    scenes = [rc.Scene.from_dict({"links": [{"mass": 1 + k, "length": 1}]}) for k in range(100)]
+    assert len(_MADE) == before + 100 and scenes[7].system().mass == [8.0]
+    del scenes
+    gc.collect()
+    assert len(_MADE) == before
+    again = pickle.loads(pickle.dumps(rc.Scene.from_dict({"links": [{"mass": 5, "length": 1}]})))
+    assert again.system().mass == [5.0]
 
 
 def test_a_scene_read_in_python_keeps_its_system(tmp_path):

@@ -3,8 +3,8 @@
 
 import os
 import re
+import weakref
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -25,6 +25,9 @@ from .tables import BESIDE, SYSTEMS, Table
 __all__ = ["Scene", "load_scene"]
 
 EXCLUSIVE = (*SPEEDS, "count", "first")
+# By the id of each living scene. A struct with `dict=True` could hold this, but msgspec before 0.21 crashes with it on
+# Python 3.13; a frozen struct with lists has no hash, so that it is no key of a WeakKeyDictionary.
+_MADE: dict[int, tuple["weakref.ref[Scene]", dict[str, Any]]] = {}
 
 
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
@@ -61,7 +64,7 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
     return ask
 
 
-class Scene(Tables, frozen=True, dict=True):
+class Scene(Tables, frozen=True, weakref=True):
     """A scene file: a system, its gravity and questions about it.
 
     Notes
@@ -235,7 +238,7 @@ class Scene(Tables, frozen=True, dict=True):
 
     def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
         """The answer to one question; `changed` are keys of its table with other values than those of the scene."""
-        (system, gravity), given = self._built(), None if changed else self._made.get(question)
+        (system, gravity), given = self._built(), None if changed else self._made().get(question)
         if given is None:
             numbers = Numbers("scene")
             given = arguments(question, self._table(question, changed), system, numbers)
@@ -263,17 +266,20 @@ class Scene(Tables, frozen=True, dict=True):
             raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
         return table
 
-    @cached_property
     def _made(self) -> dict[str, Any]:
         """What has been made of the scene: its system with the gravity, and the arguments of each question."""
-        return {}
+        key = id(self)
+        if key not in _MADE:
+            _MADE[key] = weakref.ref(self, lambda _, made=_MADE: made.pop(key, None)), {}  # type: ignore[misc]
+        return _MADE[key][1]
 
     def _built(self) -> tuple[System, float]:
         """The system and the gravity, made once. All problems are raised as one error."""
-        if "system" not in self._made:
-            self._made["system"] = system_of(self, "scene")
-        made: tuple[System, float] = self._made["system"]
-        return made
+        made = self._made()
+        if "system" not in made:
+            made["system"] = system_of(self, "scene")
+        built: tuple[System, float] = made["system"]
+        return built
 
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
         """All problems of the scene, with those already known; if there are none, what is made on the way is kept."""
@@ -287,7 +293,7 @@ class Scene(Tables, frozen=True, dict=True):
         for question in self.asks:
             made[question] = arguments(question, getattr(self.ask, question), made["system"][0], numbers)
         if not known and not numbers.problems:
-            self._made.update(made)
+            self._made().update(made)
             return []
         return parse.without_consequences([*known, *numbers.problems])
 
