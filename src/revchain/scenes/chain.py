@@ -159,7 +159,7 @@ def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
         ]
     try:
         chain = Chain(**given)
-        for first, tip, (_, link) in reversed(list(zip(firsts, tips, links, strict=False))):  # so that pins keep numbers
+        for first, tip, (_, link) in list(zip(firsts, tips, links, strict=False))[::-1]:  # so that pins keep numbers
             if tip:
                 chain = chain.with_body(**{numbers.heavy: tip}, pin=first)
             if link.clamped:
@@ -199,7 +199,8 @@ def _body(link: Link, given: Given, numbers: Numbers) -> tuple[float, float, flo
     elif "pendulum_length" in given:
         squared = centroid * (given["pendulum_length"] - centroid)
         if centroid == 0:
-            numbers.refuse("pendulum_length", "does not determine the inertia if centroid is 0; give radius_of_gyration")
+            reason = "does not determine the inertia if centroid is 0; give radius_of_gyration"
+            numbers.refuse("pendulum_length", reason)
         elif 0 <= squared < math.inf:
             radius = math.sqrt(squared)
         elif not math.isnan(squared):

@@ -84,7 +84,10 @@ def is_by_mass(scene: Tables) -> bool:
 
 
 def system_of(scene: Tables, source: str) -> tuple[System | None, float]:
-    """The system of a scene and its gravity. All problems are raised as one error; no system if all are known already."""
+    """The system of a scene and its gravity; None for the system if all its problems are known already.
+
+    All other problems are raised as one error.
+    """
     numbers = Numbers(source, by_mass=is_by_mass(scene))
     given = [name for name in SYSTEMS if getattr(scene, name) is not UNSET]
     if len(given) != 1:
