@@ -50,7 +50,9 @@ class Report:
         sheets = [self.sheet, *[each._sheet() for each in more if each is not None and (each is more[0] or len(each))]]
         if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
             sheets.append(_pins(self.found))
-        headings = [Text(each.heading, style="" if each.good else "bold yellow") if each.heading else None for each in sheets]
+        styles = ["" if each.good else "bold yellow" for each in sheets]
+        texts = [Text(each.heading, style=style) for each, style in zip(sheets, styles, strict=True)]
+        headings = [text if text.plain else None for text in texts]
         grids = [_grid(each, self.units) for each in sheets]
         return list(zip(headings, grids, strict=True))
 
@@ -62,7 +64,9 @@ class Report:
         what = "not proved to be all there is"
         if isinstance(self.found, Explanation):
             best = self.found.chosen
-            what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
+            what = "no method applies"
+            if best:
+                what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}"
         if missing:
             what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
@@ -92,7 +96,8 @@ class Report:
         if kind == ".csv":
             return as_csv(self._all)
         data = {"title": self.title, "system": self.system, **as_dict(self._all)}
-        return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"  # with null for what is not finite
+        # msgspec writes null for a number that is not finite
+        return msgspec.json.format(msgspec.json.encode(data), indent=2).decode() + "\n"
 
     @cached_property
     def _all(self) -> Sheet:

@@ -182,7 +182,7 @@ def _flywheel(table: Flywheel | UnsetType, numbers: Numbers) -> tuple[float, flo
 def _displaced(
     table: Displaced | UnsetType, own: tuple[float, float], numbers: Numbers
 ) -> tuple[float, float, float, float]:
-    """Mass or weight displaced, and added, centroid, radius of gyration; the last two are those of the link if left out."""
+    """Mass or weight displaced, and added, centroid, radius of gyration; `own` are the last two of the link."""
     if isinstance(table, UnsetType):
         return 0.0, 0.0, *own
     found = {"centroid": own[0], "radius_of_gyration": own[1], **numbers.read(table)}
