@@ -9,7 +9,7 @@ import pytest
 
 import revchain as rc
 
-OPTIONAL = ["matplotlib", "msgspec", "tomlkit", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
+OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
 OPTIONAL += ["pyarrow", "dask", "distributed", "PIL", "imageio_ffmpeg", "mujoco"]
 
 
@@ -59,7 +59,7 @@ def test_names():
 
 def test_what_is_shipped():
     folder = Path(rc.__file__).parent
-    for name in ("py.typed", "_core.pyi", "scenes/scene.schema.json", "scenes/new_scene.toml"):
+    for name in ("py.typed", "_core.pyi", "scenes/new_scene.toml"):
         assert (folder / name).is_file()
     for name in ("study.schema.json", "new_study.toml"):
         assert (folder / "studies" / name).is_file()

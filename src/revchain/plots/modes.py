@@ -112,7 +112,7 @@ class Straight:
 
     def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
         """The links, inverted ones drawn stout."""
-        kept = thinned(across)
+        kept = thinned(across) if across.size > MOST_POINTS else slice(None)
         marker = "o" if self.few else ""
         line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
         ax.plot(across[kept], self.level[kept], label=label, **line)
@@ -279,7 +279,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
     aside = max(0.0, straight.reach() + 1.1 - SPACING)  # so that the names do not reach the first shape
     ax = axes_or_new(ax, _width(labels, columns), 6.0)
     straight.at_rest(ax)
-    ticks = [0.0, *(aside + SPACING * nth for nth in range(1, len(labels)))]
+    ticks = [0.0, *[aside + SPACING * nth for nth in range(1, len(labels))]]
     if carried is not None:
         most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
         straight.axis(ax, ticks[1])
@@ -304,13 +304,13 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
 
 def _width(labels: list[str], columns: int) -> float:
     """Inches of a figure whose labels do not meet: no more than `WIDEST` where these are short."""
-    longest = max(len(line) for label in labels for line in label.splitlines())
+    longest = max([len(line) for label in labels for line in label.splitlines()])
     return max(min(1.2 + COLUMN * columns, WIDEST), 0.9 + LETTER * (longest + 1) * columns)
 
 
 def _speed_label(name: str, speed: float) -> str:
-    lines = [name, f"{digits(speed, 4)} rad/s", f"{digits(speed * 30 / np.pi, 4)} rpm", f"{digits(2 * np.pi / abs(speed), 4)} s"]
-    return "\n".join(lines)
+    units = {"rad/s": speed, "rpm": speed * 30 / np.pi, "s": 2 * np.pi / abs(speed)}
+    return "\n".join([name, *[f"{number:#.4g}".removesuffix(".") + f" {unit}" for unit, number in units.items()]])
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: Straight, row: int, axis: float) -> None:

@@ -179,7 +179,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         if value.dtype == np.longdouble:
             value = value.astype(np.float64)
-        return plain(value.tolist())
+        return plain(value.tolist()) if value.dtype.kind in "cO" else value.tolist()
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return [value.real, value.imag] if isinstance(value, complex) else value
@@ -201,14 +201,10 @@ def as_csv(sheet: Sheet) -> str:
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(column.name for column in sheet.columns)
-    columns = [[_cell(value) for value in plain(column.values)] for column in sheet.columns]
-    writer.writerows(zip(*columns, strict=True))
+    writer.writerow([column.name for column in sheet.columns])
+    for row in zip(*[plain(column.values) for column in sheet.columns], strict=True):
+        writer.writerow([" ".join(map(repr, value)) if isinstance(value, list) else value for value in row])
     return text.getvalue()
-
-
-def _cell(value: Any) -> Any:
-    return " ".join(map(repr, value)) if isinstance(value, list) else value
 
 
 def as_dataframe(sheet: Sheet) -> Any:

@@ -36,7 +36,7 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
 
     If the system was refused (None), only the keys that do not depend on it are checked.
     """
-    numbers = numbers.of(question)
+    numbers = numbers.of(f"ask.{question}")
     for field in fields_of(type(table)):
         systems, reason = _ONLY.get((question, field.name), (object, ""))
         value = getattr(table, field.name)

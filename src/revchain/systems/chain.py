@@ -453,7 +453,7 @@ class Chain(System):
         """Description of equal links, from the index `first` to before `end`."""
         core = self._compiled
         numbers = (core.weight, core.length, core.centroid, core.radius_of_gyration)
-        heavy, long, centroid, radius = (float(x[first] if x.ndim else x) for x in numbers)
+        heavy, long, centroid, radius = [float(x[first] if x.ndim else x) for x in numbers]
         if heavy == 0:
             what = f"thread, {long:.6g} m"
         elif centroid == long and radius == 0:
