@@ -22,7 +22,7 @@ Closed forms
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
-    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
+    Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
     from_urdf
 C++
     cmake_prefix: the folder of the C++ headers in this package

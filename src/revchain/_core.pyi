@@ -5,7 +5,6 @@ import numpy
 import numpy.typing
 
 _Floats = numpy.typing.NDArray[numpy.float64]
-_Status = numpy.typing.NDArray[numpy.uint8]
 
 METHODS: tuple[str, ...]
 MODELS: tuple[str, ...]

@@ -75,9 +75,7 @@ class Links:
                 self._solve(values, gravity, half, first, to)
             return
         root = np.sqrt(self.gravity if gravity is None else gravity[rows, np.newaxis])
-        speeds = np.sqrt(heights)
-        to["conical_height"][rows], to["angular_speed"][rows] = heights, np.divide(root, speeds, out=speeds)
-        to["status"][rows] = 1
+        to["conical_height"][rows], to["angular_speed"][rows], to["status"][rows] = heights, root / np.sqrt(heights), 1
 
 
 def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 _PLACE = "revchain.sweep"
 _SECONDS = 0.5  # of work in a chunk, or a hundredth of the time so far: this gives hundreds of files, not millions
 _IN_FLIGHT = 3  # chunks for each worker
+CHUNKS = "[0-9]*-[0-9]*.bin"
 PACKAGES = {".csv": ["pyarrow.csv"], ".parquet": ["pyarrow.parquet"], ".nc": ["h5py", "h5netcdf"]}
 
 
@@ -153,23 +154,29 @@ class _Run:
     def read_chunks(self) -> None:
         """Read the finished chunks of an earlier run; those that cannot be read are removed."""
         assert self.folder is not None
-        for path in sorted(self.folder.glob("[0-9]*.npy")):
+        for path in sorted(self.folder.glob(CHUNKS)):
             try:
-                start, stop = map(int, path.stem.split("-"))
-                if not 0 <= start < stop <= self.plan.points:
-                    raise ValueError("there are no such points")
-                with open(path, "rb") as file:
-                    found = {name: np.load(file, allow_pickle=False) for name in self._stored}
-                if not found["status"].all():
-                    raise ValueError("a point has no results")
-                random = self.plan.random(self.plan.values(start, stop))
-                for name, array in (found | random).items():
-                    self.rows[name][start:stop] = array.reshape(self.rows[name][start:stop].shape)
-            except (ValueError, EOFError, OSError) as error:
+                self._read(path, *map(int, path.stem.split("-")))
+            except (ValueError, TypeError, OSError) as error:
                 reason = f"{path} cannot be read, and its points are computed again: {error}"
                 warnings.warn(reason.replace("\n", " "), stacklevel=3)
                 path.unlink()
         self.done = int(np.count_nonzero(self.rows["status"]))
+
+    def _read(self, path: Path, start: int, stop: int) -> None:
+        """Read the numbers of a chunk, which follow one another as in memory."""
+        part = {name: array[start:stop] for name, array in self.rows.items()}
+        size = sum(part[name].nbytes for name in self._stored)
+        if not 0 <= start < stop <= self.plan.points or path.stat().st_size != size:
+            raise ValueError("it has another size")
+        with open(path, "rb") as file:
+            for name in self._stored:
+                file.readinto(part[name].data)
+        if not part["status"].all():
+            part["status"][:] = 0
+            raise ValueError("a point has no status")
+        for name, column in self.plan.random(self.plan.values(start, stop)).items():
+            part[name][:] = column
 
     def compute(self, pool: Executor, workers: int, fixed: int | None, in_place: bool) -> None:
         """Compute all missing chunks, a few at a time, so that few finished ones wait to be stored."""
@@ -208,9 +215,9 @@ class _Run:
         """Store the results of a chunk; return the number of its points."""
         stop = start + len(found["status"])
         if self.folder is not None:
-            with written_aside(self.folder / f"{start:013}-{stop:013}.npy") as [aside], open(aside, "wb") as file:
+            with written_aside(self.folder / f"{start:013}-{stop:013}.bin") as [aside], open(aside, "wb") as file:
                 for name in self._stored:
-                    np.save(file, found[name], allow_pickle=False)
+                    file.write(found[name].data)
         for name, array in found.items():
             if array.base is not self.rows[name]:
                 self.rows[name][start:stop] = array
@@ -279,27 +286,26 @@ def _folder(output: Path, head: dict[str, Any]) -> Iterator[Path]:
     except filelock.Timeout:
         raise refused(errno.EAGAIN, "another run is writing it") from None
     with lock:
+        is_ours = False
         try:
             if not known.exists():
                 with written_aside(known) as [aside]:
                     aside.write_text(json.dumps(head), encoding="utf-8")
-            try:
+            with suppress(ValueError, RecursionError):
                 is_ours = json.loads(known.read_text(encoding="utf-8")) == json.loads(json.dumps(head))
-            except (ValueError, RecursionError):
-                is_ours = False
             if not is_ours:
                 reason = f"{folder} holds points of another study, or of another version; remove it or write elsewhere"
                 raise refused(errno.EEXIST, reason)
             yield folder
         finally:
-            if folder.exists() and not any(folder.glob("[0-9]*.npy")):
+            if known.exists() and is_ours and not any(folder.glob(CHUNKS)):
                 _remove(folder)
 
 
 def _remove(folder: Path) -> None:
     """Remove our files (the chunks before the head) and the folder; other files stay, with a warning."""
     with suppress(OSError):
-        for pattern in ("[0-9]*-[0-9]*.npy", ".[0-9]*.npy", ".study-*.json", "study.json", "lock"):
+        for pattern in (CHUNKS, f".{CHUNKS}", ".study-*.json", "study.json", "lock"):
             for path in folder.glob(pattern):
                 path.unlink()
         if others := sorted(path.name for path in folder.iterdir()):
