@@ -53,8 +53,8 @@ class Links:
         same = np.array_equal(self.factor[1], self.factor[2]) and np.array_equal(self.follows[:, 1], self.follows[:, 2])
         return same and not self.factor[3].any()
 
-    def solve(self, values: Sequence[Floats], gravity: Floats | None, first: int, to: Mapping[str, Floats]) -> None:
-        """Put heights, speeds and status 1 into `to`, a row for each point; the first column is of mode `first`.
+    def solve(self, values: Sequence[Floats], first: int, to: Mapping[str, Floats]) -> None:
+        """Put heights and status 1 into `to`, a row for each point; the first column is of mode `first`.
 
         Points stay unchanged if `conical_heights` refuses them or a varied number is not positive.
         """
@@ -62,9 +62,9 @@ class Links:
         rows = None if usual.all() else np.flatnonzero(usual)
         for start in range(0, len(usual) if rows is None else len(rows), SLICE):
             part = slice(start, min(start + SLICE, len(usual)))
-            self._solve(values, gravity, part if rows is None else rows[part], first, to)
+            self._solve(values, part if rows is None else rows[part], first, to)
 
-    def _solve(self, values: Any, gravity: Any, rows: slice | NDArray[np.int64], first: int, to: Any) -> None:
+    def _solve(self, values: Any, rows: slice | NDArray[np.int64], first: int, to: Any) -> None:
         """Solve some points; if they are refused, each half of them."""
         count = first - 1 + to["conical_height"].shape[1]
         try:
@@ -72,10 +72,9 @@ class Links:
         except ValueError:
             each = np.arange(len(values[0]))[rows]
             for half in np.array_split(each, 2) if len(each) > 1 else ():
-                self._solve(values, gravity, half, first, to)
-            return
-        root = np.sqrt(self.gravity if gravity is None else gravity[rows, np.newaxis])
-        to["conical_height"][rows], to["angular_speed"][rows], to["status"][rows] = heights, root / np.sqrt(heights), 1
+                self._solve(values, half, first, to)
+        else:
+            to["conical_height"][rows], to["status"][rows] = heights, 1
 
 
 def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:

@@ -91,10 +91,6 @@ class Plan:
             found.append(np.repeat(runs, after)[start - first * after :][: stop - start])
         return found
 
-    def random(self, values: list[NDArray[Any]]) -> Rows:
-        """The random numbers out of the numbers of all axes, by name."""
-        return {axis.name: column for axis, column in zip(self.axes, values, strict=True) if axis.values is None}
-
     def scene(self, values: Sequence[Any]) -> dict[str, Any]:
         """The data of the scene with these numbers."""
         data = self.base
@@ -106,14 +102,30 @@ class Plan:
         """The points start <= k < stop, put into `rows` if given; they do not depend on the other points."""
         rows = self.zeros(stop - start) if rows is None else rows
         values = self.values(start, stop)
-        for name, column in self.random(values).items():
-            rows[name][:] = column
         if self.links is not None:
-            gravity = [column for axis, column in zip(self.axes, values, strict=True) if axis.path == ("gravity",)]
-            self.links.solve(values, gravity[0] if gravity else None, self.blocks[0].labels[0], rows)
+            self.links.solve(values, self.blocks[0].labels[0], rows)
         for k in np.flatnonzero(rows["status"] == 0).tolist():
             self._solve(rows, k, [column[k].item() for column in values])
+        self.derive(rows, values)
         return rows
+
+    def derive(self, rows: Rows, values: list[NDArray[Any]]) -> None:
+        """Put the random numbers, and in batches the speeds, into `rows`; they follow from the stored results."""
+        gravity: Any = None if self.links is None else self.links.gravity
+        for axis, column in zip(self.axes, values, strict=True):
+            if axis.values is None:
+                rows[axis.name][:] = column
+            if self.links is not None and axis.path == ("gravity",):
+                gravity = column[:, np.newaxis]
+        if gravity is not None:
+            with np.errstate(invalid="ignore"):  # gravity of refused points
+                np.divide(np.sqrt(gravity), np.sqrt(rows["conical_height"]), out=rows["angular_speed"])
+
+    @property
+    def stored(self) -> list[str]:
+        """Names of the arrays that `derive` does not fill."""
+        derived = () if self.links is None else ("angular_speed",)
+        return [*(block.name for block in self.blocks if block.name not in derived), "status"]
 
     def _solve(self, rows: Rows, k: int, values: list[Any]) -> None:
         """Put the answers of the scene of one point into row k."""

@@ -146,7 +146,6 @@ class _Run:
         self.plan = plan
         self.rows = plan.zeros(plan.points)
         self.folder: Path | None = None
-        self._stored = [*(block.name for block in plan.blocks), "status"]
         self.done = 0
         self._told = told
         self._began = time.perf_counter()
@@ -166,17 +165,16 @@ class _Run:
     def _read(self, path: Path, start: int, stop: int) -> None:
         """Read the numbers of a chunk, which follow one another as in memory."""
         part = {name: array[start:stop] for name, array in self.rows.items()}
-        size = sum(part[name].nbytes for name in self._stored)
+        size = sum(part[name].nbytes for name in self.plan.stored)
         if not 0 <= start < stop <= self.plan.points or path.stat().st_size != size:
             raise ValueError("it has another size")
         with open(path, "rb") as file:
-            for name in self._stored:
+            for name in self.plan.stored:
                 file.readinto(part[name].data)
         if not part["status"].all():
             part["status"][:] = 0
             raise ValueError("a point has no status")
-        for name, column in self.plan.random(self.plan.values(start, stop)).items():
-            part[name][:] = column
+        self.plan.derive(part, self.plan.values(start, stop))
 
     def compute(self, pool: Executor, workers: int, fixed: int | None, in_place: bool) -> None:
         """Compute all missing chunks, a few at a time, so that few finished ones wait to be stored."""
@@ -216,7 +214,7 @@ class _Run:
         stop = start + len(found["status"])
         if self.folder is not None:
             with written_aside(self.folder / f"{start:013}-{stop:013}.bin") as [aside], open(aside, "wb") as file:
-                for name in self._stored:
+                for name in self.plan.stored:
                     file.write(found[name].data)
         for name, array in found.items():
             if array.base is not self.rows[name]:
