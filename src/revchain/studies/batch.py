@@ -108,8 +108,9 @@ def links_of(scene: Scene, axes: Sequence[Axis]) -> Links | None:
         expected = links_at(together)[: len(columns)]
     except ValueError:
         return None
-    close = all(np.allclose(columns[name][0], expected[k], rtol=4e-16 * (1 + len(axes)), atol=0) for k, name in enumerate(columns))
-    return found if close else None
+    rtol = 4e-16 * (1 + len(axes))
+    right = all(np.allclose(column[0], own, rtol, 0) for column, own in zip(columns.values(), expected, strict=True))
+    return found if right else None
 
 
 def _is_answered(scene: Scene) -> bool:

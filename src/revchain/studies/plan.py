@@ -157,7 +157,8 @@ def answers(scene: Scene, find: Sequence[str]) -> tuple[dict[str, Any], bool]:
         proved = modes.status == "success"
     if "shapes" in find:
         shapes: Any = scene.steady_shapes()
-        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete, "half_waves": [s.half_waves for s in shapes]}
+        found |= {"shapes": len(shapes), "shapes_complete": shapes.complete}
+        found["half_waves"] = [s.half_waves for s in shapes]
         for name, field in zip(_SHAPE, ("inclination", "inclination", "offset", "tension"), strict=True):
             found[name] = [getattr(s, field)[-1 if name.startswith("top") else 0] for s in shapes]
         found[f"shape_{_accuracy(scene)}"] = [getattr(s, _accuracy(scene)) for s in shapes]

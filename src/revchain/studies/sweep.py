@@ -263,7 +263,7 @@ def _head(study: Study) -> dict[str, Any]:
 
 @contextmanager
 def _folder(output: Path, head: dict[str, Any]) -> Iterator[Path]:
-    """Yield the locked folder ``OUT.partial`` with the finished chunks of this study; remove it if it has none at the end."""
+    """Yield the locked folder ``OUT.partial`` with the finished chunks of this study; remove it at the end if empty."""
     filelock = require("filelock", "sweep", "revchain.sweep with out")
     folder = output.with_name(output.name + ".partial")
 
