@@ -110,7 +110,7 @@ def quantity_of(path: Path) -> str:
 
 
 def with_value(data: Any, path: Path, value: Any) -> Any:
-    """A copy of `data` with the value at the path, which shares the other tables; a ValueError if there is no such path."""
+    """A copy of `data` with the value at the path, sharing other tables; a ValueError if there is no such path."""
     if not path:
         return value
     step, rest = path[0], path[1:]
