@@ -22,7 +22,7 @@ Closed forms
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
     FunicularPolygon, TransverseModes
 Files
-    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
+    Scene, load_scene, Study, load_study, sweep, SceneError; of multibody engines to_mjcf, from_mjcf, to_urdf,
     from_urdf
 C++
     cmake_prefix: the folder of the C++ headers in this package
@@ -123,7 +123,6 @@ if _TYPE_CHECKING:
     from .results.storage import load as load
     from .scenes.scene import Scene as Scene
     from .scenes.scene import load_scene as load_scene
-    from .studies.result import SweepResult as SweepResult
     from .studies.study import Study as Study
     from .studies.study import load_study as load_study
     from .studies.sweep import sweep as sweep
@@ -160,7 +159,7 @@ _RECEIVED = {  # classes of results that no program makes; `dir` leaves them out
     "Strike": "closed_forms.bell",
 }
 _OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
-_OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
+_OF_FILES |= {"sweep": "studies.sweep"}
 
 
 def __getattr__(name: str) -> _Any:

@@ -5,7 +5,6 @@ import numpy
 import numpy.typing
 
 _Floats = numpy.typing.NDArray[numpy.float64]
-_Status = numpy.typing.NDArray[numpy.uint8]
 
 METHODS: tuple[str, ...]
 MODELS: tuple[str, ...]
@@ -22,47 +21,6 @@ class Progress:
     def cancelled(self) -> bool: ...
     @property
     def fraction(self) -> float: ...
-
-class Points:
-    def __init__(
-        self,
-        points: int,
-        links: int,
-        kind: str,
-        tables: dict[str, _Floats],
-        clamped: list[bool],
-        first: list[int],
-        rigged: bool,
-        standing: list[bool],
-        turning: bool,
-        by_mass: bool,
-    ) -> None: ...
-    def modes(
-        self,
-        columns: int,
-        first: int,
-        count: int | None,
-        rtol: float | None,
-        certify: bool,
-        method: str,
-        progress: Progress,
-    ) -> tuple[_Status, _Floats, _Floats]: ...
-    def response(
-        self, given: _Floats, speeds: bool, gravity: _Floats, progress: Progress
-    ) -> tuple[_Status, list[_Floats]]: ...
-    def rig_modes(
-        self, columns: int, first: int, count: int, gravity: _Floats, progress: Progress
-    ) -> tuple[_Status, list[_Floats], _Whole, _Flags]: ...
-    def steady_shapes(
-        self,
-        most: int,
-        given: _Floats,
-        speeds: bool,
-        direction: int,
-        hanging_only: bool,
-        gravity: _Floats,
-        progress: Progress,
-    ) -> tuple[_Status, _Whole, _Flags, _Whole, list[_Floats]]: ...
 
 class Chain:
     def __init__(

@@ -40,11 +40,6 @@ ARMS = {"lower": rc.Support(stiffness=90.0, weight=0.2, radius=0.1), "upper": rc
 IMPACT = {"front_mass": 1, "rear_mass": 3, "buffer_stiffness": 10, "coupling_stiffness": 1, "speed": 2}
 POLYGON = ([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
 BELL = rc.Chain(weight=[18.0, 500.0], length=[0.65, 0.15], centroid=0.3, radius_of_gyration=0.1)
-SWEPT = {
-    "scene": {"links": [{"mass": 1, "length": 1}] * 2},
-    "vary": {"links[0].mass": {"normal": [1.0, 1.0]}, "gravity": {"values": [1.62, 9.81]}},
-    "samples": 9,
-}
 
 
 @cache
@@ -159,7 +154,6 @@ RESULTS = {  # every kind of result, made when a test asks for it
     "Response of no pin": lambda: rc.response(CHAIN, conical_height=[4.0], pins=[]),
     "Response at one speed": lambda: rc.response(rc.Rig(CHAIN, support=rc.Support(stiffness=5.0)), angular_speed=2.0, pins=0),
     "Swing": lambda: rc.swing(CHAIN, [0.0, 1.0], offset=np.ones(CHAIN.size) / 9),
-    "SweepResult": lambda: rc.sweep(SWEPT),
     "Tuned": lambda: rc.tune(CHAIN, vary="links[0].weight", conical_height=0.99 * float(modes().conical_height[0])),
     "Tuned, of a rig": lambda: rc.tune(rc.Rig(CHAIN), vary="flywheels[1].momentum", angular_speed=1.0),
     "Fitted": lambda: fitted(["length", "links[0].weight"]),
@@ -429,19 +423,15 @@ def test_arrays_that_do_not_go_together(tmp_path, result):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ending", [".npz", ".nc", ".sweep.nc", ".sweep.csv", ".sweep.parquet"])
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
 def test_a_full_disk(python, tmp_path, ending):
     """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""
     program = """
 import errno, os, resource, sys
 import revchain as rc
 path, ending = "result" + sys.argv[1], sys.argv[1]
-if ending.startswith(".sweep"):
-    vary = {"links[0].mass": {"from": 1, "to": 2, "steps": 3000}}
-    result = rc.sweep({"scene": {"links": [{"mass": 1, "length": 1, "repeat": 5}]}, "vary": vary})
-else:
-    result = rc.modes(rc.Chain.uniform_rods(200), count=100)
-    result.shape
+result = rc.modes(rc.Chain.uniform_rods(200), count=100)
+result.shape
 result.save(path)
 size = os.stat(path).st_size
 os.unlink(path)

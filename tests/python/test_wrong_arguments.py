@@ -113,7 +113,6 @@ ONE_OF = {
     "from_mjcf": {"source": rc.to_mjcf(CHAIN)},
     "from_urdf": {"source": rc.to_urdf(CHAIN)},
     "rope.SkippingRope": {"span": 1.0, "length": 1.5},
-    "SweepResult.save": {"path": "found.csv"},
     "Scene.branches": {"max_angular_speed": 5.0},
     "Study.from_dict": {"data": STUDY},
     "study.Study.from_dict": {"data": STUDY},
@@ -149,7 +148,7 @@ def objects():
     found.append(rc.SkippingRope(span=1.0, length=1.5, angular_speed=20.0))
     found.append(rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=2.0, tension=9.0))
     polygon = rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], 1.0)
-    found += [polygon, polygon.transverse_modes(), rc.Scene.from_dict(SCENE), rc.Study.from_dict(STUDY), rc.sweep(STUDY)]
+    found += [polygon, polygon.transverse_modes(), rc.Scene.from_dict(SCENE), rc.Study.from_dict(STUDY)]
     return found
 
 
